@@ -1,0 +1,62 @@
+"""The command ``recollect``: which commands there are, and how a refusal looks.
+
+A command's module is loaded when the command is called, so that opening the kiosk does not pay for training it.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from typing import Never
+
+import click
+
+from kiosk import BadInput, __version__
+
+BAD_INPUT = 2
+"""The exit code for input that cannot be used."""
+
+_COMMANDS = {
+    "open": "kiosk.cli.sitting:open_kiosk",
+    "rehearse": "kiosk.cli.sitting:rehearse",
+    "sittings": "kiosk.cli.records:sittings",
+    "events": "kiosk.cli.records:events",
+    "train": "kiosk.cli.learning:train",
+}
+
+
+class Front(click.Group):
+    """The group of all commands; without a command it opens the kiosk."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """The commands, in the order in which a person meets them."""
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+        """Load one command."""
+        if cmd_name not in _COMMANDS:
+            return None
+        module, name = _COMMANDS[cmd_name].split(":")
+        command: click.Command = getattr(import_module(module), name)
+        return command
+
+
+@click.group(cls=Front, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="recollect")
+@click.pass_context
+def recollect(context: click.Context) -> None:
+    """Recollect: a kiosk for studies in which a robot helps a person play Concentration.
+
+    Without a command it opens the kiosk.
+    """
+    if context.invoked_subcommand is None:
+        context.invoke(recollect.get_command(context, "open"))  # type: ignore[arg-type]  # it is in the table
+
+
+def main() -> Never:
+    """Run the command line; input that cannot be used gets one sentence and exit code 2."""
+    try:
+        recollect()
+    except BadInput as refusal:
+        click.echo(f"recollect: {refusal}", err=True)
+    sys.exit(BAD_INPUT)

@@ -1,0 +1,60 @@
+// The mouth. Law: the mood gives the line of the lips, `open` alone parts them - in every mood.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQuick.Shapes
+
+Shape {
+    id: lips
+
+    required property real open     // 0 closed .. 1 wide open
+    required property real smile    // -1 corners down .. 1 corners up
+    required property real span     // width of the closed mouth
+    required property real skew     // px the right corner is higher than the left one
+    required property real wave     // px of waviness of the closed line
+
+    // The upper lip gives way less than the lower one: a jaw only drops.
+    readonly property real w: span / 2 * (1 - 0.16 * open)
+    readonly property real yl: -7 * smile + skew / 2
+    readonly property real yr: -7 * smile - skew / 2
+    readonly property real bow: 15 * smile * (1 - 0.5 * open) - 9 * open
+    readonly property real drop: 15 * smile + (66 - 8 * smile) * open
+    readonly property real still: wave * (1 - 0.6 * open)
+    readonly property var low: [[w, yr], [w * (0.4 + 0.55 * open), drop + still], [-w * (0.4 + 0.55 * open), drop - still], [-w, yl]]
+
+    // The point at t of the lower lip, for what lies on it.
+    function at(t: real): list<real> {
+        const s = 1 - t, k = [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t]
+        return [0, 1].map(i => k.reduce((sum, f, n) => sum + f * low[n][i], 0))
+    }
+    function tongue(): string {
+        const r = at(0.2), l = at(0.8), h = 20 * open, b = (r[1] + l[1]) / 2
+        const f = (at(0.5)[1] - b) * 4 / 3
+        return `M ${l[0]} ${l[1]} C ${l[0] * 0.6} ${b - h} ${r[0] * 0.6} ${b - h} ${r[0]} ${r[1]}`
+             + ` C ${r[0] * 0.7} ${b + f} ${l[0] * 0.7} ${b + f} ${l[0]} ${l[1]} Z`
+    }
+
+    width: 160
+    height: 110
+    antialiasing: true
+
+    ShapePath {
+        strokeWidth: -1
+        fillColor: "#4B2430"
+        PathSvg { path: lips.outline }
+    }
+    ShapePath {
+        strokeWidth: -1
+        fillColor: lips.open > 0.25 ? "#E4725B" : "transparent"
+        PathSvg { path: lips.tongue() }
+    }
+    ShapePath {
+        strokeWidth: 6
+        strokeColor: "#22313F"
+        fillColor: "transparent"
+        capStyle: ShapePath.RoundCap
+        joinStyle: ShapePath.RoundJoin
+        PathSvg { path: lips.outline }
+    }
+    readonly property string outline: `M ${-w} ${yl} C ${-w * 0.4} ${bow - still} ${w * 0.4} ${bow + still} ${w} ${yr}`
+        + ` C ${low[1][0]} ${low[1][1]} ${low[2][0]} ${low[2][1]} ${-w} ${yl} Z`
+}
