@@ -19,31 +19,31 @@ Item {
     //   smile span skew wave mx: mouth;  cheek: 0 flat .. 1 lifted
     readonly property var poses: ({
         idle:      { tilt: 2, dx: 0, dy: 0, zoom: 1, sh: 0, earL: 62, earR: 62, bLi: 0, bLo: 0, bRi: 2, bRo: 2,
-                     upL: 0.86, upR: 0.86, low: 0.95, slant: 3, lx: 0, ly: 0,
+                     upL: 0.93, upR: 0.93, low: 0.95, slant: 3, lx: 0, ly: 0,
                      smile: 0.65, span: 62, skew: 0, wave: 0, mx: 0, cheek: 0.3 },
-        happy:     { tilt: -5, dx: 0, dy: -8, zoom: 1.02, sh: -6, earL: 34, earR: 34, bLi: 13, bLo: 8, bRi: 13, bRo: 8,
-                     upL: 0.82, upR: 0.82, low: 0.14, slant: 0, lx: 0, ly: -0.25,
+        happy:     { tilt: -5, dx: 6, dy: -8, zoom: 1.02, sh: -6, earL: 34, earR: 34, bLi: 13, bLo: 8, bRi: 13, bRo: 8,
+                     upL: 0.9, upR: 0.9, low: -0.16, slant: 0, lx: 0, ly: -0.4,
                      smile: 1.35, span: 92, skew: 0, wave: 0, mx: 0, cheek: 1 },
-        confused:  { tilt: 12, dx: 6, dy: 0, zoom: 1, sh: -3, earL: 12, earR: 112, bLi: 15, bLo: 17, bRi: -9, bRo: -1,
+        confused:  { tilt: 12, dx: -21, dy: 0, zoom: 1, sh: -3, earL: 12, earR: 118, bLi: 15, bLo: 17, bRi: -9, bRo: -1,
                      upL: 1, upR: 0.62, low: 0.9, slant: 0, lx: 0, ly: 0,
                      smile: -0.15, span: 66, skew: 5, wave: 20, mx: 3, cheek: 0 },
-        sad:       { tilt: -6, dx: -4, dy: 17, zoom: 0.98, sh: 9, earL: 146, earR: 146, bLi: 14, bLo: -9, bRi: 14, bRo: -9,
+        sad:       { tilt: -6, dx: 4, dy: 17, zoom: 0.98, sh: 9, earL: 140, earR: 140, bLi: 14, bLo: -9, bRi: 14, bRo: -9,
                      upL: 0.68, upR: 0.68, low: 0.95, slant: 13, lx: 0, ly: 0.25,
                      smile: -0.85, span: 54, skew: 0, wave: 0, mx: 0, cheek: 0 },
-        thinking:  { tilt: -8, dx: 5, dy: -2, zoom: 1, sh: 0, earL: 78, earR: 30, bLi: -3, bLo: 2, bRi: 8, bRo: 12,
+        thinking:  { tilt: -8, dx: 18, dy: -2, zoom: 1, sh: 0, earL: 57, earR: 24, bLi: -7, bLo: 1, bRi: 8, bRo: 13,
                      upL: 0.8, upR: 0.95, low: 0.8, slant: 0, lx: 0.75, ly: -0.8,
                      smile: 0.05, span: 44, skew: 9, wave: 3, mx: 20, cheek: 0.1 },
-        listening: { tilt: 8, dx: 8, dy: 6, zoom: 1.05, sh: 2, earL: 4, earR: 6, bLi: 9, bLo: 8, bRi: 9, bRo: 8,
+        listening: { tilt: 8, dx: -8, dy: 6, zoom: 1.05, sh: 2, earL: 4, earR: 6, bLi: 9, bLo: 8, bRi: 9, bRo: 8,
                      upL: 0.98, upR: 0.98, low: 1, slant: 0, lx: 0, ly: 0,
                      smile: 0.3, span: 42, skew: 0, wave: 0, mx: 0, cheek: 0.3 }
     })
-    property var origin: pick()
-    property var target: pick()
+    readonly property string grille: "M 184 396 H 216 M 178 411 H 222 M 184 426 H 216"
+    property var origin: poses.idle
+    property var target: poses.idle
     property real lead: 1           // progress of head and face
     property real lag: 1            // progress of ears and shoulders, which follow the head
     readonly property var pose: blend(lead)
     readonly property var trail: blend(lag)
-
     property real shut: blinking ? 1 : 0
     property real eyeX: gazeX
     property real eyeY: gazeY
@@ -60,14 +60,14 @@ Item {
         return row
     }
 
+    Component.onCompleted: origin = target = pick()
     // A new mood starts from where the old one had got to, so an interrupted move does not jump.
     onMoodChanged: {
         move.stop()
         origin = Object.assign({}, pose, { earL: trail.earL, earR: trail.earR, sh: trail.sh })
         lead = lag = motion > 0 ? 0 : 1
         target = pick()
-        if (motion > 0)
-            move.start()
+        if (motion > 0) move.start()
     }
 
     ParallelAnimation {
@@ -81,86 +81,101 @@ Item {
     Behavior on turnX { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion; easing.type: Easing.InOutQuad } }
     Behavior on turnY { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion; easing.type: Easing.InOutQuad } }
 
-    // An ear: a paddle with a microphone grille. It hangs on a hinge, so it can stand and droop.
+    // An ear: a folded leaf on a hinge. Ears carry the mood into the silhouette.
     component Ear: Shape {
         id: ear
-        width: 80
-        height: 120
+        required property int side      // the light half faces inwards
+        width: 80; height: 110
         antialiasing: true
         transformOrigin: Item.Bottom
         ShapePath {
-            strokeWidth: -1
+            strokeWidth: 8
+            strokeColor: "#1F5F6B"
             fillColor: "#1F5F6B"
-            PathSvg { path: "M 29 120 C 30 96 2 84 4 46 C 6 18 22 6 40 6 C 58 6 74 18 76 46 C 78 84 50 96 51 120 Z" }
+            joinStyle: ShapePath.RoundJoin
+            PathSvg { path: "M 40 110 C 0 96 -2 44 40 6 C 82 44 80 96 40 110 Z" }
         }
         ShapePath {
-            strokeWidth: 6
-            strokeColor: "#8EC3D9"
-            fillColor: "transparent"
-            capStyle: ShapePath.RoundCap
-            PathSvg { path: "M 32 28 H 48 M 24 42 H 56 M 24 56 H 56 M 32 70 H 48" }
+            strokeWidth: -1
+            fillColor: "#8EC3D9"
+            PathSvg { path: `M 40 110 C ${40 - ear.side * 34} 92 ${40 - ear.side * 36} 46 40 12 C ${40 - ear.side * 6} 46 ${40 - ear.side * 6} 80 40 110 Z` }
+        }
+        ShapePath {
+            strokeWidth: 5
+            strokeColor: "#1F5F6B"
+            fillColor: "#F2A33A"
+            PathAngleArc { centerX: 40; centerY: 110; radiusX: 13; radiusY: 13; sweepAngle: 360 }
         }
     }
-    component Hinge: ShapePath {
-        required property real at
-        id: hinge
-        strokeWidth: 5
+
+    component Groove: ShapePath {
         strokeColor: "#1F5F6B"
-        fillColor: "#F2A33A"
-        PathAngleArc { centerX: hinge.at; centerY: 124; radiusX: 13; radiusY: 13; sweepAngle: 360 }
+        fillColor: "transparent"
+        capStyle: ShapePath.RoundCap
     }
 
-    Item {
-        id: stage
-        width: 400
-        height: 440
+    Item { // the 400 x 440 drawing, scaled as a whole
+        width: 400; height: 440
         anchors.centerIn: parent
         scale: Math.min(avatar.width / 400, avatar.height / 440)
 
-        Shape { // shoulders
-            y: avatar.trail.sh
-            width: 400
-            height: 440
-            antialiasing: true
-            ShapePath {
-                strokeWidth: -1
-                fillColor: "#C9B58B"
-                PathRectangle { x: 166; y: 310; width: 68; height: 70; radius: 16 }
+        Item { // the bust ends at the lower edge of the item, however far the shoulders move
+            width: 400; height: 440
+            clip: true
+
+            Shape {
+                y: avatar.trail.sh
+                antialiasing: true
+                ShapePath { // neck
+                    strokeWidth: -1
+                    fillColor: "#C9B58B"
+                    PathRectangle { x: 166; y: 310; width: 68; height: 70; radius: 16 }
+                }
+                ShapePath { // its bellows
+                    strokeWidth: 4
+                    strokeColor: "#AE9A70"
+                    capStyle: ShapePath.FlatCap
+                    fillColor: "transparent"
+                    PathSvg { path: "M 166 344 C 186 352 214 352 234 344" }
+                }
+                ShapePath {
+                    strokeWidth: -1
+                    fillColor: "#2E7784"
+                    PathSvg { path: "M 76 462 C 72 390 104 362 152 356 C 180 372 220 372 248 356 C 296 362 328 390 324 462 Z" }
+                }
+                Groove { // arms
+                    strokeWidth: 4
+                    PathSvg { path: "M 122 452 C 122 426 118 414 110 404 M 278 452 C 278 426 282 414 290 404" }
+                }
+                Groove { // collar
+                    strokeWidth: 12
+                    strokeColor: "#F2A33A"
+                    PathSvg { path: "M 146 356 C 180 380 220 380 254 356" }
+                }
             }
-            ShapePath {
-                strokeWidth: -1
-                fillColor: "#2E7784"
-                PathSvg { path: "M 76 462 C 72 390 104 362 152 356 C 180 372 220 372 248 356 C 296 362 328 390 324 462 Z" }
-            }
-            ShapePath { // collar
-                strokeWidth: 12
-                strokeColor: "#F2A33A"
-                fillColor: "transparent"
-                capStyle: ShapePath.RoundCap
-                PathSvg { path: "M 146 356 C 180 380 220 380 254 356" }
-            }
-            ShapePath { // the voice comes from here: a small loudspeaker
-                strokeWidth: 5
-                strokeColor: "#1F5F6B"
-                fillColor: "transparent"
-                capStyle: ShapePath.RoundCap
-                PathSvg { path: "M 184 400 H 216 M 178 414 H 222 M 184 428 H 216" }
+            Shape { // the loudspeaker glows with the voice, so one sees who speaks without looking at the mouth
+                y: avatar.trail.sh
+                antialiasing: true
+                Groove {
+                    strokeWidth: 9
+                    PathSvg { path: avatar.grille }
+                }
+                Groove {
+                    strokeWidth: 4
+                    strokeColor: Qt.rgba(0.75, 0.91, 0.96, avatar.mouth)
+                    PathSvg { path: avatar.grille }
+                }
             }
         }
 
         Item {
-            id: head
-            x: avatar.pose.dx
-            y: avatar.pose.dy
-            width: 400
-            height: 340
+            x: avatar.pose.dx; y: avatar.pose.dy
+            width: 400; height: 340
             transformOrigin: Item.Bottom
             rotation: avatar.pose.tilt
             scale: 0.9 * avatar.pose.zoom
 
             Shape {
-                width: 400
-                height: 340
                 antialiasing: true
                 ShapePath { // hood
                     strokeWidth: -1
@@ -183,26 +198,27 @@ Item {
                 }
             }
 
-            Ear { x: 50; y: 4; rotation: -avatar.trail.earL }
-            Ear { x: 270; y: 4; rotation: avatar.trail.earR }
-            Shape {
-                width: 400
-                height: 340
-                antialiasing: true
-                Hinge { at: 90 }
-                Hinge { at: 310 }
-            }
+            Ear { side: -1; x: 44; y: 22; rotation: -avatar.trail.earL }
+            Ear { side: 1; x: 276; y: 22; rotation: avatar.trail.earR }
 
             Item {
-                id: face
-                x: avatar.turnX * 6
-                y: avatar.turnY * 5
-                width: 400
-                height: 340
+                x: avatar.turnX * 6; y: avatar.turnY * 5
 
-                Shape { // cheeks and brows
-                    width: 400
-                    height: 340
+                Repeater {
+                    model: [-1, 1]
+                    AvatarEye {
+                        required property int modelData
+                        x: 150 + modelData * 58; y: 140
+                        side: modelData
+                        upper: modelData < 0 ? avatar.pose.upL : avatar.pose.upR
+                        lower: avatar.pose.low
+                        slant: avatar.pose.slant
+                        gazeX: avatar.eyeX + avatar.pose.lx
+                        gazeY: avatar.eyeY + avatar.pose.ly
+                        shut: avatar.shut
+                    }
+                }
+                Shape { // cheeks and brows lie over the lids
                     antialiasing: true
                     ShapePath {
                         strokeWidth: -1
@@ -210,38 +226,15 @@ Item {
                         PathAngleArc { centerX: 112; centerY: 262 - 10 * avatar.pose.cheek; radiusX: 21 + 4 * avatar.pose.cheek; radiusY: 14; sweepAngle: 360 }
                         PathAngleArc { centerX: 288; centerY: 262 - 10 * avatar.pose.cheek; radiusX: 21 + 4 * avatar.pose.cheek; radiusY: 14; sweepAngle: 360 }
                     }
-                    ShapePath {
+                    Groove {
                         strokeWidth: 9
                         strokeColor: "#22313F"
-                        fillColor: "transparent"
-                        capStyle: ShapePath.RoundCap
                         PathSvg { path: avatar.brow(112, 168, avatar.pose.bLo, avatar.pose.bLi) }
                         PathSvg { path: avatar.brow(232, 288, avatar.pose.bRi, avatar.pose.bRo) }
                     }
                 }
-                AvatarEye {
-                    x: 92; y: 140
-                    side: -1
-                    upper: avatar.pose.upL
-                    lower: avatar.pose.low
-                    slant: avatar.pose.slant
-                    gazeX: Math.max(-1, Math.min(1, avatar.eyeX + avatar.pose.lx))
-                    gazeY: Math.max(-1, Math.min(1, avatar.eyeY + avatar.pose.ly))
-                    shut: avatar.shut
-                }
-                AvatarEye {
-                    x: 208; y: 140
-                    side: 1
-                    upper: avatar.pose.upR
-                    lower: avatar.pose.low
-                    slant: avatar.pose.slant
-                    gazeX: Math.max(-1, Math.min(1, avatar.eyeX + avatar.pose.lx))
-                    gazeY: Math.max(-1, Math.min(1, avatar.eyeY + avatar.pose.ly))
-                    shut: avatar.shut
-                }
                 AvatarMouth {
-                    x: 200 + avatar.pose.mx
-                    y: 270
+                    x: 200 + avatar.pose.mx; y: 270
                     open: avatar.mouth
                     smile: avatar.pose.smile
                     span: avatar.pose.span

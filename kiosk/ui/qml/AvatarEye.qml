@@ -18,8 +18,9 @@ Shape {
     readonly property real cy: 56
     readonly property real rx: 37
     readonly property real ry: 44
-    readonly property real px: cx + gazeX * 13
-    readonly property real py: cy + 2 + gazeY * 14
+    readonly property real reach: 1 / Math.max(1, Math.hypot(gazeX, gazeY)) // the iris stays behind the lids
+    readonly property real px: cx + gazeX * reach * 13
+    readonly property real py: cy + 2 + gazeY * reach * 14
     // A blink brings the upper lid down onto the lower one, which itself only comes up a little.
     readonly property real low: lower * 40 + shut * (Math.min(lower * 40, 14) - lower * 40)
     readonly property real high: upper * 48 * (1 - shut) - low * shut
@@ -68,8 +69,8 @@ Shape {
         fillRule: ShapePath.OddEvenFill
         fillGradient: LinearGradient {
             x1: 0; x2: 0; y1: eye.cy - eye.ry; y2: eye.cy + eye.ry
-            GradientStop { position: 0; color: "#E3CDA2" }
-            GradientStop { position: 0.5; color: "#EEDDBB" }
+            GradientStop { position: 0; color: "#EAD9B5" }
+            GradientStop { position: 0.5; color: "#F0E2C4" }
             GradientStop { position: 0.6; color: "#F7EDD8" }
         }
         PathAngleArc { centerX: eye.cx; centerY: eye.cy; radiusX: eye.rx + 5; radiusY: eye.ry + 5; sweepAngle: 360 }
@@ -82,7 +83,7 @@ Shape {
         PathSvg { path: `M ${eye.cx + eye.rx} ${eye.cy + 4} ${eye.curve(eye.low, 0, -1)}` }
     }
     ShapePath {
-        strokeWidth: 6
+        strokeWidth: 5.5
         strokeColor: "#22313F"
         fillColor: "transparent"
         capStyle: ShapePath.RoundCap

@@ -12,20 +12,24 @@ Shape {
     required property real skew     // px the right corner is higher than the left one
     required property real wave     // px of waviness of the closed line
 
-    // The upper lip gives way less than the lower one: a jaw only drops.
-    readonly property real w: span / 2 * (1 - 0.16 * open)
-    readonly property real yl: -7 * smile + skew / 2
-    readonly property real yr: -7 * smile - skew / 2
-    readonly property real bow: 15 * smile * (1 - 0.5 * open) - 9 * open
-    readonly property real drop: 15 * smile + (66 - 8 * smile) * open
+    // The origin is the middle of the closed lips. The upper lip gives way less than the lower one: a jaw only drops.
+    readonly property real w: (span + (50 - span) * 0.5 * open) / 2
+    readonly property real yl: -7 * smile + skew / 2 + 6 * open
+    readonly property real yr: -7 * smile - skew / 2 + 6 * open
+    readonly property real bow: 15 * smile * (1 - 0.35 * open) - 12 * open
+    readonly property real drop: 15 * smile + (60 - 6 * smile) * open
     readonly property real still: wave * (1 - 0.6 * open)
     readonly property var low: [[w, yr], [w * (0.4 + 0.55 * open), drop + still], [-w * (0.4 + 0.55 * open), drop - still], [-w, yl]]
+
+    readonly property string outline: `M ${-w} ${yl} C ${-w * 0.4} ${bow - still} ${w * 0.4} ${bow + still} ${w} ${yr}`
+        + ` C ${low[1][0]} ${low[1][1]} ${low[2][0]} ${low[2][1]} ${-w} ${yl} Z`
 
     // The point at t of the lower lip, for what lies on it.
     function at(t: real): list<real> {
         const s = 1 - t, k = [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t]
         return [0, 1].map(i => k.reduce((sum, f, n) => sum + f * low[n][i], 0))
     }
+    // The tongue rests on the lower lip; it needs no mask because its lower edge is the lip itself.
     function tongue(): string {
         const r = at(0.2), l = at(0.8), h = 20 * open, b = (r[1] + l[1]) / 2
         const f = (at(0.5)[1] - b) * 4 / 3
@@ -33,8 +37,6 @@ Shape {
              + ` C ${r[0] * 0.7} ${b + f} ${l[0] * 0.7} ${b + f} ${l[0]} ${l[1]} Z`
     }
 
-    width: 160
-    height: 110
     antialiasing: true
 
     ShapePath {
@@ -55,6 +57,4 @@ Shape {
         joinStyle: ShapePath.RoundJoin
         PathSvg { path: lips.outline }
     }
-    readonly property string outline: `M ${-w} ${yl} C ${-w * 0.4} ${bow - still} ${w * 0.4} ${bow + still} ${w} ${yr}`
-        + ` C ${low[1][0]} ${low[1][1]} ${low[2][0]} ${low[2][1]} ${-w} ${yl} Z`
 }
