@@ -1,1 +1,1 @@
-"""The front door: the command line and the wiring, nothing else. Only here may rooms that never meet be put together."""
+"""The front door: the command line and the wiring, nothing else. Only here do rooms that never meet come together."""

@@ -1,0 +1,1 @@
+"""SQLite, append only: what happened is written once and never changed. No other room knows of a database."""

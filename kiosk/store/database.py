@@ -1,0 +1,103 @@
+"""Opening the one database file: created, migrated, or refused in words and left as it is."""
+
+from __future__ import annotations
+
+import sqlite3
+from datetime import UTC, datetime
+from pathlib import Path
+
+from kiosk import BadInput
+from kiosk.store.migrations import MIGRATIONS, SCHEMA
+
+FILE = "recollect.db"
+APPLICATION_ID = int.from_bytes(b"Rclt")
+"""Stands in the file's header, so that a database of another program is never touched."""
+
+_MAGIC = b"SQLite format 3\0"
+_USER_VERSION_AT, _APPLICATION_ID_AT, _HEADER = 60, 68, 100
+"""Where the SQLite file format keeps these numbers (sqlite.org/fileformat2.html, 1.3)."""
+
+
+def open_for_writing(folder: Path) -> sqlite3.Connection:
+    """Open the database of a data folder, made or migrated as needed.
+
+    Every transaction is on the disk when it is committed (WAL, synchronous FULL). Raises BadInput, and leaves the
+    file as it is, if it is foreign, newer or unreadable.
+    """
+    path = folder / FILE
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _refuse_foreign_or_newer(path)
+        connection = sqlite3.connect(path, isolation_level=None)
+        _migrate(connection)
+        connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("PRAGMA synchronous = FULL")
+        connection.execute("PRAGMA foreign_keys = ON")
+    except OSError as error:
+        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+    except sqlite3.Error as error:
+        raise BadInput(f"the database {path} cannot be used: {error}") from error
+    return connection
+
+
+def open_for_reading(folder: Path) -> sqlite3.Connection:
+    """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done."""
+    path = folder / FILE
+    if not path.is_file():
+        raise BadInput(f"there is no database in {folder}")
+    try:
+        _refuse_foreign_or_newer(path)
+        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
+        connection.execute("SELECT 1 FROM migration")
+    except OSError as error:
+        raise BadInput(f"the database {path} cannot be read: {error.strerror}") from error
+    except sqlite3.Error as error:
+        raise BadInput(f"the database {path} cannot be read: {error}") from error
+    return connection
+
+
+def _refuse_foreign_or_newer(path: Path) -> None:
+    """Look at the header's bytes alone: even opening a database can change it, or the files beside it."""
+    if not path.exists() or path.stat().st_size == 0:
+        return
+    with path.open("rb") as file:
+        header = file.read(_HEADER)
+    if not header.startswith(_MAGIC) or _number(header, _APPLICATION_ID_AT) != APPLICATION_ID:
+        raise BadInput(f"{path} is not a Recollect database; it was left as it is")
+    _refuse_newer(_number(header, _USER_VERSION_AT), path)
+
+
+def _refuse_newer(schema: int, path: Path) -> None:
+    if schema > SCHEMA:
+        raise BadInput(
+            f"{path} was written by a newer Recollect (schema {schema}, this one knows {SCHEMA}); it was left as it is"
+        )
+
+
+def _number(header: bytes, at: int) -> int:
+    return int.from_bytes(header[at : at + 4])
+
+
+def _migrate(connection: sqlite3.Connection) -> None:
+    """Apply the steps that are missing, all or none of them."""
+    schema: int = connection.execute("PRAGMA user_version").fetchone()[0]
+    # The header was looked at already, but a newer number may still have been in the write-ahead log.
+    _refuse_newer(schema, Path(connection.execute("PRAGMA database_list").fetchone()[2]))
+    if schema == SCHEMA:
+        return
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        for migration in MIGRATIONS[schema:]:
+            for statement in migration.statements:
+                connection.execute(statement)
+            connection.execute(
+                "INSERT INTO migration VALUES (?, ?, ?, ?)",
+                (migration.number, migration.name, migration.sha256, datetime.now(UTC).isoformat()),
+            )
+        connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+        connection.execute(f"PRAGMA user_version = {SCHEMA}")
+        connection.execute("COMMIT")
+    except BaseException:
+        connection.execute("ROLLBACK")
+        raise
+    connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")

@@ -1,0 +1,121 @@
+"""Looking at what is stored, without any right to change it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import sqlite_utils
+from filelock import FileLock, Timeout
+
+from kiosk import BadInput
+from kiosk.store.database import open_for_reading
+from kiosk.store.recorder import LOCK
+from kiosk.study.events import Event, Status, from_record
+from kiosk.study.measures import Measures, measure
+
+_MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")
+_SUMMARISED = (*_MEASURED, "SittingEnded")
+
+
+@dataclass(frozen=True)
+class Sitting:
+    """A stored sitting at a glance; ``status`` is None while it is under way."""
+
+    id: int
+    started_at: str
+    condition: str
+    body: str
+    status: Status | None
+    measures: Measures
+
+    def to_json(self) -> dict[str, Any]:
+        """The sitting as the command line prints it."""
+        return {
+            "sitting": self.id,
+            "status": self.status.value if self.status else "running",
+            "condition": self.condition,
+            "body": self.body,
+            "flips": self.measures.flips,
+            "moves": self.measures.moves,
+            "pairs": self.measures.pairs,
+            "hints": self.measures.hints,
+        }
+
+
+class Archive:
+    """The sittings of one data folder."""
+
+    def __init__(self, database: sqlite_utils.Database, *, in_use: bool) -> None:
+        """``in_use``: somebody is writing, so that a sitting without an end may still get one."""
+        self._database = database
+        self._unended = None if in_use else Status.INTERRUPTED
+
+    def sittings(self) -> list[Sitting]:
+        """Every sitting, in the order in which they began."""
+        return [self._sitting(row) for row in self._database["sitting"].rows_where(order_by="id")]
+
+    def sitting(self, number: int) -> Sitting:
+        """One sitting; raises BadInput if there is none of this number."""
+        return self._sitting(self._row(number))
+
+    def records(self, number: int) -> list[dict[str, Any]]:
+        """Every event of a sitting as JSON values: seq, at_ms, type, origin, and its own fields."""
+        self._row(number)
+        rows = self._database["event"].rows_where("sitting = ?", [number], order_by="seq")
+        return [{key: row[key] for key in ("seq", "at_ms", "type", "origin")} | json.loads(row["body"]) for row in rows]
+
+    def events(self, number: int) -> list[Event]:
+        """Every event of a sitting."""
+        return [_event(record) for record in self.records(number)]
+
+    def source(self, sha256: str) -> str:
+        """What is kept under a hash; raises BadInput if nothing is."""
+        rows = self._database["source"].rows_where("sha256 = ?", [sha256])
+        for row in rows:
+            return str(row["content"])
+        raise BadInput(f"nothing is kept under the hash {sha256}")
+
+    def _row(self, number: int) -> dict[str, Any]:
+        for row in self._database["sitting"].rows_where("id = ?", [number]):
+            return row
+        raise BadInput(f"there is no sitting {number}")
+
+    def _sitting(self, row: dict[str, Any]) -> Sitting:
+        wanted = ", ".join("?" * len(_SUMMARISED))
+        rows = self._database["event"].rows_where(
+            f"sitting = ? AND type IN ({wanted})", [row["id"], *_SUMMARISED], order_by="seq"
+        )
+        events = [_event({"at_ms": r["at_ms"], "type": r["type"]} | json.loads(r["body"])) for r in rows]
+        return Sitting(
+            row["id"], row["started_at"], row["condition"], row["body"], self._status(events), measure(events)
+        )
+
+    def _status(self, events: list[Event]) -> Status | None:
+        return next((event.status for event in events if hasattr(event, "status")), self._unended)
+
+
+@contextmanager
+def archive(folder: Path) -> Iterator[Archive]:
+    """The archive of a data folder; raises BadInput if there is none that can be read."""
+    connection = open_for_reading(folder)
+    try:
+        yield Archive(sqlite_utils.Database(connection), in_use=_in_use(folder))
+    finally:
+        connection.close()
+
+
+def _in_use(folder: Path) -> bool:
+    try:
+        with FileLock(folder / LOCK, blocking=False):
+            return False
+    except Timeout:
+        return True
+
+
+def _event(record: dict[str, Any]) -> Event:
+    return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})

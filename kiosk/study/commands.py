@@ -1,0 +1,236 @@
+"""What is to be done, in the imperative: the only way the study speaks to the world.
+
+Record commands come first in every list; nothing after them happens before they are on the disk.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from typing import Any
+
+from cattrs.strategies import configure_tagged_union, include_subclasses
+
+from kiosk.game import Position
+from kiosk.study.events import SessionEvent, Status, Timer, json_converter
+
+
+class Mood(Enum):
+    """What the assistant's face shows."""
+
+    IDLE = "idle"
+    HAPPY = "happy"
+    CONFUSED = "confused"
+    SAD = "sad"
+
+
+class Wait(Enum):
+    """Why cards cannot be tapped just now."""
+
+    SPEAKING = "speaking"
+    TURNING_BACK = "turning_back"
+
+
+@dataclass(frozen=True)
+class Command:
+    """Something to be done."""
+
+
+@dataclass(frozen=True)
+class Record(Command):
+    """Write down what the session concluded, with the event that it came from."""
+
+    event: SessionEvent
+
+
+@dataclass(frozen=True)
+class ShowAttract(Command):
+    """Show what draws people in."""
+
+
+@dataclass(frozen=True)
+class ShowIntroduction(Command):
+    """Show what the game is about."""
+
+
+@dataclass(frozen=True)
+class ShowBoard(Command):
+    """Show a board of closed cards; which card lies where is not told."""
+
+    rows: int
+    columns: int
+    pairs: int
+
+
+@dataclass(frozen=True)
+class TurnUp(Command):
+    """Show the picture of one card."""
+
+    position: Position
+    card: str
+
+
+@dataclass(frozen=True)
+class TurnBack(Command):
+    """Close these cards again."""
+
+    positions: tuple[Position, ...]
+
+
+@dataclass(frozen=True)
+class ShowPair(Command):
+    """Show that these two cards are found; they stay open."""
+
+    positions: tuple[Position, ...]
+
+
+@dataclass(frozen=True)
+class ShowProgress(Command):
+    """Show how far the game is."""
+
+    pairs_found: int
+    moves: int
+
+
+@dataclass(frozen=True)
+class HoldBoard(Command):
+    """Show that cards cannot be tapped just now, and why."""
+
+    wait: Wait
+
+
+@dataclass(frozen=True)
+class OpenBoard(Command):
+    """Show that cards can be tapped."""
+
+
+@dataclass(frozen=True)
+class ShowMark(Command):
+    """Mark a card, a row (no column) or a column (no row), counted from 0."""
+
+    row: int | None
+    column: int | None
+
+
+@dataclass(frozen=True)
+class ClearMark(Command):
+    """Take the mark away."""
+
+
+@dataclass(frozen=True)
+class Speak(Command):
+    """Show a sentence in the assistant's bubble and say it; SpeechStarted, then -Finished or -Failed come back."""
+
+    utterance: int
+    sentence: str
+
+
+@dataclass(frozen=True)
+class StopSpeaking(Command):
+    """Say no more of the sentence; it stays in the bubble."""
+
+
+@dataclass(frozen=True)
+class ClearBubble(Command):
+    """Take the sentence away."""
+
+
+@dataclass(frozen=True)
+class Express(Command):
+    """Show a mood on the assistant's face."""
+
+    mood: Mood
+
+
+@dataclass(frozen=True)
+class ShowResult(Command):
+    """Show what the visitor achieved."""
+
+    pairs: int
+    moves: int
+    time_ms: int
+
+
+@dataclass(frozen=True)
+class ShowQuestion(Command):
+    """Ask one item; ``number`` counts from 1, answers go from 1 to ``points``."""
+
+    questionnaire: str
+    item: str
+    points: int
+    number: int
+    of: int
+
+
+@dataclass(frozen=True)
+class ShowAnswer(Command):
+    """Show which answer is chosen."""
+
+    value: int
+
+
+@dataclass(frozen=True)
+class AskStillThere(Command):
+    """Ask whether anybody is there, over whatever is shown."""
+
+
+@dataclass(frozen=True)
+class HideStillThere(Command):
+    """Take that question away."""
+
+
+@dataclass(frozen=True)
+class StartTimer(Command):
+    """Send TimerEnded in so many milliseconds; a timer that runs starts anew."""
+
+    timer: Timer
+    after_ms: int
+
+
+@dataclass(frozen=True)
+class StopTimer(Command):
+    """Do not send this TimerEnded after all."""
+
+    timer: Timer
+
+
+@dataclass(frozen=True)
+class EndSitting(Command):
+    """Close the sitting and get ready for the next visitor."""
+
+    status: Status
+
+
+class Script:
+    """The commands that one event leads to, put together in their order: what is written, then what is done."""
+
+    def __init__(self, at_ms: int) -> None:
+        """Everything in it happens at the time of the event it follows from."""
+        self.at_ms = at_ms
+        self.notes: list[SessionEvent] = []
+        self.deeds: list[Command] = []
+
+    def note(self, event: SessionEvent) -> None:
+        """Write this down."""
+        self.notes.append(event)
+
+    def do(self, *commands: Command) -> None:
+        """Then do this."""
+        self.deeds.extend(commands)
+
+    @property
+    def commands(self) -> tuple[Command, ...]:
+        """All of it, the records first."""
+        return (*map(Record, self.notes), *self.deeds)
+
+
+_CONVERTER = json_converter()
+for _family in (SessionEvent, Command):
+    include_subclasses(_family, _CONVERTER, union_strategy=partial(configure_tagged_union, tag_name="type"))
+
+
+def command_record(command: Command) -> dict[str, Any]:
+    """A command as JSON values: its class under ``type``, its fields under their names."""
+    record: dict[str, Any] = _CONVERTER.unstructure(command, unstructure_as=Command)
+    return record

@@ -1,0 +1,74 @@
+"""The conditions of the study: two switches, and "no assistance".
+
+This is the one place that turns a condition into a mentaliser and a set of sentences; no other line of code asks for
+the condition.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from random import Random
+from typing import Protocol
+
+from kiosk import BadInput
+from kiosk.assistant.hint import Hint
+from kiosk.assistant.mentaliser import Mentaliser, TargetRule
+from kiosk.assistant.wording import PlainSentences, ReasonedSentences, Wording
+
+
+class Sentences(Protocol):
+    """What is said with a hint."""
+
+    def sentence(self, hint: Hint) -> str:
+        """The sentence for one hint."""
+        ...
+
+
+class Condition(Enum):
+    """A cell of the design: a mentalised or a random target, an explanation given or withheld.
+
+    ``tom`` and ``notom`` are the study's two; the next two separate the choice from the explanation.
+    """
+
+    TOM = "tom"
+    NOTOM = "notom"
+    MENTALISED_UNEXPLAINED = "mentalised_unexplained"
+    RANDOM_EXPLAINED = "random_explained"
+    NO_ASSISTANCE = "no_assistance"
+
+    @classmethod
+    def named(cls, name: str) -> Condition:
+        """The condition of this name; raises BadInput with all the names there are."""
+        try:
+            return cls(name)
+        except ValueError as error:
+            names = ", ".join(condition.value for condition in cls)
+            raise BadInput(f"there is no condition {name!r}; there are {names}") from error
+
+
+@dataclass(frozen=True)
+class Help:
+    """What a condition comes to: who chooses the target, and what is said with it."""
+
+    mentaliser: Mentaliser
+    sentences: Sentences
+
+
+def help_in(condition: Condition, rule: TargetRule, wording: Wording, rng: Random) -> Help | None:
+    """The help that a visitor in this condition gets; ``rule`` is the one that mentalised conditions follow."""
+    if condition is Condition.NO_ASSISTANCE:
+        return None
+    mentalised, explained = _CELLS[condition]
+    return Help(
+        Mentaliser(rule if mentalised else TargetRule.RANDOM, rng),
+        ReasonedSentences(wording) if explained else PlainSentences(wording),
+    )
+
+
+_CELLS = {
+    Condition.TOM: (True, True),
+    Condition.NOTOM: (False, False),
+    Condition.MENTALISED_UNEXPLAINED: (True, False),
+    Condition.RANDOM_EXPLAINED: (False, True),
+}

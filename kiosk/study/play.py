@@ -1,0 +1,226 @@
+"""One game with its help: what a tap, a finished sentence or the end of a wait leads to on the board.
+
+A hint holds the board from the moment it is given until it has been heard or could be read. Its mark never comes
+later than the board opens, so that no flip can be made in ignorance of it; the next flip clears it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from kiosk.assistant.assistant import Assistant, Decision
+from kiosk.assistant.hint import Hint
+from kiosk.assistant.mdp import Card
+from kiosk.game import Board, Concentration, Flip, IllegalFlip, Position
+from kiosk.settings import Timing
+from kiosk.study import commands as do
+from kiosk.study import events as happened
+from kiosk.study.commands import Mood, Script, Wait
+from kiosk.study.condition import Sentences
+from kiosk.study.events import Timer
+
+
+@dataclass
+class _Given:
+    """The hint that stands: whether it still holds the board, and whether its mark is on it."""
+
+    hint: Hint
+    flip: int
+    utterance: int
+    sentence: str
+    holds: bool = True
+    marked: bool = False
+
+
+class Play:
+    """A game on one board, helped or not."""
+
+    def __init__(
+        self,
+        board: Board,
+        assistant: Assistant | None,
+        sentences: Sentences | None,
+        timing: Timing,
+        utterances: Iterator[int],
+    ) -> None:
+        """Without an assistant nobody helps; ``utterances`` numbers the sentences of the whole sitting."""
+        self.game = Concentration(board)
+        self._assistant = assistant
+        self._sentences = sentences
+        self._timing = timing
+        self._utterances = utterances
+        self._given: _Given | None = None
+
+    def begin(self, script: Script) -> None:
+        """Deal and open the board."""
+        board = self.game.board
+        script.note(happened.BoardDealt(at_ms=script.at_ms, rows=board.rows, columns=board.columns, cards=board.cards))
+        script.do(do.ShowBoard(board.rows, board.columns, board.pairs))
+        self._help_or_open(script)
+
+    def card_tapped(self, position: Position, script: Script) -> None:
+        """Flip the card if that is possible now; if not, say why and change nothing."""
+        if self._given is not None and self._given.holds:
+            script.note(happened.TapIgnored(at_ms=script.at_ms, position=position, why=None))
+            return
+        try:
+            flip = self.game.flip(position)
+        except IllegalFlip as refusal:
+            script.note(happened.TapIgnored(at_ms=script.at_ms, position=position, why=refusal.refusal))
+            return
+        self._flipped(flip, script)
+
+    def timer_ended(self, timer: Timer, script: Script) -> None:
+        """Go on after a wait."""
+        match timer:
+            case Timer.TURN_BACK:
+                script.do(do.TurnBack(self.game.turning_back))
+                self.game.turn_back()
+                self._help_or_open(script)
+            case Timer.MARK:
+                self._mark(script)
+            case Timer.READING:
+                self._settle(script)
+            case Timer.SPEECH_DEADLINE:
+                script.do(do.StopSpeaking())
+                self._settle(script)
+            case Timer.MOOD:
+                script.do(do.Express(Mood.IDLE))
+            case Timer.FINISH:
+                script.note(happened.GameFinished(at_ms=script.at_ms))
+
+    def speech_started(self, utterance: int, script: Script) -> None:
+        """Let the mark follow the voice."""
+        if self._holding(utterance):
+            script.do(do.StartTimer(Timer.MARK, self._timing.mark_delay))
+
+    def speech_finished(self, utterance: int, script: Script) -> None:
+        """The hint has been heard."""
+        if self._holding(utterance):
+            self._settle(script)
+
+    def speech_failed(self, utterance: int, script: Script) -> None:
+        """The hint will not be heard: give the time to read it."""
+        given = self._holding(utterance)
+        if given is not None:
+            script.do(
+                do.StopTimer(Timer.SPEECH_DEADLINE),
+                do.StartTimer(Timer.MARK, self._timing.mark_delay_silent),
+                do.StartTimer(Timer.READING, self._timing.reading_time(given.sentence)),
+            )
+
+    def _flipped(self, flip: Flip, script: Script) -> None:
+        given, self._given = self._given, None
+        script.note(
+            happened.CardFlipped(
+                at_ms=script.at_ms,
+                number=flip.number,
+                move=flip.move,
+                position=flip.position,
+                card=flip.card,
+                matched=flip.matched,
+            )
+        )
+        if given is not None:
+            script.do(do.ClearMark(), do.ClearBubble())
+        script.do(do.TurnUp(flip.position, flip.card))
+        if flip.matched is None:
+            self._help_or_open(script)
+        else:
+            self._move_completed(flip, given, script)
+
+    def _move_completed(self, flip: Flip, given: _Given | None, script: Script) -> None:
+        script.do(do.ShowProgress(self.game.pairs_found, self.game.moves))
+        if given is not None and given.hint.card is Card.SECOND:
+            script.do(do.Express(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood))
+        if not flip.matched:
+            script.do(do.HoldBoard(Wait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.turn_back))
+            return
+        script.do(do.ShowPair((flip.position, self.game.board.mate(flip.position))))
+        if self.game.over:
+            script.do(do.StartTimer(Timer.FINISH, self._timing.finish))
+        else:
+            self._help_or_open(script)
+
+    def _help_or_open(self, script: Script) -> None:
+        """Decide about the coming flip; the board is open unless a hint holds it."""
+        decision = self._decide(script)
+        if decision is None or decision.hint is None:
+            script.do(do.OpenBoard())
+        else:
+            self._give(decision.hint, script)
+
+    def _decide(self, script: Script) -> Decision | None:
+        if self._assistant is None:
+            return None
+        decision = self._assistant.decide(self.game)
+        script.note(
+            happened.AssistanceDecided(
+                at_ms=script.at_ms,
+                flip=self.game.flips + 1,
+                card=Card.coming(self.game),
+                game=decision.state.game,
+                last=decision.state.last,
+                outcome=decision.state.outcome,
+                gate=decision.verdict,
+                action=decision.action,
+            )
+        )
+        return decision
+
+    def _give(self, hint: Hint, script: Script) -> None:
+        sentence = self._sentences.sentence(hint) if self._sentences else ""
+        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence)
+        self._given = given
+        script.note(
+            happened.HintGiven(
+                at_ms=script.at_ms,
+                flip=given.flip,
+                card=hint.card,
+                action=hint.action,
+                target=hint.target.position,
+                name=hint.name,
+                seen=hint.target.seen,
+                mate_seen=hint.target.mate_seen,
+                reason=hint.target.reason,
+                row=hint.row,
+                column=hint.column,
+                sentence=sentence,
+                utterance=given.utterance,
+            )
+        )
+        script.do(
+            do.HoldBoard(Wait.SPEAKING),
+            do.Speak(given.utterance, sentence),
+            do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
+        )
+
+    def _holding(self, utterance: int) -> _Given | None:
+        """The hint that holds the board, if this is its sentence."""
+        given = self._given
+        return given if given is not None and given.holds and given.utterance == utterance else None
+
+    def _settle(self, script: Script) -> None:
+        """The hint has been taken in: see that it is marked, and open the board."""
+        if self._given is None or not self._given.holds:
+            return
+        self._given.holds = False
+        self._mark(script)
+        script.note(happened.BoardOpened(at_ms=script.at_ms))
+        script.do(do.OpenBoard())
+        script.do(*(do.StopTimer(timer) for timer in (Timer.MARK, Timer.READING, Timer.SPEECH_DEADLINE)))
+
+    def _mark(self, script: Script) -> None:
+        given = self._given
+        if given is not None and not given.marked:
+            given.marked = True
+            script.note(happened.HintMarked(at_ms=script.at_ms, flip=given.flip))
+            script.do(do.ShowMark(given.hint.row, given.hint.column))
+
+
+def _reaction(hint: Hint, flip: Flip) -> Mood:
+    """The face after a helped second flip: glad, sad when the help was followed in vain, confused when it was not."""
+    if flip.matched:
+        return Mood.HAPPY
+    return Mood.SAD if hint.followed_by(flip.position) else Mood.CONFUSED
