@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, PositiveFloat, PositiveInt, ValidationError
 
@@ -67,7 +67,9 @@ class Assistance(_Section):
         "tom"
     )
     policy: Annotated[str, Field(description="The frozen Q-table: a name in policies/, or a path.")] = "default"
-    target_rule: Annotated[str, Field(description="Where ToM points: most_flipped or most_recent.")] = "most_flipped"
+    target_rule: Annotated[
+        Literal["most_flipped", "most_recent"], Field(description="Where a mentalised hint for a first card points.")
+    ] = "most_flipped"
 
 
 class Voice(_Section):

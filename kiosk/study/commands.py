@@ -45,11 +45,6 @@ class Record(Command):
 
 
 @dataclass(frozen=True)
-class ShowAttract(Command):
-    """Show what draws people in."""
-
-
-@dataclass(frozen=True)
 class ShowIntroduction(Command):
     """Show what the game is about."""
 

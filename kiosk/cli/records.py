@@ -1,0 +1,61 @@
+"""Commands that look at what is stored."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from kiosk.cli.wiring import DATA
+from kiosk.store.reading import archive
+
+MS_PER_SECOND = 1000
+
+data_option = click.option(
+    "--data", type=click.Path(path_type=Path), default=DATA, show_default=True, help="The data folder."
+)
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
+
+
+@click.command()
+@data_option
+@json_option
+def sittings(data: Path, *, as_json: bool) -> None:
+    """List the stored sittings: who, in which condition, how they ended."""
+    with archive(data) as stored:
+        rows = [sitting.to_json() | {"started_at": sitting.started_at} for sitting in stored.sittings()]
+    if as_json:
+        click.echo(json.dumps(rows))
+        return
+    table = Table(*("sitting", "started (UTC)", "condition", "body", "status", "pairs", "moves", "flips", "hints"))
+    for row in rows:
+        started = row["started_at"][:19].replace("T", " ")
+        table.add_row(
+            str(row["sitting"]),
+            started,
+            *(str(row[key]) for key in ("condition", "body", "status")),
+            *(str(row[key]) for key in ("pairs", "moves", "flips", "hints")),
+        )
+    Console().print(table)
+
+
+@click.command()
+@click.argument("sitting", type=int)
+@data_option
+@json_option
+def events(sitting: int, data: Path, *, as_json: bool) -> None:
+    """List what happened in a SITTING, in the order in which it was written."""
+    with archive(data) as stored:
+        records = stored.records(sitting)
+    if as_json:
+        click.echo(json.dumps(records))
+        return
+    for record in records:
+        seq, at_ms, kind = (record.pop(key) for key in ("seq", "at_ms", "type"))
+        origin = record.pop("origin")
+        details = "  ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in record.items())
+        mark = "<" if origin == "world" else ">"
+        click.echo(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}")

@@ -1,0 +1,88 @@
+"""Commands that open the window: for visitors, or for a rehearsal."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from random import SystemRandom
+
+import click
+
+from kiosk.cli.records import data_option, json_option
+from kiosk.cli.wiring import code_commit, make_plan, read_settings
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.avatar import AvatarBody
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.shots import Shots
+
+SEED_BITS = 32
+SETTLE_MS = 450
+"""When a picture is taken after its moment, so that nothing moves any more."""
+
+study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")
+
+
+@click.command("open")
+@data_option
+@study_option
+@click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
+def open_kiosk(data: Path, study: Path | None, *, window: bool) -> None:
+    """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
+    plan = make_plan(read_settings(study))
+    chance = SystemRandom()
+    commit = code_commit()
+
+    def next_sitting() -> Provenance:
+        return Provenance(plan, chance.getrandbits(SEED_BITS), AvatarBody.name, commit, simulated=False)
+
+    with Recorder(data) as recorder:
+        App(plan, Mode(Display.WINDOW if window else Display.FULL_SCREEN), recorder, next_sitting).run()
+
+
+@click.command()
+@click.option("--seed", type=int, default=1, show_default=True, help="The same seed plays the same sitting.")
+@click.option("--headless", is_flag=True, help="Use no screen, and play as fast as the machine allows.")
+@click.option("--speed", type=click.FloatRange(min=0, min_open=True), help="How many times as fast as in real life.")
+@click.option("--condition", help="The help that the visitor gets: tom, notom, or another cell of the design.")
+@click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
+@data_option
+@study_option
+@json_option
+def rehearse(
+    seed: int,
+    speed: float | None,
+    condition: str | None,
+    shots: Path | None,
+    data: Path,
+    study: Path | None,
+    *,
+    headless: bool,
+    as_json: bool,
+) -> None:
+    """Let a simulated visitor play one sitting through the real window."""
+    plan = make_plan(read_settings(study), condition)
+    provenance = Provenance(plan, seed, AvatarBody.name, code_commit(), simulated=True)
+    mode = _mode(speed, headless=headless)
+    with Recorder(data) as recorder:
+        app = App(plan, mode, recorder, lambda: provenance)
+        pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
+        Rehearsal(app, seed, pictures).run()
+    with archive(data) as stored:
+        played = stored.sittings()[-1].to_json()
+    if as_json:
+        click.echo(json.dumps(played))
+        return
+    click.echo(
+        "Sitting {sitting} ({condition}) {status}: {pairs} pairs in {moves} moves, {hints} hints.".format(**played)
+    )
+    click.echo(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else "."))
+
+
+def _mode(speed: float | None, *, headless: bool) -> Mode:
+    """Without a screen and without a wish for a speed, nothing is waited for."""
+    display = Display.NOWHERE if headless else Display.FULL_SCREEN
+    if headless and speed is None:
+        return Mode(display, Pace.VIRTUAL)
+    return Mode(display, Pace.WALL, speed or 1.0)

@@ -1,0 +1,64 @@
+"""Puts the rooms together: from a study file to what a sitting follows."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from platformdirs import user_data_path
+
+from kiosk import BadInput
+from kiosk.assistant.qtable import QTable
+from kiosk.assistant.wording import Catalogue
+from kiosk.settings import ASSETS, Settings, policy_path
+from kiosk.study.condition import Condition
+from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.session import Plan
+
+DATA = user_data_path("recollect", appauthor=False)
+"""Where a study's data are kept unless told otherwise."""
+
+_GIT_DEADLINE_S = 2
+
+
+def read_settings(study: Path | None) -> Settings:
+    """The settings of a study file, or the study's own without one."""
+    return Settings.read(study) if study else Settings()
+
+
+def make_plan(settings: Settings, condition: str | None = None) -> Plan:
+    """All that a sitting follows; ``condition`` goes before the study file's. Raises BadInput for what is not there."""
+    help_given = settings.assistance
+    return Plan(
+        settings=settings,
+        condition=Condition.named(condition or help_given.condition),
+        policy=QTable.load(policy_path(help_given.policy)),
+        catalogue=Catalogue(ASSETS / "sentences" / settings.language),
+        questionnaire=Questionnaire.read(ASSETS / "questionnaires" / f"{settings.questionnaire}.toml"),
+        deck=deck(settings.game.deck),
+    )
+
+
+def deck(name: str) -> tuple[str, ...]:
+    """The names of a deck's cards, in alphabetical order; raises BadInput if there is no such deck."""
+    folder = ASSETS / "cards" / name
+    if not folder.is_dir():
+        decks = ", ".join(sorted(path.name for path in (ASSETS / "cards").iterdir() if path.is_dir()))
+        raise BadInput(f"there is no deck {name!r}; there are {decks}")
+    return tuple(sorted(path.stem for path in folder.glob("*.svg")))
+
+
+def code_commit() -> str:
+    """The commit that runs, with "-dirty" if it was changed since; "released" outside a checkout."""
+    try:
+        described = subprocess.run(
+            ["git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"],  # noqa: S607 - git is on the path
+            cwd=Path(__file__).parent,
+            capture_output=True,
+            text=True,
+            timeout=_GIT_DEADLINE_S,
+            check=True,
+        )
+    except (OSError, subprocess.SubprocessError):
+        return "released"
+    return described.stdout.strip()

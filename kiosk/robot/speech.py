@@ -1,0 +1,223 @@
+"""The voice, in a process of its own: whatever a speech engine does, it can be ended and started again.
+
+Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines, a sentence to say or
+``{"stop": true}``; the end of input ends it. It writes events as JSON lines: ``ready`` with what it found, or
+``unavailable``; then for each sentence ``started`` with the duration in ms and the loudness (0-1) of every LOUDNESS_MS,
+and ``finished``, or ``failed`` and why. Without a sound card it keeps the time of the sentence in silence and says so.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import wave
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyttsx3
+
+LOUDNESS_MS = 40
+"""Length of one step of the loudness, in ms: 25 steps a second, the rate at which the avatar's mouth moves."""
+
+_POLL_S = 0.01
+_FULL_LOUDNESS = 0.25
+"""The root mean square, of full scale, at which the mouth is wide open: loud vowels of espeak-ng reach about this."""
+
+_PLAYERS = ("aplay", "afplay")
+_QUIET = {"aplay": ["-q"], "afplay": []}
+
+
+@dataclass(frozen=True)
+class Sound:
+    """A rendered sentence: its file, its length, and how loud it is from step to step."""
+
+    file: Path
+    duration_ms: int
+    loudness: tuple[float, ...]
+
+    @classmethod
+    def of(cls, file: Path) -> Sound:
+        """Measure a WAV file of 16 bit; raises wave.Error or EOFError if it is none."""
+        with wave.open(str(file)) as audio:
+            rate, channels = audio.getframerate(), audio.getnchannels()
+            samples = np.frombuffer(audio.readframes(audio.getnframes()), dtype="<i2") / 2**15
+        step = rate * channels * LOUDNESS_MS // 1000
+        padded = np.pad(samples, (0, -len(samples) % step)).reshape(-1, step)
+        opening = np.clip(np.sqrt((padded**2).mean(axis=1)) / _FULL_LOUDNESS, 0, 1)
+        return cls(file, len(samples) * 1000 // (rate * channels), tuple(round(float(value), 2) for value in opening))
+
+
+class Engine:
+    """The speech engine: renders a sentence to a file. pyttsx3 plays unreliably, but it renders well."""
+
+    def __init__(self, language: str, rate: int, volume: float) -> None:
+        """Take the first voice of the language; raises whatever the engine raises when it is missing."""
+        self._engine = pyttsx3.init()
+        self._engine.setProperty("rate", rate)
+        self._engine.setProperty("volume", volume)
+        self.voice = _voice_of(language, self._engine.getProperty("voices"))
+        if self.voice is not None:
+            self._engine.setProperty("voice", self.voice)
+
+    def render(self, text: str, file: Path) -> Sound:
+        """Render a sentence; raises OSError, wave.Error or EOFError if no sound came of it."""
+        self._engine.save_to_file(text, str(file))
+        self._engine.runAndWait()
+        return Sound.of(file)
+
+
+def _voice_of(language: str, voices: Any) -> str | None:
+    """The engine's name for a voice of this language: the plainest, whose code is the language itself."""
+    matching = [voice for voice in voices if _speaks(voice, language)]
+    matching.sort(key=lambda voice: (len(str(voice.id)), str(voice.id)))
+    return matching[0].id if matching else None
+
+
+def _speaks(voice: Any, language: str) -> bool:
+    codes = [code.decode(errors="ignore") if isinstance(code, bytes) else str(code) for code in voice.languages]
+    return any(code.strip("\x05\x02").lower().startswith(language) for code in codes)
+
+
+class Player:
+    """Plays a file with a child process that can be ended at once; silence, of the same length, without one."""
+
+    def __init__(self) -> None:
+        """Look for a program that plays."""
+        self._command = next((path for name in _PLAYERS if (path := shutil.which(name))), None)
+        self._child: subprocess.Popen[bytes] | None = None
+        self._silent_until = 0.0
+        self.audible = self._command is not None
+
+    def play(self, sound: Sound) -> None:
+        """Begin to play."""
+        self._silent_until = time.monotonic() + sound.duration_ms / 1000
+        if self._command is not None:
+            command = [self._command, *_QUIET[Path(self._command).name], str(sound.file)]
+            self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: S603
+
+    def playing(self) -> bool:
+        """Whether the sentence is still under way."""
+        if self._child is not None:
+            code = self._child.poll()
+            if code is None:
+                return True
+            # A player that fails has no sound card: the rest of the sentence's time passes in silence.
+            self.audible = code == 0
+            self._child = None
+            if code == 0:
+                return False
+        return not self.audible and time.monotonic() < self._silent_until
+
+    def stop(self) -> None:
+        """Be silent at once."""
+        if self._child is not None:
+            self._child.kill()
+            self._child.wait()
+            self._child = None
+        self._silent_until = 0.0
+
+
+class Worker:
+    """Takes one command after another, and never renders or plays two sentences at once."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        player: Player,
+        report: Report,
+        file: Path,
+        commands: queue.Queue[dict[str, Any] | None],
+    ) -> None:
+        """Render into ``file``; ``None`` among the commands ends the work."""
+        self._engine = engine
+        self._player = player
+        self._report = report
+        self._file = file
+        self._commands = commands
+        self._saying: int | None = None
+
+    def run(self) -> None:
+        """Work until the commands end."""
+        for command in self._next_commands():
+            self._player.stop()
+            self._saying = None
+            if "say" in command:
+                self._say(int(command["say"]), str(command["text"]))
+
+    def _next_commands(self) -> Iterator[dict[str, Any]]:
+        """Every command in turn; while a sentence is under way, look after it as well."""
+        while True:
+            try:
+                command = self._commands.get(timeout=_POLL_S if self._saying is not None else None)
+            except queue.Empty:
+                self._look_after_sentence()
+                continue
+            if command is None:
+                self._player.stop()
+                return
+            yield command
+
+    def _look_after_sentence(self) -> None:
+        if self._saying is not None and not self._player.playing():
+            self._report("finished", id=self._saying, audible=self._player.audible)
+            self._saying = None
+
+    def _say(self, number: int, text: str) -> None:
+        try:
+            sound = self._engine.render(text, self._file)
+        except (OSError, RuntimeError, EOFError, wave.Error) as error:
+            self._report("failed", id=number, why=str(error) or type(error).__name__)
+            return
+        self._player.play(sound)
+        self._saying = number
+        self._report("started", id=number, duration_ms=sound.duration_ms, loudness=sound.loudness)
+
+
+class Report:
+    """The way back to the interface, kept clear of whatever an engine prints."""
+
+    def __init__(self) -> None:
+        """Take standard output for events alone; from here on, prints go to standard error."""
+        self._lines = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+
+    def __call__(self, event: str, **values: object) -> None:
+        """Send one event."""
+        self._lines.write(json.dumps({"event": event, **values}) + "\n")
+        self._lines.flush()
+
+
+def _read_into(commands: queue.Queue[dict[str, Any] | None]) -> None:
+    for line in sys.stdin:
+        commands.put(json.loads(line))
+    commands.put(None)
+
+
+def main(language: str, rate: int, volume: float) -> None:
+    """Find the engine, say what was found, and work."""
+    report = Report()
+    commands: queue.Queue[dict[str, Any] | None] = queue.Queue()
+    threading.Thread(target=_read_into, args=(commands,), daemon=True).start()
+    try:
+        engine = Engine(language, rate, volume)
+    except Exception as error:  # noqa: BLE001 - engines raise whatever they like when a library is missing
+        report("unavailable", why=f"no speech engine: {error}")
+        return
+    player = Player()
+    report("ready", voice=engine.voice, player=player.audible)
+    with tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder:
+        Worker(engine, player, report, Path(folder) / "sentence.wav", commands).run()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]), float(sys.argv[3]))

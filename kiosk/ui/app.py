@@ -1,0 +1,204 @@
+"""The window and everything behind it, put together; the one place that talks to Qt's application object."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from random import Random
+from types import TracebackType
+
+# PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
+from PySide6.QtCore import QObject, Qt, QTimer, QUrl
+from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication
+from PySide6.QtQml import QQmlApplicationEngine
+from PySide6.QtQuick import QQuickWindow
+
+from kiosk.settings import ASSETS, Settings
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.session import Plan
+from kiosk.ui.avatar import AvatarBody, AvatarScreen
+from kiosk.ui.board import BoardScreen
+from kiosk.ui.clock import Clock, VirtualClock, WallClock
+from kiosk.ui.conductor import Conductor
+from kiosk.ui.life import IdleLife
+from kiosk.ui.performer import Screens
+from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
+from kiosk.ui.words import words
+
+QML = Path(__file__).parent / "qml" / "Main.qml"
+FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
+HEARTBEAT_MS = 250
+MOTION_MS = 220
+"""How long a card takes to turn and a screen to fade; 0 without motion."""
+
+_log = logging.getLogger(__name__)
+
+
+class Pace(Enum):
+    """How time passes."""
+
+    WALL = "wall"
+    """As it does for people, or a number of times as fast."""
+    VIRTUAL = "virtual"
+    """From one wait to the next, as fast as the machine allows, in silence and without motion."""
+
+
+class Display(Enum):
+    """Where the window is."""
+
+    FULL_SCREEN = "full screen"
+    WINDOW = "window"
+    NOWHERE = "nowhere"
+    """Drawn, but on no screen: it can be rehearsed and photographed."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """How the kiosk runs."""
+
+    display: Display = Display.FULL_SCREEN
+    pace: Pace = Pace.WALL
+    speed: float = 1.0
+
+
+class App:
+    """The kiosk, ready to run. Only one can be in a process."""
+
+    def __init__(self, plan: Plan, mode: Mode, recorder: Recorder, next_sitting: Callable[[], Provenance]) -> None:
+        """Build everything for this plan and show the window; ``next_sitting`` is asked once for each sitting."""
+        self.application = _application(mode.display)
+        self._owner = QObject()
+        self.clock = _clock(mode, self._owner)
+        self.started_ms = self.clock.now_ms()
+        self.screens = _screens(plan, self._owner)
+        self.conductor = Conductor(self.screens, recorder, self.clock, next_sitting)
+        self._voice = _voice(plan.settings, mode, self.clock, self._owner)
+        self.conductor.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, self._owner))
+        if mode.pace is Pace.WALL:
+            IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
+        self._engine = QQmlApplicationEngine()
+        self.window = self._load(plan, mode)
+        self.screens.kiosk.left.connect(self.quit)
+        self._keep_heart_beating()
+
+    def run(self) -> None:
+        """Run until the kiosk is left; then end the sitting that is under way, and let go of everything."""
+        before, sys.excepthook = sys.excepthook, self._fault
+        try:
+            self.application.exec()
+        finally:
+            sys.excepthook = before
+            self.close()
+
+    def quit(self) -> None:
+        """Leave the kiosk."""
+        # Not quit(): that asks the window first, and the window refuses everybody.
+        self.application.exit()
+
+    def close(self) -> None:
+        """End what is under way; the application object itself stays, for Qt allows no second one."""
+        self.conductor.close()
+        self._voice.close()
+        self.screens.kiosk.let_go()
+        self.window.close()
+        # The engine must go before the objects that its windows look at.
+        self._engine.deleteLater()
+        self._owner.deleteLater()
+        self.application.processEvents()
+
+    def _load(self, plan: Plan, mode: Mode) -> QQuickWindow:
+        moving = plan.settings.screen.motion and mode.pace is Pace.WALL
+        screens = self.screens
+        self._engine.setInitialProperties(
+            {
+                "kiosk": screens.kiosk,
+                "attract": screens.attract,
+                "introduction": screens.introduction,
+                "board": screens.board,
+                "result": screens.result,
+                "question": screens.question,
+                "avatar": screens.avatar,
+                "words": words(plan.catalogue, self._owner),
+                "cardBack": QUrl.fromLocalFile(str(ASSETS / "cards" / "back.svg")),
+                "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
+                "textSize": plan.settings.screen.text_size,
+                "motion": MOTION_MS if moving else 0,
+            }
+        )
+        self._engine.load(QUrl.fromLocalFile(str(QML)))
+        window = self._engine.rootObjects()[0]
+        if not isinstance(window, QQuickWindow):
+            raise TypeError(f"{QML} holds a {type(window).__name__}, not a window")
+        _show(window, mode.display)
+        return window
+
+    def _keep_heart_beating(self) -> None:
+        """Let Python run now and then, or it would never see that the system asks it to end."""
+        heart = QTimer(self._owner)
+        heart.timeout.connect(lambda: None)
+        heart.start(HEARTBEAT_MS)
+        for ending in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(ending, lambda *_: self.quit())
+
+    def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
+        """A fault of ours: into the log with it, and a calm screen for the visitor."""
+        _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
+        self.conductor.pause()
+
+
+def _application(display: Display) -> QGuiApplication:
+    """The application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
+    os.environ.setdefault("QT_QUICK_BACKEND", "software")
+    os.environ.setdefault("QSG_RENDER_LOOP", "basic")
+    if display is Display.NOWHERE:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    existing = QGuiApplication.instance()
+    application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
+    for font in FONTS:
+        QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
+    application.setFont(QFont("Noto Sans"))
+    return application
+
+
+def _clock(mode: Mode, owner: QObject) -> Clock:
+    return VirtualClock(owner) if mode.pace is Pace.VIRTUAL else WallClock(owner, mode.speed)
+
+
+def _voice(settings: Settings, mode: Mode, clock: Clock, owner: QObject) -> Voice:
+    if mode.pace is Pace.VIRTUAL or mode.speed != 1:
+        return SilentVoice(clock, owner)
+    if not settings.voice.enabled:
+        return NoVoice(owner)
+    return EngineVoice(settings.voice, settings.language, parent=owner)
+
+
+def _screens(plan: Plan, owner: QObject) -> Screens:
+    catalogue = plan.catalogue
+    pictures = ASSETS / "cards" / plan.settings.game.deck
+    addresses = tuple(QUrl.fromLocalFile(str(pictures / f"{card}.svg")).toString() for card in plan.deck)
+    return Screens(
+        kiosk=KioskScreen(owner),
+        attract=AttractScreen(addresses, owner),
+        introduction=IntroductionScreen(owner),
+        board=BoardScreen(catalogue, pictures, owner),
+        result=ResultScreen(catalogue, owner),
+        question=QuestionScreen(catalogue, owner),
+        avatar=AvatarScreen(owner),
+    )
+
+
+def _show(window: QQuickWindow, display: Display) -> None:
+    if display is Display.FULL_SCREEN:
+        window.setFlags(window.flags() | Qt.WindowType.FramelessWindowHint | Qt.WindowType.WindowStaysOnTopHint)
+        # Without a window manager nobody obeys a wish for the full screen: take its size as well.
+        window.setGeometry(window.screen().geometry())
+        window.showFullScreen()
+    else:
+        window.show()

@@ -1,0 +1,247 @@
+"""The board on the screen: what each card shows, where the mark is, and whether a tap would count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import (
+    Property,
+    QAbstractListModel,
+    QByteArray,
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    Qt,
+    QUrl,
+    Signal,
+    Slot,
+)
+from PySide6.QtQml import QmlElement
+
+from kiosk.assistant.wording import Catalogue
+from kiosk.game import Position
+from kiosk.study.commands import Wait
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+_NOWHERE = -1
+_WAITS = {Wait.SPEAKING: "game-wait-speaking", Wait.TURNING_BACK: "game-wait-turning-back"}
+
+
+class Role(IntEnum):
+    """What QML may ask of a card."""
+
+    PICTURE = Qt.ItemDataRole.UserRole + 1
+    UP = Qt.ItemDataRole.UserRole + 2
+    FOUND = Qt.ItemDataRole.UserRole + 3
+    LABEL = Qt.ItemDataRole.UserRole + 4
+
+
+@dataclass
+class _Face:
+    """What one card shows; its picture stays known after it is turned back, for as long as it takes to turn."""
+
+    card: str = ""
+    up: bool = False
+    found: bool = False
+
+
+@QmlElement
+class BoardScreen(QAbstractListModel):
+    """The cards row by row, and all that is shown around them."""
+
+    changed = Signal()
+    tapped = Signal(Position)
+    """A card was tapped."""
+
+    def __init__(self, catalogue: Catalogue, pictures: Path, parent: QObject | None = None) -> None:
+        """Take the cards' pictures from this folder, as ``<card>.svg``."""
+        super().__init__(parent)
+        self._catalogue = catalogue
+        self._pictures = pictures
+        self._faces: list[_Face] = []
+        self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
+        self._wait: Wait | None = None
+        self._mark_row = self._mark_column = _NOWHERE
+
+    def deal(self, rows: int, columns: int, pairs: int) -> None:
+        """Show so many closed cards."""
+        self.beginResetModel()
+        self._rows, self._columns, self._pairs = rows, columns, pairs
+        self._faces = [_Face() for _ in range(rows * columns)]
+        self.endResetModel()
+        self._pairs_found = self._moves = 0
+        self._wait = None
+        self.clear_mark()
+
+    def turn_up(self, position: Position, card: str) -> None:
+        """Show one card's picture."""
+        self._face(position).card = card
+        self._face(position).up = True
+        self._tell(position)
+
+    def turn_back(self, positions: tuple[Position, ...]) -> None:
+        """Close these cards."""
+        for position in positions:
+            self._face(position).up = False
+            self._tell(position)
+
+    def show_pair(self, positions: tuple[Position, ...]) -> None:
+        """Show that these cards are found."""
+        for position in positions:
+            self._face(position).found = True
+            self._tell(position)
+
+    def show_progress(self, pairs_found: int, moves: int) -> None:
+        """Show how far the game is."""
+        self._pairs_found, self._moves = pairs_found, moves
+        self.changed.emit()
+
+    def hold(self, wait: Wait | None) -> None:
+        """Show why taps do not count just now, or, with None, that they do."""
+        self._wait = wait
+        self.changed.emit()
+
+    def mark(self, row: int | None, column: int | None) -> None:
+        """Mark a card, a row or a column."""
+        self._mark_row = _NOWHERE if row is None else row
+        self._mark_column = _NOWHERE if column is None else column
+        self.changed.emit()
+
+    def clear_mark(self) -> None:
+        """Take the mark away."""
+        self.mark(None, None)
+
+    @property
+    def closed(self) -> tuple[Position, ...]:
+        """Where closed cards lie, as anybody in front of the screen can see."""
+        return tuple(self._position(i) for i, face in enumerate(self._faces) if not face.up)
+
+    @property
+    def unmatched(self) -> dict[Position, str]:
+        """The pictures that are up and not found yet, as anybody in front of the screen can see."""
+        return {self._position(i): face.card for i, face in enumerate(self._faces) if face.up and not face.found}
+
+    @property
+    def marked(self) -> tuple[int | None, int | None]:
+        """The row and the column of the mark, None where it has none."""
+        row, column = self._mark_row, self._mark_column
+        return (None if row == _NOWHERE else row, None if column == _NOWHERE else column)
+
+    @property
+    def accepts_taps(self) -> bool:
+        """Whether a tap counts."""
+        return self._wait is None
+
+    def direction(self, row: int | None, column: int | None) -> tuple[float, float]:
+        """Where a mark lies seen from the avatar, which sits to the right of the board: x and y from -1 to 1."""
+        across = 0.5 if column is None else (column + 0.5) / self._columns
+        down = 0.5 if row is None else (row + 0.5) / self._rows
+        return across * 0.5 - 1, down * 2 - 1
+
+    def location(self, position: Position) -> int:
+        """The number of a card, row by row from 0."""
+        return position.row * self._columns + position.column
+
+    def _position(self, location: int) -> Position:
+        return Position(*divmod(location, self._columns))
+
+    def _face(self, position: Position) -> _Face:
+        return self._faces[self.location(position)]
+
+    def _tell(self, position: Position) -> None:
+        index = self.index(self.location(position))
+        self.dataChanged.emit(index, index)
+
+    def roleNames(self) -> dict[int, QByteArray]:  # noqa: N802 - Qt's name
+        """The names under which QML asks."""
+        return {role: QByteArray(role.name.lower().encode()) for role in Role}
+
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: ARG002, B008, N802 - Qt's signature
+        """How many cards there are."""
+        return len(self._faces)
+
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = 0) -> Any:
+        """One thing about one card."""
+        face = self._faces[index.row()]
+        match role:
+            case Role.PICTURE:
+                return QUrl.fromLocalFile(str(self._pictures / f"{face.card}.svg")) if face.card else QUrl()
+            case Role.UP:
+                return face.up
+            case Role.FOUND:
+                return face.found
+            case Role.LABEL:
+                return self._label(index.row(), face)
+        return None
+
+    def _label(self, location: int, face: _Face) -> str:
+        position = self._position(location)
+        place = {"row": position.row + 1, "column": position.column + 1}
+        if not face.up:
+            return self._catalogue.text("game-closed-card", **place)
+        return self._catalogue.text("game-open-card", card=self._catalogue.text(f"card-{face.card}"), **place)
+
+    @Property(int, notify=changed)
+    def rows(self) -> int:
+        """Rows of the board."""
+        return self._rows
+
+    @Property(int, notify=changed)
+    def columns(self) -> int:
+        """Columns of the board."""
+        return self._columns
+
+    @Property(int, notify=changed)
+    def pairs(self) -> int:
+        """Pairs on the board."""
+        return self._pairs
+
+    @Property(int, notify=changed)
+    def pairsFound(self) -> int:  # noqa: N802 - QML's convention
+        """Pairs found."""
+        return self._pairs_found
+
+    @Property(str, notify=changed)
+    def progress(self) -> str:
+        """How many pairs are found, in words."""
+        return self._catalogue.text("game-pairs", found=self._pairs_found, all=self._pairs)
+
+    @Property(str, notify=changed)
+    def moves(self) -> str:
+        """How many moves were made, in words."""
+        return self._catalogue.text("game-moves", moves=self._moves)
+
+    @Property(bool, notify=changed)
+    def open(self) -> bool:
+        """Whether a tap counts."""
+        return self._wait is None
+
+    @Property(bool, notify=changed)
+    def speaking(self) -> bool:
+        """Whether taps do not count because the assistant speaks."""
+        return self._wait is Wait.SPEAKING
+
+    @Property(str, notify=changed)
+    def wait(self) -> str:
+        """Why taps do not count, in words."""
+        return "" if self._wait is None else self._catalogue.text(_WAITS[self._wait])
+
+    @Property(int, notify=changed)
+    def markRow(self) -> int:  # noqa: N802 - QML's convention
+        """The marked row, or that of the marked card, from 0; -1 for none."""
+        return self._mark_row
+
+    @Property(int, notify=changed)
+    def markColumn(self) -> int:  # noqa: N802 - QML's convention
+        """The marked column, or that of the marked card, from 0; -1 for none."""
+        return self._mark_column
+
+    @Slot(int)
+    def tap(self, location: int) -> None:
+        """The visitor taps a card."""
+        self.tapped.emit(self._position(location))

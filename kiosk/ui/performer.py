@@ -1,0 +1,169 @@
+"""Carries out the study's commands: each one is a word to a screen, to the body, or to the clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial, singledispatchmethod
+
+from kiosk.robot.body import Body
+from kiosk.study import commands as do
+from kiosk.study.commands import Command, Mood
+from kiosk.study.events import Timer
+from kiosk.ui.avatar import AvatarScreen
+from kiosk.ui.board import BoardScreen
+from kiosk.ui.clock import Clock, Wait
+from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+
+
+@dataclass(frozen=True)
+class Screens:
+    """Everything that can be shown."""
+
+    kiosk: KioskScreen
+    attract: AttractScreen
+    introduction: IntroductionScreen
+    board: BoardScreen
+    result: ResultScreen
+    question: QuestionScreen
+    avatar: AvatarScreen
+
+
+class Performer:
+    """Shows, speaks and waits as it is told."""
+
+    def __init__(self, screens: Screens, clock: Clock, wait_ended: Callable[[Timer], None]) -> None:
+        """``wait_ended`` is called when a wait is over that was not stopped."""
+        self.body: Body | None = None
+        self.screens = screens
+        self._clock = clock
+        self._wait_ended = wait_ended
+        self._waits: dict[Timer, Wait] = {}
+
+    def reset(self, screen: str) -> None:
+        """Leave nothing of a sitting: no wait, no sound, no bubble, no question; then show the screen of this name."""
+        for timer in Timer:
+            self._stop_wait(timer)
+        if self.body is not None:
+            self.body.stop()
+            self.body.express(Mood.IDLE)
+        self.screens.avatar.say("")
+        self.screens.avatar.look(0, 0)
+        self.screens.kiosk.ask_still_there(asks=False)
+        self.screens.kiosk.show(screen)
+
+    @singledispatchmethod
+    def perform(self, command: Command) -> None:
+        """Carry out one command; one that nobody knows how to carry out is our mistake and raises."""
+        raise NotImplementedError(f"nobody carries out {type(command).__name__}")
+
+    @perform.register
+    def _(self, command: do.Record) -> None:
+        """It is on the disk already."""
+
+    @perform.register
+    def _(self, command: do.ShowIntroduction) -> None:
+        self.screens.kiosk.show("introduction")
+
+    @perform.register
+    def _(self, command: do.ShowBoard) -> None:
+        self.screens.board.deal(command.rows, command.columns, command.pairs)
+        self.screens.kiosk.show("game")
+
+    @perform.register
+    def _(self, command: do.TurnUp) -> None:
+        self.screens.board.turn_up(command.position, command.card)
+
+    @perform.register
+    def _(self, command: do.TurnBack) -> None:
+        self.screens.board.turn_back(command.positions)
+
+    @perform.register
+    def _(self, command: do.ShowPair) -> None:
+        self.screens.board.show_pair(command.positions)
+
+    @perform.register
+    def _(self, command: do.ShowProgress) -> None:
+        self.screens.board.show_progress(command.pairs_found, command.moves)
+
+    @perform.register
+    def _(self, command: do.HoldBoard) -> None:
+        self.screens.board.hold(command.wait)
+
+    @perform.register
+    def _(self, command: do.OpenBoard) -> None:
+        self.screens.board.hold(None)
+
+    @perform.register
+    def _(self, command: do.ShowMark) -> None:
+        self.screens.board.mark(command.row, command.column)
+        self.screens.avatar.look(*self.screens.board.direction(command.row, command.column))
+
+    @perform.register
+    def _(self, command: do.ClearMark) -> None:
+        self.screens.board.clear_mark()
+        self.screens.avatar.look(0, 0)
+
+    @perform.register
+    def _(self, command: do.Speak) -> None:
+        self.screens.avatar.say(command.sentence)
+        if self.body is not None:
+            self.body.say(command.utterance, command.sentence)
+
+    @perform.register
+    def _(self, command: do.StopSpeaking) -> None:
+        if self.body is not None:
+            self.body.stop()
+
+    @perform.register
+    def _(self, command: do.ClearBubble) -> None:
+        self.screens.avatar.say("")
+
+    @perform.register
+    def _(self, command: do.Express) -> None:
+        if self.body is not None:
+            self.body.express(command.mood)
+
+    @perform.register
+    def _(self, command: do.ShowResult) -> None:
+        self.screens.result.show(command.pairs, command.moves, command.time_ms)
+        self.screens.kiosk.show("result")
+
+    @perform.register
+    def _(self, command: do.ShowQuestion) -> None:
+        self.screens.question.ask(command.questionnaire, command.item, command.points, command.number, command.of)
+        self.screens.kiosk.show("questions")
+
+    @perform.register
+    def _(self, command: do.ShowAnswer) -> None:
+        self.screens.question.show_answer(command.value)
+
+    @perform.register
+    def _(self, command: do.AskStillThere) -> None:
+        self.screens.kiosk.ask_still_there(asks=True)
+
+    @perform.register
+    def _(self, command: do.HideStillThere) -> None:
+        self.screens.kiosk.ask_still_there(asks=False)
+
+    @perform.register
+    def _(self, command: do.StartTimer) -> None:
+        self._stop_wait(command.timer)
+        self._waits[command.timer] = self._clock.after(command.after_ms, partial(self._end_wait, command.timer))
+
+    @perform.register
+    def _(self, command: do.StopTimer) -> None:
+        self._stop_wait(command.timer)
+
+    @perform.register
+    def _(self, command: do.EndSitting) -> None:
+        """The conductor gets ready for the next visitor; there is nothing to carry out before."""
+
+    def _stop_wait(self, timer: Timer) -> None:
+        wait = self._waits.pop(timer, None)
+        if wait is not None:
+            wait.cancel()
+
+    def _end_wait(self, timer: Timer) -> None:
+        del self._waits[timer]
+        self._wait_ended(timer)

@@ -1,0 +1,44 @@
+// A button that nobody misses: large, and the same by mouse, touch and keyboard.
+import QtQuick
+import QtQuick.Controls.Basic
+import "."
+
+Button {
+    id: button
+
+    property bool quiet: false
+
+    focusPolicy: Qt.StrongFocus
+    horizontalPadding: 56 * Theme.unit
+    verticalPadding: 26 * Theme.unit
+    font.pixelSize: Theme.body
+    font.bold: true
+    scale: down ? 0.96 : 1
+    Keys.onReturnPressed: clicked()
+    Keys.onEnterPressed: clicked()
+
+    contentItem: Text {
+        text: button.text
+        font: button.font
+        color: button.quiet ? Theme.sea : Theme.white
+        horizontalAlignment: Text.AlignHCenter
+        verticalAlignment: Text.AlignVCenter
+    }
+    background: Rectangle {
+        radius: height / 2
+        color: button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        border.color: Theme.sea
+        border.width: button.quiet ? 3 * Theme.unit : 0
+
+        // The keyboard's place is shown by a ring outside, which no colour can hide.
+        Rectangle {
+            anchors.fill: parent
+            anchors.margins: -9 * Theme.unit
+            radius: height / 2
+            color: "transparent"
+            border.color: Theme.ink
+            border.width: 4 * Theme.unit
+            visible: button.visualFocus
+        }
+    }
+}

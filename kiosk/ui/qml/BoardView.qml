@@ -1,0 +1,152 @@
+// The game: the cards with their rows and columns numbered, the mark of a hint, and why a tap would not count.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+
+Item {
+    id: view
+
+    required property BoardScreen board
+    required property url cardBack
+    required property url cardShadow
+
+    readonly property real header: 84 * Theme.unit
+    readonly property real numbers: 64 * Theme.unit
+    readonly property real cell: Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
+                                          (height - header - numbers - 2 * Theme.gap) / Math.max(1, board.rows))
+
+    Item {
+        id: status
+        anchors { left: cards.left; right: cards.right; top: parent.top; topMargin: Theme.gap }
+        height: view.header - Theme.gap
+        Text {
+            anchors { left: parent.left; verticalCenter: parent.verticalCenter }
+            text: view.board.progress
+            font { pixelSize: Theme.body; bold: true }
+            color: Theme.ink
+        }
+        Text {
+            anchors.centerIn: parent
+            text: view.board.wait
+            font.pixelSize: Theme.small
+            color: Theme.deepAmber
+        }
+        Text {
+            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
+            text: view.board.moves
+            font.pixelSize: Theme.body
+            color: Theme.faintInk
+        }
+    }
+
+    Item {
+        id: table
+        x: (view.width - width - view.numbers) / 2 + view.numbers
+        y: view.header + view.numbers
+        width: view.cell * view.board.columns
+        height: view.cell * view.board.rows
+
+        Mark {
+            anchors.fill: parent
+            row: view.board.markRow
+            column: view.board.markColumn
+            cell: view.cell
+            numbers: view.numbers
+        }
+        Repeater {
+            model: view.board.columns
+            Text {
+                required property int index
+                x: index * view.cell
+                y: -view.numbers
+                width: view.cell
+                height: view.numbers
+                text: index + 1
+                font { pixelSize: Theme.body; bold: true }
+                color: view.board.markColumn === index ? Theme.deepAmber : Theme.faintInk
+                horizontalAlignment: Text.AlignHCenter
+                verticalAlignment: Text.AlignVCenter
+            }
+        }
+        Repeater {
+            model: view.board.rows
+            Text {
+                required property int index
+                x: -view.numbers
+                y: index * view.cell
+                width: view.numbers
+                height: view.cell
+                text: index + 1
+                font { pixelSize: Theme.body; bold: true }
+                color: view.board.markRow === index ? Theme.deepAmber : Theme.faintInk
+                horizontalAlignment: Text.AlignHCenter
+                verticalAlignment: Text.AlignVCenter
+            }
+        }
+    }
+
+    GridView {
+        id: cards
+        x: table.x
+        y: table.y
+        width: table.width
+        height: table.height
+        cellWidth: view.cell
+        cellHeight: view.cell
+        interactive: false
+        focus: true
+        keyNavigationEnabled: true
+        model: view.board
+        Keys.onReturnPressed: view.board.tap(currentIndex)
+        Keys.onEnterPressed: view.board.tap(currentIndex)
+        Keys.onSpacePressed: view.board.tap(currentIndex)
+
+        delegate: Item {
+            id: place
+            required property int index
+            required property url picture
+            required property bool up
+            required property bool found
+            required property string label
+            objectName: "card-" + index
+            width: cards.cellWidth
+            height: cards.cellHeight
+            Accessible.role: Accessible.Button
+            Accessible.name: label
+            Accessible.onPressAction: view.board.tap(index)
+
+            CardFace {
+                anchors.centerIn: parent
+                width: parent.width * 0.86
+                height: width
+                back: view.cardBack
+                shadow: view.cardShadow
+                picture: place.picture
+                up: place.up
+                // Closed cards step back while a tap would not count; found ones for good.
+                opacity: place.found ? 0.6 : view.board.speaking && !place.up ? 0.72 : 1
+                Behavior on opacity { NumberAnimation { duration: Theme.motion } }
+                scale: tap.pressed && view.board.open && !place.up ? 0.95 : 1
+            }
+            Rectangle {
+                anchors.fill: parent
+                anchors.margins: parent.width * 0.03
+                radius: Theme.radius * 1.4
+                color: "transparent"
+                border { color: Theme.ink; width: 5 * Theme.unit }
+                visible: cards.activeFocus && cards.currentIndex === place.index && cards.byKeyboard
+            }
+            TapHandler {
+                id: tap
+                gesturePolicy: TapHandler.ReleaseWithinBounds
+                onTapped: view.board.tap(place.index)
+            }
+            HoverHandler {
+                cursorShape: !view.board.open ? Qt.WaitCursor : place.up ? Qt.ArrowCursor : Qt.PointingHandCursor
+            }
+        }
+        property bool byKeyboard: false
+        Keys.onPressed: byKeyboard = true
+    }
+}

@@ -1,0 +1,52 @@
+// What the assistant says, to be read: as long as the sentence stands, so does the bubble.
+import QtQuick
+import QtQuick.Shapes
+import "."
+
+Item {
+    id: bubble
+
+    required property string sentence
+
+    opacity: sentence === "" ? 0 : 1
+    Behavior on opacity { NumberAnimation { duration: Theme.motion } }
+
+    // The last sentence stays in the bubble while it fades.
+    onSentenceChanged: if (sentence !== "") words.text = sentence
+
+    Rectangle {
+        id: box
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: 34 * Theme.unit }
+        height: words.height + 2 * Theme.gap
+        radius: Theme.radius
+        color: Theme.white
+        border.color: Theme.sea
+        border.width: 4 * Theme.unit
+
+        Text {
+            id: words
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap }
+            font.pixelSize: Theme.body
+            lineHeight: 1.12
+            color: Theme.ink
+            wrapMode: Text.WordWrap
+            Accessible.role: Accessible.AlertMessage
+            Accessible.name: text
+        }
+    }
+    Shape {
+        anchors { top: box.bottom; topMargin: -5 * Theme.unit; horizontalCenter: parent.horizontalCenter }
+        width: 60 * Theme.unit
+        height: 38 * Theme.unit
+        ShapePath {
+            fillColor: Theme.white
+            strokeColor: Theme.sea
+            strokeWidth: 4 * Theme.unit
+            joinStyle: ShapePath.RoundJoin
+            capStyle: ShapePath.FlatCap
+            startX: 4 * Theme.unit; startY: 3 * Theme.unit
+            PathLine { x: 30 * Theme.unit; y: 34 * Theme.unit }
+            PathLine { x: 56 * Theme.unit; y: 3 * Theme.unit }
+        }
+    }
+}

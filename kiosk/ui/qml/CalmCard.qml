@@ -1,0 +1,56 @@
+// A calm word over everything: a title, a line, and perhaps one button.
+import QtQuick
+import "."
+
+Rectangle {
+    id: calm
+
+    required property string title
+    required property string line
+    property string button: ""
+    signal confirmed()
+
+    color: "#D9FBF6EC"
+
+    // Whatever lies below cannot be reached.
+    MouseArea { anchors.fill: parent; hoverEnabled: true }
+
+    Rectangle {
+        anchors.centerIn: parent
+        width: Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
+        height: content.height + 5 * Theme.gap
+        radius: Theme.radius
+        color: Theme.white
+        border { color: Theme.sea; width: 4 * Theme.unit }
+        Column {
+            id: content
+            anchors.centerIn: parent
+            width: parent.width - 4 * Theme.gap
+            spacing: 1.5 * Theme.gap
+            Text {
+                width: parent.width
+                text: calm.title
+                font { pixelSize: Theme.heading; bold: true }
+                color: Theme.ink
+                horizontalAlignment: Text.AlignHCenter
+                wrapMode: Text.WordWrap
+            }
+            Text {
+                width: parent.width
+                text: calm.line
+                font.pixelSize: Theme.body
+                color: Theme.faintInk
+                horizontalAlignment: Text.AlignHCenter
+                wrapMode: Text.WordWrap
+            }
+            BigButton {
+                objectName: "still-here"
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.button !== ""
+                text: calm.button
+                focus: true
+                onClicked: calm.confirmed()
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+// The one window: a screen on the left, the assistant on the right, and at times a calm word over both.
+import QtQuick
+import QtQuick.Window
+import Recollect
+import "."
+
+Window {
+    id: root
+
+    required property KioskScreen kiosk
+    required property AttractScreen attract
+    required property IntroductionScreen introduction
+    required property BoardScreen board
+    required property ResultScreen result
+    required property QuestionScreen question
+    required property AvatarScreen avatar
+    required property var words
+    required property url cardBack
+    required property url cardShadow
+    required property real textSize
+    required property int motion
+
+    readonly property bool wide: width >= height
+
+    width: 1920
+    height: 1080
+    color: Theme.paper
+    title: "Recollect"
+
+    // A visitor cannot close it: only what the experimenter does sets leaving.
+    onClosing: close => close.accepted = kiosk.leaving
+
+    Binding {
+        target: Theme
+        property: "unit"
+        value: root.wide ? Math.min(root.width / 1920, root.height / 1080)
+                         : Math.min(root.width / 1080, root.height / 1920)
+    }
+    Binding { target: Theme; property: "textSize"; value: root.textSize }
+    Binding { target: Theme; property: "motion"; value: root.motion }
+
+    Shortcut {
+        sequence: "Ctrl+Shift+Q"
+        context: Qt.ApplicationShortcut
+        onActivated: root.kiosk.leave()
+    }
+
+    Item {
+        id: stage
+        width: root.wide ? root.width * 0.715 : root.width
+        height: root.wide ? root.height : root.height * 0.64
+
+        AttractView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "attract"
+            attract: root.attract
+            words: root.words
+            cardBack: root.cardBack
+            cardShadow: root.cardShadow
+        }
+        IntroductionView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "introduction"
+            introduction: root.introduction
+            attract: root.attract
+            words: root.words
+            cardBack: root.cardBack
+            cardShadow: root.cardShadow
+        }
+        BoardView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "game"
+            board: root.board
+            cardBack: root.cardBack
+            cardShadow: root.cardShadow
+        }
+        ResultView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "result"
+            result: root.result
+            words: root.words
+        }
+        QuestionView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "questions"
+            question: root.question
+            words: root.words
+        }
+    }
+    SidePanel {
+        x: root.wide ? stage.width : root.width * 0.12
+        y: root.wide ? 0 : stage.height
+        width: root.wide ? root.width - stage.width - Theme.gap : root.width * 0.76
+        height: root.wide ? root.height : root.height - stage.height
+        avatar: root.avatar
+    }
+    CalmCard {
+        anchors.fill: parent
+        visible: root.kiosk.asksStillThere
+        title: root.words["still-there-title"]
+        line: root.words["still-there-line"]
+        button: root.words["still-there-yes"]
+        onConfirmed: root.kiosk.confirm()
+    }
+    CalmCard {
+        anchors.fill: parent
+        visible: root.kiosk.screen === "pause"
+        title: root.words["pause-title"]
+        line: root.words["pause-line"]
+    }
+}

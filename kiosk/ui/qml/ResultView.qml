@@ -1,0 +1,66 @@
+// What the visitor achieved: three numbers, large.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+
+Item {
+    id: view
+
+    required property ResultScreen result
+    required property var words
+
+    component Figure: Column {
+        id: figure
+        property string value
+        property string label
+        width: 300 * Theme.unit
+        Text {
+            anchors.horizontalCenter: parent.horizontalCenter
+            text: figure.value
+            font { pixelSize: Theme.title; bold: true }
+            color: Theme.sea
+        }
+        Text {
+            anchors.horizontalCenter: parent.horizontalCenter
+            text: figure.label
+            font.pixelSize: Theme.body
+            color: Theme.faintInk
+        }
+    }
+
+    Column {
+        anchors.centerIn: parent
+        spacing: 3 * Theme.gap
+
+        Text {
+            anchors.horizontalCenter: parent.horizontalCenter
+            text: view.words["result-title"]
+            font { pixelSize: Theme.title; bold: true }
+            color: Theme.ink
+        }
+        Rectangle {
+            anchors.horizontalCenter: parent.horizontalCenter
+            width: figures.width + 4 * Theme.gap
+            height: figures.height + 4 * Theme.gap
+            radius: Theme.radius
+            color: Theme.white
+            border.color: Theme.sand
+            border.width: 3 * Theme.unit
+            Row {
+                id: figures
+                anchors.centerIn: parent
+                Figure { value: view.result.pairs; label: view.words["result-pairs-label"] }
+                Figure { value: view.result.moves; label: view.words["result-moves-label"] }
+                Figure { value: view.result.time; label: view.words["result-time-label"]; width: 420 * Theme.unit }
+            }
+        }
+        BigButton {
+            objectName: "continue"
+            anchors.horizontalCenter: parent.horizontalCenter
+            text: view.words["result-continue"]
+            focus: true
+            onClicked: view.result.proceed()
+        }
+    }
+}

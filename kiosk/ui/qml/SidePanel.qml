@@ -1,0 +1,27 @@
+// The assistant's place beside every screen: its face, and above it what it says.
+import QtQuick
+import Recollect
+import "."
+
+Item {
+    id: panel
+
+    required property AvatarScreen avatar
+
+    Bubble {
+        anchors { left: parent.left; right: parent.right; bottom: face.top; bottomMargin: 4 * Theme.unit }
+        sentence: panel.avatar.bubble
+    }
+    Avatar {
+        id: face
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom }
+        width: Math.min(parent.width - 40 * Theme.unit, parent.height * 0.52 * 400 / 440)
+        height: width * 440 / 400
+        mood: panel.avatar.mood
+        mouth: panel.avatar.mouth
+        gazeX: panel.avatar.gazeX
+        gazeY: panel.avatar.gazeY
+        blinking: panel.avatar.blinking
+        motion: Theme.motion * 1.5
+    }
+}

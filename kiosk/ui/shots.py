@@ -1,0 +1,87 @@
+"""Pictures of a sitting: the first time that each kind of moment comes, what the window shows is saved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from PySide6.QtQuick import QQuickWindow
+
+from kiosk import BadInput
+from kiosk.study import commands as do
+from kiosk.study.commands import Command
+from kiosk.ui.clock import Clock
+
+
+class Shots:
+    """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
+
+    def __init__(self, window: QQuickWindow, folder: Path, clock: Clock, settle_ms: int) -> None:
+        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more.
+
+        Raises BadInput if the folder cannot be made.
+        """
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {error.strerror}") from error
+        self._window = window
+        self._folder = folder
+        self._clock = clock
+        self._settle_ms = settle_ms
+        self._taken: list[str] = []
+
+    def watch(self, commands: tuple[Command, ...]) -> None:
+        """Take a picture if these commands were the first to bring their moment."""
+        for moment in _moments(commands):
+            if moment not in self._taken:
+                self._taken.append(moment)
+                self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
+
+    def take(self, moment: str) -> None:
+        """Take a picture of what is shown now."""
+        self._taken.append(moment)
+        self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
+
+    def _take_when_settled(self, name: str) -> None:
+        if self._settle_ms == 0:
+            self._save(name)
+        else:
+            self._clock.after(self._settle_ms, lambda: self._save(name))
+
+    def _save(self, name: str) -> None:
+        file = self._folder / name
+        if not self._window.grabWindow().save(str(file)):
+            raise BadInput(f"the picture {file} cannot be written")
+
+
+_NAMES: dict[type[Command], str] = {
+    do.ShowIntroduction: "introduction",
+    do.ShowBoard: "board",
+    do.TurnUp: "card",
+    do.ShowPair: "pair",
+    do.ShowResult: "result",
+    do.ShowAnswer: "answer",
+}
+
+
+def _moments(commands: tuple[Command, ...]) -> Iterable[str]:
+    """What these commands have brought, in names for files."""
+    for command in commands:
+        match command:
+            case do.HoldBoard(wait=wait):
+                yield wait.value.replace("_", "-")
+            case do.ShowMark(row=row, column=column):
+                yield _mark(row, column)
+            case do.Express(mood=mood):
+                yield mood.value
+            case do.ShowQuestion(number=number):
+                yield f"question-{number}"
+            case _ if type(command) in _NAMES:
+                yield _NAMES[type(command)]
+
+
+def _mark(row: int | None, column: int | None) -> str:
+    if column is None:
+        return "mark-row"
+    return "mark-column" if row is None else "mark-card"

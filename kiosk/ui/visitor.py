@@ -1,0 +1,87 @@
+"""A simulated visitor: looks at the screen, remembers some of it, and says which card it would turn next.
+
+It sees what anybody in front of the window sees, and plays as the memory player of the learning layer does: each card
+it saw is recalled with (1 - forgetting) ^ age, the age in flips, drawn anew for every move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from random import Random
+
+from kiosk.game import Position
+
+FORGETTING = 0.15
+FOLLOWING = 0.9
+"""How often it follows a hint; the study's people did in .86 (noToM) and .92 (ToM) of the cases."""
+THINKING_MS = (500, 1_600)
+
+
+@dataclass(frozen=True)
+class View:
+    """What can be seen of an open board: the closed cards, the picture of the first card if one is up, and the mark."""
+
+    closed: tuple[Position, ...]
+    first: str | None
+    mark_row: int | None
+    mark_column: int | None
+
+    @property
+    def marked(self) -> tuple[Position, ...]:
+        """The closed cards that the mark leaves to choose from; none without a mark."""
+        if self.mark_row is None and self.mark_column is None:
+            return ()
+        return tuple(p for p in self.closed if self.mark_row in (None, p.row) and self.mark_column in (None, p.column))
+
+
+class Visitor:
+    """One visitor, for one sitting; everything it does follows from ``rng`` and what it sees."""
+
+    def __init__(self, rng: Random) -> None:
+        """Remember nothing yet."""
+        self._rng = rng
+        self._seen: dict[Position, tuple[str, int]] = {}
+        self._flips = 0
+
+    def think(self) -> int:
+        """How long it thinks before it clicks, in ms."""
+        return self._rng.randint(*THINKING_MS)
+
+    def answer(self, points: int) -> int:
+        """Its answer to a question, from 1."""
+        return self._rng.randint(1, points)
+
+    def choose(self, view: View) -> Position:
+        """The closed card that it turns next."""
+        self._flips += 1
+        recalled = self._recall(view.closed)
+        choice = view.marked if view.marked and self._rng.random() < FOLLOWING else view.closed
+        wanted = _mates(view.first, recalled) if view.first else _pairs(recalled)
+        return self._rng.choice(
+            [p for p in choice if p in wanted] or [p for p in choice if p not in recalled] or list(choice)
+        )
+
+    def see(self, shown: dict[Position, str]) -> None:
+        """Look at the open cards."""
+        for position, picture in shown.items():
+            self._seen[position] = (picture, self._flips)
+
+    def _recall(self, closed: Collection[Position]) -> dict[Position, str]:
+        """The closed cards that it recalls just now."""
+        return {
+            position: picture
+            for position, (picture, flip) in self._seen.items()
+            if position in closed and self._rng.random() < (1 - FORGETTING) ** (self._flips - flip)
+        }
+
+
+def _mates(first: str, recalled: dict[Position, str]) -> set[Position]:
+    """Where the open card's mate is believed to lie."""
+    return {position for position, picture in recalled.items() if picture == first}
+
+
+def _pairs(recalled: dict[Position, str]) -> set[Position]:
+    """The cards of pairs that are believed to be known."""
+    pictures = list(recalled.values())
+    return {position for position, picture in recalled.items() if pictures.count(picture) > 1}
