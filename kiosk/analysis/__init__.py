@@ -1,0 +1,1 @@
+"""Offline: tests, effect sizes, figures and the report. Only here may matplotlib and scipy be used."""

@@ -1,0 +1,131 @@
+"""Policy files: those that are shipped, writing one whole or not at all, and what can be said about a table.
+
+What a table must do to be the paper's policy stands here as checks; how well it does so is for simulation.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import kiosk
+from kiosk import BadInput
+from kiosk.assistant.gate import Gate
+from kiosk.assistant.mdp import STATES, Action, Outcome, Phase, State
+from kiosk.assistant.qtable import QTable
+
+SHIPPED = ("default", "study-like", "no-help")
+"""The names of the tables that come with the program."""
+NONE = "none"
+"""The name of no policy at all."""
+
+
+def shelf() -> Path:
+    """Where the shipped tables lie: inside the installed package, or beside it in a checkout."""
+    package = Path(kiosk.__file__).parent
+    inside = package / "policies"
+    return inside if inside.is_dir() else package.parent / "policies"
+
+
+def find(name: str) -> QTable:
+    """A table by the name of a shipped one, by ``none``, or by its path; raises PolicyError with one sentence."""
+    if name == NONE:
+        return blank()
+    return QTable.load(shelf() / f"{name}.json" if name in SHIPPED else Path(name))
+
+
+def blank() -> QTable:
+    """The table that never helps."""
+    return QTable.freeze(NONE, Gate(), [[0.0] * len(Action) for _ in STATES], {})
+
+
+def write(path: Path, content: str | bytes) -> None:
+    """Put a file in its place whole, or raise BadInput and leave what was there untouched."""
+    beside = path.with_name(f".{path.name}.{os.getpid()}.new")
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        with beside.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            beside.unlink()
+        raise BadInput(f"{path} cannot be written: {error.strerror}") from error
+
+
+def visits(policy: QTable) -> dict[State, int]:
+    """How often each state asked for a decision in training, for those that did; empty where the file does not say."""
+    counts = policy.training.get("visits", {})
+    return {state: counts[state.label] for state in STATES if state.label in counts}
+
+
+def helped(policy: QTable) -> list[State]:
+    """The states in which the table helps."""
+    return [state for state in STATES if policy.action(state) is not Action.NO_HELP]
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two tables side by side, over the states that both have visited (all, where a file does not say)."""
+
+    compared: tuple[State, ...]
+    different: tuple[State, ...]
+    largest: float
+    """The largest difference of two values, over the compared states."""
+
+    @property
+    def agreement(self) -> float:
+        """The share of the compared states with the same greedy action; 1 where nothing can be compared."""
+        return 1 - len(self.different) / len(self.compared) if self.compared else 1.0
+
+
+def compare(one: QTable, other: QTable) -> Comparison:
+    """Compare the greedy actions and the values of two tables."""
+    both = [state for state in STATES if _known(one, state) and _known(other, state)]
+    different = [state for state in both if one.action(state) is not other.action(state)]
+    gaps = [abs(a - b) for state in both for a, b in zip(one.row(state), other.row(state), strict=True)]
+    return Comparison(tuple(both), tuple(different), max(gaps, default=0.0))
+
+
+def _known(policy: QTable, state: State) -> bool:
+    known = visits(policy)
+    return not known or state in known
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """One sentence of the paper about its policy, and whether a table does so."""
+
+    text: str
+    holds: bool
+
+
+def sentences(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[Sentence, ...]:
+    """The paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
+    levels = {phase: _level(policy, [s for s in STATES if s.game is phase and _known(policy, s)]) for phase in Phase}
+    well = _firsts(policy, Outcome.F_CORRECT)
+    wrong = _firsts(policy, Outcome.F_WRONG)
+    falls = levels[Phase.BEGINNING] >= levels[Phase.MIDDLE] >= levels[Phase.END]
+    return (
+        Sentence(
+            "on the first card it does not step in while the player does well", policy.gate.patience > 0 or not well
+        ),
+        Sentence("on the first card it helps once mistakes have been made", wrong > 0),
+        Sentence(
+            "it helps more at the beginning and less as pairs are found",
+            falls and levels[Phase.BEGINNING] > levels[Phase.END],
+        ),
+        Sentence("it helps more often on the second card", hint_rate_second > hint_rate_first),
+    )
+
+
+def _firsts(policy: QTable, outcome: Outcome) -> float:
+    return _level(policy, [state for state in STATES if state.outcome is outcome and _known(policy, state)])
+
+
+def _level(policy: QTable, states: list[State]) -> float:
+    return sum(policy.action(state).level for state in states)

@@ -1,0 +1,127 @@
+"""The rewards, by name: what the robot is paid for after each flip. docs/learning.md gives the reasons and the limits.
+
+A reward sees one flip and nothing else of the game; only the released one keeps a purse between flips.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+from kiosk.game.board import CARDS_IN_A_PAIR
+from kiosk.training.kernel import (
+    FIRST,
+    FLIPS,
+    HELP,
+    LAST_MATCH,
+    NO_HELP,
+    NOWHERE,
+    PAIRS_FOUND,
+    PHASES,
+    SUG_CARD,
+    Floats,
+    Ints,
+    phase,
+    rule,
+)
+
+
+class Reward(Enum):
+    """What the robot is paid for."""
+
+    RETRIEVAL = "retrieval"
+    """What the player retrieves: a match, less a share for one hint, nothing when the second card was given away."""
+    PAPER = "paper"
+    """The paper's formulas, literally."""
+    RELEASED = "released"
+    """What the authors' released program was observed to pay."""
+
+
+RETRIEVAL, PAPER, RELEASED = range(3)
+REWARDS = (Reward.RETRIEVAL, Reward.PAPER, Reward.RELEASED)
+
+WEIGHTS = (10.0, 0.1, 0.2, 0.025)
+"""The paper's a, by action: no help, column, row, card."""
+RISES = (0.4, 0.2, 0.1, 0.3)
+"""What a first-card decision adds to the released program's purse, by action."""
+PURSE = 0.4
+"""What lies in the released program's purse at the start."""
+PAID_FROM, FIRST_PAID_FROM = 5, 10
+"""The flip since the last match from which the purse is paid; the second while no pair has been found."""
+COST = 5
+"""The default reward's price of one hint is a share (COST - g) / (2 nf) of the match."""
+
+
+class Flip(NamedTuple):
+    """One flip as a reward sees it; ``nf`` is the number of flips since the last match, this one included.
+
+    ``second`` is 1 for a second card, ``before`` the help with the flip before it, ``g`` 3, 2, 1 by phase, ``early``
+    1 while no pair had been found.
+    """
+
+    second: int
+    before: int
+    action: int
+    nf: int
+    g: int
+    early: int
+
+
+@rule
+def coming(game: Ints, action: int) -> Flip:
+    """The next flip of ``game``, with this help."""
+    second = 0 if game[FIRST] == NOWHERE else 1
+    early = 1 if game[PAIRS_FOUND] == 0 else 0
+    return Flip(second, game[HELP], action, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
+
+
+@rule
+def pay(reward: int, flip: Flip, matched: int, purse: Floats) -> float:
+    """What this flip is worth."""
+    if reward == PAPER:
+        return weighed(flip)
+    if reward == RETRIEVAL:
+        return retrieved(flip) if matched == 1 else 0.0
+    return released(flip, matched, purse)
+
+
+@rule
+def hints(flip: Flip) -> int:
+    """How many of the two cards of a move were hinted, before its second card is flipped."""
+    return (0 if flip.before == NO_HELP else 1) + (0 if flip.action == NO_HELP else 1)
+
+
+@rule
+def retrieved(flip: Flip) -> float:
+    """How much of a match was the player's own: all of it without a hint, a share of it with one, none with two."""
+    if hints(flip) == 0:
+        return 1.0
+    if hints(flip) == CARDS_IN_A_PAIR or flip.action == SUG_CARD:
+        return 0.0
+    return 1.0 - (COST - flip.g) / (2.0 * flip.nf)
+
+
+@rule
+def weighed(flip: Flip) -> float:
+    """The paper's formulas: a / nf on a first card, a / (nf g) without help on a second, a nf g with help."""
+    if flip.second == 0:
+        return WEIGHTS[flip.action] / flip.nf
+    if flip.action == NO_HELP:
+        return WEIGHTS[flip.action] / (flip.nf * flip.g)
+    return WEIGHTS[flip.action] * (flip.nf * flip.g)
+
+
+@rule
+def released(flip: Flip, matched: int, purse: Floats) -> float:
+    """A purse that grows on first cards and is paid out in full; the paper's formula for a match with one hint at most.
+
+    A match, or a miss after a first-card hint, sets the purse back.
+    """
+    if flip.second == 0:
+        if flip.nf < (FIRST_PAID_FROM if flip.early == 1 else PAID_FROM):
+            return 0.0
+        purse[0] += RISES[flip.action]
+        return purse[0]
+    if matched == 1 or flip.before != NO_HELP:
+        purse[0] = PURSE
+    return 0.0 if matched == 0 or hints(flip) == CARDS_IN_A_PAIR else weighed(flip)

@@ -1,0 +1,261 @@
+"""Whole games under a frozen table, thousands of them, and the study's measures over them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from kiosk import BadInput
+from kiosk.assistant.mdp import Action
+from kiosk.assistant.mentaliser import TargetRule
+from kiosk.assistant.qtable import QTable
+from kiosk.training.kernel import (
+    ACTIONS,
+    COLUMNS,
+    ENDLESS,
+    FIRST,
+    FLIPS,
+    HELP,
+    NO_HELP,
+    NOWHERE,
+    PAIRS,
+    PAIRS_FOUND,
+    SUG_CARD,
+    SUG_COL,
+    TARGET,
+    Floats,
+    Ints,
+    deal,
+    flip,
+    floats,
+    ints,
+    is_open,
+    mark_candidates,
+    new_game,
+    pick,
+    plan,
+    rule,
+    state,
+)
+from kiosk.training.players import Player, choose, prepare
+
+# One game's tally, in whole numbers.
+T_FLIPS, T_FIRST, T_SECOND, T_COL, T_ROW, T_CARD, T_FOLLOWED_FIRST, T_FOLLOWED_SECOND, T_LED = range(9)
+TALLY = 9
+BATCH = 500
+"""Games, or episodes, between two looks at the progress bar and the keyboard."""
+Z95 = 1.959964
+"""Half the width of a normal 95 % interval, in standard errors."""
+
+Progress = Callable[[int], None]
+"""Told, now and then, how many games or episodes have been played so far."""
+
+
+class Table(NamedTuple):
+    """A game, all that plays it, and its tally, as the rules read them."""
+
+    game: Ints
+    plan: Ints
+    player: Ints
+    odds: Floats
+    tally: Ints
+
+
+def lay(player: Player, policy_plan: Ints, seed: int) -> Table:
+    """A table with a player at it; the games that follow are fixed by ``seed``."""
+    if seed < 0:
+        raise BadInput(f"the seed must be 0 or more, not {seed}")
+    numbers, odds = player.numbers()
+    return Table(new_game(seed), policy_plan, ints(numbers), floats(odds), ints([0] * TALLY))
+
+
+@rule
+def greedy(q: Floats, row: int) -> int:
+    """The action with the highest value; ties go to the lowest, as ``QTable.action``."""
+    best = 0
+    for action in range(1, ACTIONS):
+        if q[row * ACTIONS + action] > q[row * ACTIONS + best]:
+            best = action
+    return best
+
+
+@rule
+def follows(action: int, target: int, place: int) -> bool:
+    """Whether flipping ``place`` follows the hint; as ``Hint.followed_by``."""
+    if action == SUG_COL:
+        return place % COLUMNS == target % COLUMNS
+    if action == SUG_CARD:
+        return place == target
+    return place // COLUMNS == target // COLUMNS
+
+
+@rule
+def start(table: Table) -> None:
+    """Deal, and begin a new tally."""
+    deal(table.game)
+    prepare(table.game, table.odds)
+    for entry in range(TALLY):
+        table.tally[entry] = 0
+
+
+@rule
+def take(table: Table, action: int) -> int:
+    """Give the help, let the player flip, and count; 1 if the flip completes a match."""
+    game, tally = table.game, table.tally
+    second = game[FIRST] != NOWHERE
+    target = pick(game, mark_candidates(game, table.plan[TARGET])) if action != NO_HELP else NOWHERE
+    place = choose(game, table.player, table.odds, action, target)
+    game[HELP] = action
+    tally[T_FLIPS] += 1
+    if action != NO_HELP:
+        tally[T_SECOND if second else T_FIRST] += 1
+        tally[T_COL + action - SUG_COL] += 1
+        if follows(action, target, place):
+            tally[T_FOLLOWED_SECOND if second else T_FOLLOWED_FIRST] += 1
+    return 1 if flip(game, place) else 0
+
+
+@rule
+def playing(game: Ints) -> bool:
+    """Whether the game goes on."""
+    return game[PAIRS_FOUND] < PAIRS and game[FLIPS] < ENDLESS
+
+
+@rule
+def play(table: Table, q: Floats) -> None:
+    """One game under the frozen table."""
+    start(table)
+    followed, led = 0, False
+    while playing(table.game):
+        action = greedy(q, state(table.game)) if is_open(table.game, table.plan) else NO_HELP
+        matched = take(table, action)
+        if table.game[FIRST] != NOWHERE:
+            led = table.tally[T_FOLLOWED_FIRST] > followed
+            followed = table.tally[T_FOLLOWED_FIRST]
+        elif led:
+            table.tally[T_LED] += matched
+
+
+@rule
+def play_all(table: Table, q: Floats, tallies: Ints) -> None:
+    """As many games as there is room for in ``tallies``."""
+    for row in range(0, len(tallies), TALLY):
+        play(table, q)
+        for entry in range(TALLY):
+            tallies[row + entry] = table.tally[entry]
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A mean, the standard deviation (ddof = 1), and a normal 95 % interval of the mean: mean +- 1.96 sd / sqrt(n)."""
+
+    mean: float
+    sd: float
+    ci95: tuple[float, float]
+
+    @classmethod
+    def of(cls, values: list[float]) -> Spread:
+        """The spread of at least two numbers."""
+        mean = math.fsum(values) / len(values)
+        sd = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (len(values) - 1))
+        half = Z95 * sd / math.sqrt(len(values))
+        return cls(mean, sd, (mean - half, mean + half))
+
+
+@dataclass(frozen=True, slots=True)
+class Games:
+    """What came of many games: one tally a game, in the order in which they were played."""
+
+    tallies: tuple[tuple[int, ...], ...]
+
+    def each(self, entry: int) -> list[float]:
+        """One number of every game."""
+        return [float(tally[entry]) for tally in self.tallies]
+
+    def total(self, *entries: int) -> int:
+        """The sum of some numbers over all games."""
+        return sum(tally[entry] for tally in self.tallies for entry in entries)
+
+    @property
+    def flips(self) -> Spread:
+        """Flips a game."""
+        return Spread.of(self.each(T_FLIPS))
+
+    @property
+    def moves(self) -> Spread:
+        """Moves a game, of two flips each."""
+        return Spread.of([flips / 2 for flips in self.each(T_FLIPS)])
+
+    @property
+    def assistance(self) -> Spread:
+        """Assistance per flip: the levels of all hints (column .5, row 1, card 2) over the flips of a game."""
+        return Spread.of([_levels(tally) / tally[T_FLIPS] for tally in self.tallies])
+
+    @property
+    def first_card_hints(self) -> Spread:
+        """First-card hints a game."""
+        return Spread.of(self.each(T_FIRST))
+
+    def measures(self) -> dict[str, Any]:
+        """All measures as ``recollect simulate --json`` names them; rates are over all games, None without hints."""
+        moves = self.total(T_FLIPS) / 2
+        first, both = self.total(T_FIRST), self.total(T_FIRST, T_SECOND)
+        followed = self.total(T_FOLLOWED_FIRST), self.total(T_FOLLOWED_FIRST, T_FOLLOWED_SECOND)
+        return {
+            "games": len(self.tallies),
+            "moves": _plain(self.moves),
+            "flips": _plain(self.flips),
+            "assistance_per_flip": _plain(self.assistance),
+            "first_card_hints_per_game": _plain(self.first_card_hints),
+            "hint_rate": {"first": first / moves, "second": self.total(T_SECOND) / moves},
+            "followed": {"first": _share(followed[0], first), "all": _share(followed[1], both)},
+            "led_to_match": _share(self.total(T_LED), first),
+        }
+
+
+def _levels(tally: tuple[int, ...]) -> float:
+    helps = Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD
+    return sum(tally[T_COL + action - SUG_COL] * action.level for action in helps)
+
+
+def _plain(spread: Spread) -> dict[str, Any]:
+    return {"mean": spread.mean, "sd": spread.sd, "ci95": list(spread.ci95)}
+
+
+def _share(part: int, whole: int) -> float | None:
+    return part / whole if whole else None
+
+
+def simulate(  # noqa: PLR0913, PLR0917 - an experiment is all of these
+    policy: QTable, player: Player, target: TargetRule, games: int, seed: int, progress: Progress = lambda _: None
+) -> Games:
+    """Play ``games`` games (2 or more) of ``player`` helped by ``policy``; fixed by ``seed``.
+
+    Raises BadInput if there are too few games, or a game does not end.
+    """
+    if games < 2:  # noqa: PLR2004 - a spread needs two
+        raise BadInput(f"there must be at least 2 games, not {games}")
+    table = lay(player, plan(policy.gate, target), seed)
+    q = floats([value for row in policy.values for value in row])
+    tallies: list[tuple[int, ...]] = []
+    while len(tallies) < games:
+        tallies.extend(_batch(table, q, min(BATCH, games - len(tallies))))
+        progress(len(tallies))
+    return Games(tuple(tallies))
+
+
+def _batch(table: Table, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
+    tallies = ints([0] * (games * TALLY))
+    play_all(table, q, tallies)
+    numbers = [int(number) for number in tallies]
+    for row in range(0, len(numbers), TALLY):
+        refuse_endless(numbers[row + T_FLIPS])
+        yield tuple(numbers[row : row + TALLY])
+
+
+def refuse_endless(flips: int) -> None:
+    """Refuse, with BadInput, a game that was given up."""
+    if flips >= ENDLESS:
+        raise BadInput(f"this player does not finish: a game was given up after {ENDLESS:,} flips")

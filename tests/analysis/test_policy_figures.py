@@ -1,0 +1,32 @@
+"""The figures of the learning layer are drawn from the numbers, and the same numbers give the same file."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from kiosk.analysis.policy_figures import distributions, heat_map
+from kiosk.assistant.mdp import STATES, Action
+from kiosk.cli.evidence import Sample
+from tests.samples import always, policy_that
+
+
+def test_the_heat_map_names_the_action_of_every_state() -> None:
+    drawn = heat_map(always(Action.SUG_ROW), {}, "svg").decode()
+    assert drawn.count(">row</text>") == 48
+
+
+def test_states_that_were_never_met_carry_a_dot() -> None:
+    drawn = heat_map(policy_that(lambda _: Action.SUG_COL), dict.fromkeys(STATES[:10], 1), "svg").decode()
+    assert drawn.count(">column</text>") == 10
+    assert drawn.count(">·</text>") == 38
+
+
+def test_the_same_numbers_give_the_same_file() -> None:
+    table = always(Action.SUG_CARD)
+    assert heat_map(table, {}, "svg") == heat_map(table, {}, "svg")
+    samples = [Sample(label, (20.0, 21.5, 23.0), (22.0, 1.0)) for label in ("one", "two", "three")]
+    assert distributions(samples, "svg") == distributions(samples, "svg")
+    assert distributions(samples, "png").startswith(b"\x89PNG")
+    assert all(label in distributions(samples, "svg").decode() for label in ("one", "two", "three"))

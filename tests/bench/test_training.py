@@ -1,0 +1,93 @@
+"""How fast games are played and episodes learnt: the kernel against the reference loop, and from nothing to a table.
+
+Run them alone, on a quiet machine: ``pytest tests/bench/test_training.py --benchmark-columns=mean,ops``. "ops" is per
+call; the number of games or episodes in a call is in the name, and the rate in ``extra_info`` of ``--benchmark-json``.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from kiosk.assistant.mentaliser import TargetRule
+from kiosk.training import policies
+from kiosk.training.kernel import COMPILED
+from kiosk.training.learning import RECIPES, Learner
+from kiosk.training.players import MemoryPlayer
+from kiosk.training.rewards import Reward
+from kiosk.training.simulation import simulate
+from tests.training.reference import WithMemory, learn, play
+
+Benchmark = Any
+MANY = 20_000 if COMPILED else 1_000
+FEW = 50
+KERNEL = "compiled" if COMPILED else "plain"
+
+
+def measured(benchmark: Benchmark, what: Callable[[], object], number: int, rounds: int = 5) -> None:
+    """Time ``what``, once warm, and note its rate."""
+    benchmark.pedantic(what, rounds=rounds, warmup_rounds=1)
+    if benchmark.stats is not None:
+        benchmark.extra_info["a second"] = round(number / benchmark.stats.stats.mean)
+
+
+def games(number: int) -> None:
+    """Games of the memory player under the default table."""
+    simulate(policies.find("default"), MemoryPlayer((0.2, 0.2)), TargetRule.MOST_FLIPPED, number, 1)
+
+
+def episodes(number: int) -> None:
+    """Episodes of the default recipe."""
+    Learner(replace(RECIPES[Reward.RETRIEVAL], episodes=number)).study()
+
+
+def reference_games() -> None:
+    """The same games, one by one on the real rooms."""
+    table, rng = policies.find("default"), Random(1)
+    for _ in range(FEW):
+        play(table, WithMemory(0.2, rng), TargetRule.MOST_FLIPPED, rng)
+
+
+@pytest.mark.benchmark(group="games")
+def test_games_of_the_kernel(benchmark: Benchmark) -> None:
+    measured(benchmark, lambda: games(MANY), MANY)
+
+
+@pytest.mark.benchmark(group="games")
+def test_games_of_the_reference(benchmark: Benchmark) -> None:
+    measured(benchmark, reference_games, FEW)
+
+
+@pytest.mark.benchmark(group="episodes")
+def test_episodes_of_the_kernel(benchmark: Benchmark) -> None:
+    measured(benchmark, lambda: episodes(MANY), MANY)
+
+
+@pytest.mark.benchmark(group="episodes")
+def test_episodes_of_the_reference(benchmark: Benchmark) -> None:
+    measured(benchmark, lambda: learn(FEW, Random(1)), FEW)
+
+
+@pytest.mark.benchmark(group="from nothing to the default table")
+@pytest.mark.parametrize("how", ["first time ever", "compiled before", "without numba"])
+def test_from_nothing_to_the_default_table(benchmark: Benchmark, tmp_path: Path, how: str) -> None:
+    out = tmp_path / "default.json"
+    plain = "1" if how == "without numba" else "0"
+    environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache"), "NUMBA_DISABLE_JIT": plain}
+    command = [sys.executable, "-m", "kiosk", "train", "--name", "default", "--out", str(out)]
+
+    def train() -> None:
+        subprocess.run(command, check=True, capture_output=True, env=environment)
+
+    if how == "compiled before":
+        train()
+    benchmark.pedantic(train, rounds=1)
+    assert out.read_bytes() == (policies.shelf() / "default.json").read_bytes()
