@@ -36,12 +36,18 @@ class Mentaliser:
 
     def target(self, game: Concentration) -> Target:
         """The card that a hint for the coming flip of ``game`` points at; some card must still be closed."""
-        card = Card.coming(game)
-        candidates = self._candidates(game) if game.first_card is None else (game.board.mate(game.first_card),)
-        position = self._rng.choice(candidates)
+        return self.pointing_at(self._rng.choice(self.candidates(game)), game)
+
+    def candidates(self, game: Concentration) -> tuple[Position, ...]:
+        """Every card that the rule could choose for the coming flip of ``game``, row by row."""
+        return self._candidates(game) if game.first_card is None else (game.board.mate(game.first_card),)
+
+    def pointing_at(self, position: Position, game: Concentration) -> Target:
+        """What there is to say of a hint that points at this card."""
         mate = game.board.mate(position)
         seen, mate_seen = game.history.count(position), game.history.count(mate)
-        return Target(position, mate, seen, mate_seen, Reason.of(card, mate_seen, seen), candidates)
+        reason = Reason.of(Card.coming(game), mate_seen, seen)
+        return Target(position, mate, seen, mate_seen, reason, self.candidates(game))
 
 
 def _mates_of_the_most_flipped(game: Concentration) -> tuple[Position, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,6 +23,8 @@ DECIMALS = 6
 """Values are frozen to this many decimals: readable, and the same to the last digit on every machine."""
 
 _ACTIONS = [action.label for action in Action]
+_KEYS = {"format", "name", "gate", "training", "actions", "values", "sha256"}
+_LARGEST = sys.float_info.max
 
 
 class PolicyError(BadInput):
@@ -65,14 +67,18 @@ class QTable:
     def load(cls, path: Path) -> Self:
         """Read a policy file; raises PolicyError with one sentence about what is wrong."""
         try:
-            document = json.loads(path.read_text("utf-8"))
-            return cls._of(document)
+            return cls.from_json(path.read_text("utf-8"))
         except OSError as error:
             raise PolicyError(f"the policy file {path} cannot be read: {error.strerror}") from error
-        except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
             raise PolicyError(f"the policy file {path} is not JSON: {error}") from error
         except ValueError as error:
             raise PolicyError(f"the policy file {path} cannot be used: {error}") from error
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The table that ``to_json`` wrote; raises ValueError saying what is wrong with it."""
+        return cls._of(json.loads(text, object_pairs_hook=said_once))
 
     def to_json(self) -> str:
         """The text of the policy file, with one line per state so that the eye can run down the columns."""
@@ -97,17 +103,32 @@ class QTable:
     def _of(cls, document: Any) -> Self:
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise ValueError(f'it is not of the format "{FORMAT}"')
-        missing = {"name", "gate", "training", "actions", "values", "sha256"} - document.keys()
+        missing, foreign = _KEYS - document.keys(), document.keys() - _KEYS
         if missing:
             raise ValueError(f"it lacks {' and '.join(sorted(missing))}")
+        if foreign:
+            raise ValueError(f"it has a key that no policy has: {min(foreign)!r}")
         if document["actions"] != _ACTIONS:
             raise ValueError(f"its actions are {document['actions']}, but the assistant has {_ACTIONS}")
-        values = _values(document["values"])
-        # The hash comes last: a file whose shape is wrong deserves the better sentence. It is taken over the file's
-        # own content, so that nothing can be added to a file unseen.
-        if document["sha256"] != _hash({key: value for key, value in document.items() if key != "sha256"}):
+        if not isinstance(document["name"], str):
+            raise ValueError(f"its name must be text, not {document['name']!r}")
+        if not isinstance(document["training"], dict):
+            raise ValueError(f"its training must say by name how it was made, not {document['training']!r}")
+        table = cls(document["name"], _gate(document["gate"]), _values(document["values"]), document["training"])
+        # The hash comes last: a file whose shape is wrong deserves the better sentence.
+        if document["sha256"] != table.sha256:
             raise ValueError("its sha256 does not fit its content, so it was changed after it was made")
-        return cls(str(document["name"]), _gate(document["gate"]), values, document["training"])
+        return table
+
+
+def said_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """JSON takes the last of two equal keys; a person who reads the file takes the first, so there may be no two."""
+    said: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in said:
+            raise ValueError(f"it says {key!r} twice")
+        said[key] = value
+    return said
 
 
 def _hash(document: Mapping[str, Any]) -> str:
@@ -132,7 +153,7 @@ def _row(state: State, row: Any) -> tuple[float, ...]:
     if not isinstance(row, list) or len(row) != len(Action):
         raise ValueError(f"state {state.label!r} must have {len(Action)} values, one per action, not {row!r}")
     for action, value in zip(Action, row, strict=True):
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -_LARGEST <= value <= _LARGEST:
             raise ValueError(f"the value of {action.label} in state {state.label!r} is {value!r}, not a finite number")
     return tuple(float(value) for value in row)
 

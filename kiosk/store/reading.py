@@ -13,10 +13,16 @@ import sqlite_utils
 from filelock import FileLock, Timeout
 
 from kiosk import BadInput
+from kiosk.assistant.qtable import QTable
+from kiosk.assistant.wording import Catalogue
+from kiosk.settings import Settings
 from kiosk.store.database import open_for_reading
 from kiosk.store.recorder import LOCK
+from kiosk.study.condition import Condition
 from kiosk.study.events import Event, Status, from_record
 from kiosk.study.measures import Measures, measure
+from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.session import Plan
 
 _MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")
 _SUMMARISED = (*_MEASURED, "SittingEnded")
@@ -73,6 +79,25 @@ class Archive:
         """Every event of a sitting."""
         return [_event(record) for record in self.records(number)]
 
+    def plan(self, number: int) -> Plan:
+        """What a sitting followed, from what was kept with it; raises BadInput if this program cannot read that."""
+        row = self._row(number)
+        try:
+            return Plan(
+                Settings.model_validate_json(self.source(row["settings_sha256"])),
+                Condition.named(row["condition"]),
+                QTable.from_json(self.source(row["policy_source"])),
+                Catalogue(Path(row["language"]), json.loads(self.source(row["sentences_source"]))),
+                Questionnaire.model_validate_json(self.source(row["questionnaire_source"])),
+                tuple(json.loads(row["deck"])),
+            )
+        except ValueError as error:
+            raise BadInput(f"what sitting {number} followed cannot be read: {error}") from error
+
+    def seed(self, number: int) -> int:
+        """The seed of a sitting, from which all its chance came."""
+        return int(self._row(number)["seed"])
+
     def source(self, sha256: str) -> str:
         """What is kept under a hash; raises BadInput if nothing is."""
         rows = self._database["source"].rows_where("sha256 = ?", [sha256])
@@ -115,6 +140,9 @@ def _in_use(folder: Path) -> bool:
             return False
     except Timeout:
         return True
+    except OSError:
+        # Where the lock cannot even be looked at, nobody can be writing.
+        return False
 
 
 def _event(record: dict[str, Any]) -> Event:

@@ -24,6 +24,10 @@ class Sentences(Protocol):
         """The sentence for one hint."""
         ...
 
+    def every(self, hint: Hint) -> tuple[str, ...]:
+        """All the sentences that there are for one hint."""
+        ...
+
 
 class Condition(Enum):
     """A cell of the design: a mentalised or a random target, an explanation given or withheld.

@@ -1,78 +1,80 @@
 ### What the assistant says with a hint. A message with several wordings gives them as attributes (.a, .b, ...); one is
-### chosen each time, never the same twice running. A reason must be true of what the player has seen, whichever of the
-### pair's two cards is pointed at; the place follows in a sentence of its own.
-### $card is the name of the animal as it stands under "Names of the cards".
-
-## Names of the cards
-
-card-bear = bear
-card-butterfly = butterfly
-card-cat = cat
-card-duck = duck
-card-elephant = elephant
-card-fish = fish
-card-frog = frog
-card-hedgehog = hedgehog
-card-ladybird = ladybird
-card-owl = owl
-card-rabbit = rabbit
-card-turtle = turtle
+### chosen each time, never the same twice running. The reason comes first, the place follows in a sentence of its own.
+###
+### A reason must be true of what the player has seen, whichever of the pair's two cards is pointed at. The classes
+### count how often a card was turned up: "often" is twice or more, so say "more than once" and not "again and again".
+### On a second card the open card's own flip, just made, is counted too. Say nothing of what the player remembers.
+### Write numbers as words: the only figures in a hint are the row and the column.
+###
+### $card is the name of the picture as it stands in cards.ftl.
 
 ## Reasons before a first card: one card of a pair, and the other
 
+# Neither card of the pair was ever turned up.
 reason-first-nothing-known =
     .a = Let us look somewhere new.
     .b = Here is a pair that you have not met yet.
     .c = There is a pair still waiting to be seen for the first time.
+# One card was turned up once, the other never.
 reason-first-one-seen-once =
     .a = You have seen one { $card } card once, and the other one not yet.
-    .b = One { $card } card has been up once; the second is still unseen.
-    .c = You met one { $card } card, but not the other.
+    .b = One { $card } card has been up once; the other is still unseen.
+    .c = You have met one { $card } card once, but not the other.
+# Both were turned up once.
 reason-first-both-seen-once =
     .a = You have seen both { $card } cards, each of them once.
     .b = Both { $card } cards have been up once already.
-    .c = You met the two { $card } cards once each.
+    .c = You have met the two { $card } cards once each.
+# One was turned up twice or more, the other never.
 reason-first-often-and-never =
-    .a = You keep meeting one { $card } card, and the other one you have never seen.
-    .b = One { $card } card has been up more than once, the other not at all.
-    .c = You know one { $card } card quite well by now, but not the other one.
+    .a = You have seen one { $card } card more than once, and the other one never.
+    .b = One { $card } card has been up at least twice, the other not at all.
+    .c = You have turned up the same { $card } card more than once, but never the other one.
+# One was turned up twice or more, the other once.
 reason-first-often-and-once =
-    .a = You have seen one { $card } card more than once, and the other one once.
-    .b = One { $card } card comes up again and again; the other you saw just once.
-    .c = One { $card } card should be familiar to you, the other you only met once.
+    .a = You have seen one { $card } card more than once, and the other one just once.
+    .b = One { $card } card has been up at least twice, the other only once.
+    .c = You have met one { $card } card more than once, and the other a single time.
+# Both were turned up twice or more.
 reason-first-both-often =
     .a = You have seen both { $card } cards more than once.
-    .b = Both { $card } cards have been up more than once by now.
-    .c = You keep meeting the two { $card } cards.
+    .b = Both { $card } cards have been up at least twice by now.
+    .c = You have met each of the two { $card } cards more than once.
 
 ## Reasons before a second card: the open card, and its partner
 
+# The open card is up for the first time; its partner was never turned up.
 reason-second-first-sight =
-    .a = This { $card } is new, and its partner has not been seen yet either.
+    .a = This { $card } card is new, and its partner has not been seen yet either.
     .b = This { $card } card is up for the first time, and its partner is still unseen.
-    .c = You have met neither this { $card } card nor its partner before.
+    .c = You had not met this { $card } card before, nor its partner.
+# The open card is up for the first time; its partner was turned up once.
 reason-second-both-seen-once =
     .a = This { $card } card is new, but you have seen its partner once.
-    .b = You saw another { $card } card once before.
-    .c = You already met the other { $card } card one time.
+    .b = You have seen the other { $card } card once before.
+    .c = You have already met the partner of this { $card } card, one time.
+# The open card was turned up before; its partner never.
 reason-second-often-and-never =
     .a = You have seen this { $card } card before, but never its partner.
-    .b = This { $card } card is an old friend; its partner is still hiding.
-    .c = You know this { $card } card already. Its partner has not been up yet.
+    .b = This { $card } card was up before; its partner has not been up yet.
+    .c = You have met this { $card } card already. Its partner is still unseen.
+# The open card was turned up before; its partner once.
 reason-second-often-and-once =
     .a = You have seen this { $card } card before, and its partner once.
-    .b = This { $card } card was up before, and its partner showed up once.
-    .c = You know this { $card } card, and you met its partner one time.
+    .b = This { $card } card was up before, and its partner has been up once.
+    .c = You have met this { $card } card already, and its partner one time.
+# The open card is up for the first time; its partner was turned up twice or more.
 reason-second-open-once-mate-often =
     .a = This { $card } card is new, but you have seen its partner more than once.
     .b = You have met the other { $card } card more than once.
-    .c = The partner of this { $card } card is an old friend of yours.
+    .c = The partner of this { $card } card has been up at least twice.
+# The open card was turned up before; its partner twice or more.
 reason-second-both-often =
     .a = You have seen both { $card } cards more than once.
     .b = You have met this { $card } card and its partner more than once each.
-    .c = You keep meeting these two { $card } cards.
+    .c = This { $card } card and its partner have both been up at least twice.
 
-## Places
+## Places: a sentence may also stand alone, without a reason before it
 
 point-first-column =
     .a = Try a card in column { $column }.
@@ -88,13 +90,13 @@ point-first-card =
     .c = I would turn the card in row { $row }, column { $column }.
 point-second-column =
     .a = The partner is in column { $column }.
-    .b = Look for it in column { $column }.
+    .b = Look for its partner in column { $column }.
     .c = You will find the match in column { $column }.
 point-second-row =
     .a = The partner is in row { $row }.
-    .b = Look for it in row { $row }.
+    .b = Look for its partner in row { $row }.
     .c = You will find the match in row { $row }.
 point-second-card =
     .a = The partner is in row { $row }, column { $column }.
-    .b = Look for it in row { $row }, column { $column }.
+    .b = Look for its partner in row { $row }, column { $column }.
     .c = You will find the match in row { $row }, column { $column }.

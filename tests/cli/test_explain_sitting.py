@@ -1,0 +1,179 @@
+"""A decision of a stored sitting comes out as it was decided then, from nothing but what was recorded."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk import BadInput
+from kiosk.assistant.gate import Gate
+from kiosk.cli.front import main
+from kiosk.store.database import FILE
+from kiosk.store.moments import explained
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.condition import Condition
+from kiosk.study.events import AssistanceDecided, CardFlipped, HintGiven
+from kiosk.study.session import Session
+from tests.samples import mixed, plan
+from tests.study.driver import Driver, at_random, notes
+
+SEED = 5
+
+
+def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) -> Driver:
+    """A game played to its end, and on the disk."""
+    followed = plan(condition, mixed(SEED, Gate()), **settings)
+    driver = Driver(followed, SEED)
+    driver.to_the_game()
+    driver.play(at_random(SEED))
+    with Recorder(folder) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    return driver
+
+
+@pytest.mark.parametrize("condition", [condition for condition in Condition if condition.value != "no_assistance"])
+def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: Condition) -> None:
+    driver = stored(tmp_path, condition)
+    given = {hint.flip: hint for hint in driver.noted(HintGiven)}
+    with archive(tmp_path) as sittings:
+        for then in driver.noted(AssistanceDecided)[::5]:
+            now = explained(sittings, 1, then.flip)
+            assert (now.decision.action, now.decision.verdict) == (then.action, then.gate)
+            assert (now.decision.state.game, now.decision.state.last) == (then.game, then.last)
+            assert now.decision.state.outcome is then.outcome
+            hint = given.get(then.flip)
+            assert now.said == (hint.sentence if hint else None)
+            assert hint is None or hint.target in now.candidates
+            assert hint is None or hint.sentence in now.sentences
+    assert len(given) > 10
+
+
+def test_the_other_target_rule_is_followed_too(tmp_path: Path) -> None:
+    driver = stored(tmp_path, assistance={"target_rule": "most_recent"})
+    with archive(tmp_path) as sittings:
+        for hint in driver.noted(HintGiven)[::5]:
+            assert explained(sittings, 1, hint.flip).candidates == (hint.target,)
+
+
+def test_the_plan_of_a_sitting_is_kept_whole(tmp_path: Path) -> None:
+    driver = stored(tmp_path)
+    with archive(tmp_path) as sittings:
+        kept, seed = sittings.plan(1), sittings.seed(1)
+    assert seed == SEED
+    assert (kept.settings, kept.condition, kept.policy) == (
+        *(driver.plan.settings, driver.plan.condition),
+        driver.plan.policy,
+    )
+    assert (kept.questionnaire, kept.deck) == (driver.plan.questionnaire, driver.plan.deck)
+    assert kept.catalogue.sources == driver.plan.catalogue.sources
+
+
+def test_a_session_on_the_kept_plan_says_the_same_again(tmp_path: Path) -> None:
+    driver = stored(tmp_path)
+    with archive(tmp_path) as sittings:
+        session = Session(sittings.plan(1), sittings.seed(1))
+    again = [note for event in driver.world for note in notes(session.handle(event))]
+    assert again == [note for step in driver.steps for note in notes(step.commands)]
+
+
+def test_where_nobody_helped_the_state_is_told_all_the_same(tmp_path: Path) -> None:
+    stored(tmp_path, Condition.NO_ASSISTANCE)
+    with archive(tmp_path) as sittings:
+        told = explained(sittings, 1, 30).to_json()
+        assert (told["action"], told["targets"], told["target"]) == ("no_help", [], None)
+        with pytest.raises(BadInput, match="nothing was decided about a flip 400"):
+            explained(sittings, 1, 400)
+
+
+def test_a_flip_that_never_came_is_refused(tmp_path: Path) -> None:
+    flips = len(stored(tmp_path).noted(CardFlipped))
+    with (
+        archive(tmp_path) as sittings,
+        pytest.raises(BadInput, match=f"sitting 1 has {flips} flips; nothing was decided about a flip 400"),
+    ):
+        explained(sittings, 1, 400)
+
+
+def test_a_sitting_without_a_game_is_refused(tmp_path: Path) -> None:
+    followed = plan()
+    driver = Driver(followed, SEED)
+    driver.start()
+    with Recorder(tmp_path) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    with archive(tmp_path) as sittings, pytest.raises(BadInput, match="in sitting 1 no board was dealt"):
+        explained(sittings, 1, 1)
+
+
+def tamper(folder: Path, statement: str) -> None:
+    """Change a record in spite of everything."""
+    connection = sqlite3.connect(folder / FILE)
+    with connection:
+        connection.execute("DROP TRIGGER event_is_never_updated")
+        connection.execute(statement)
+    connection.close()
+
+
+@pytest.mark.parametrize("change", ["'$.action', 'no_help'", "'$.gate', 'opening'", "'$.last', 'sug_card'"])
+def test_a_record_that_does_not_follow_from_the_others_is_found_out(tmp_path: Path, change: str) -> None:
+    flip = stored(tmp_path).noted(HintGiven)[0].flip
+    tamper(
+        tmp_path,
+        f"UPDATE event SET body = json_set(body, {change}) "  # noqa: S608 - a test's own words
+        f"WHERE type = 'AssistanceDecided' AND body ->> '$.flip' = {flip}",
+    )
+    with archive(tmp_path) as sittings, pytest.raises(BadInput, match=f"flip {flip} of sitting 1 comes out otherwise"):
+        explained(sittings, 1, flip)
+
+
+@pytest.mark.parametrize("change", ["'$.seen', 9", "'$.sentence', 'Look there.'", "'$.reason', 'nothing-known'"])
+def test_a_hint_that_does_not_follow_from_the_flips_is_found_out(tmp_path: Path, change: str) -> None:
+    flip = stored(tmp_path).noted(HintGiven)[0].flip
+    tamper(tmp_path, f"UPDATE event SET body = json_set(body, {change}) WHERE type = 'HintGiven'")  # noqa: S608
+    with archive(tmp_path) as sittings, pytest.raises(BadInput, match=f"flip {flip} of sitting 1 comes out otherwise"):
+        explained(sittings, 1, flip)
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
+    """Call the command line in this process; returns its exit code."""
+    monkeypatch.setattr(sys, "argv", ["recollect", "explain", *map(str, arguments)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    return ended.value.code if isinstance(ended.value.code, int) else 0
+
+
+def test_the_command_line_tells_a_stored_decision(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hint = stored(tmp_path).noted(HintGiven)[0]
+    assert run(monkeypatch, 1, "--flip", hint.flip, "--data", tmp_path, "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["said"] == hint.sentence
+    assert told["target"]["location"] == 6 * hint.target.row + hint.target.column
+    assert told["counts"] == {"target": hint.seen, "other": hint.mate_seen}
+    assert run(monkeypatch, 1, "--flip", hint.flip, "--data", tmp_path) == 0
+    assert f"said       {hint.sentence}\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("sitting", "sentence"),
+    [("2", "there is no sitting 2"), ("one", "a stored sitting goes by its number, not by 'one'")],
+)
+def test_a_sitting_that_is_not_there_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], sitting: str, sentence: str
+) -> None:
+    stored(tmp_path)
+    assert run(monkeypatch, sitting, "--flip", 1, "--data", tmp_path) == 2
+    assert capsys.readouterr().err == f"recollect: {sentence}\n"
+
+
+def test_a_folder_without_a_database_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, 1, "--flip", 1, "--data", tmp_path) == 2
+    assert capsys.readouterr().err == f"recollect: there is no database in {tmp_path}\n"

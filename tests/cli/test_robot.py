@@ -1,0 +1,105 @@
+"""``recollect robot`` tries a robot step by step and says what it found; ``rehearse`` plays a sitting with one."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from kiosk.cli.front import recollect
+from tests.robot.furhat_fake import FurhatFake, Mode
+from tests.robot.realtime_fake import RealtimeFake
+
+
+def tried(*arguments: object) -> tuple[int, dict[str, Any]]:
+    """The exit code and the object of ``recollect robot --json``."""
+    result = CliRunner().invoke(recollect, ["robot", "--json", *map(str, arguments)])
+    return result.exit_code, json.loads(result.stdout)
+
+
+def steps(found: dict[str, Any]) -> dict[str, str]:
+    """What every step found."""
+    return {step["step"]: step["found"] for step in found["steps"]}
+
+
+def test_a_robot_that_is_well_does_every_step() -> None:
+    with FurhatFake(character_ms=2) as fake:
+        code, found = tried(
+            "--host", "127.0.0.1", "--port", fake.port, "--language", "it", "--say", "Ciao & buongiorno"
+        )
+    assert (code, found["works"], found["kind"]) == (0, True, "furhat")
+    assert steps(found)["a voice for it"] == "Bianca (it-IT)"
+    assert steps(found)["people it sees"] == "1"
+    assert "BigSmile" in steps(found)["its gestures"]
+    assert fake.sentences == ["Ciao buongiorno"]
+    assert fake.refusals == []
+    said = next(step for step in found["steps"] if step["step"] == "says the sentence")
+    assert said["ms"] >= 30
+
+
+def test_it_is_told_for_people_as_well() -> None:
+    with FurhatFake() as fake:
+        result = CliRunner().invoke(recollect, ["robot", "--host", "127.0.0.1", "--port", str(fake.port)])
+    assert result.exit_code == 0
+    assert "yes looks confused" in result.stdout
+
+
+def test_a_robot_that_is_not_there_is_asked_nothing_further() -> None:
+    with FurhatFake() as fake:
+        pass
+    code, found = tried("--host", "127.0.0.1", "--port", fake.port)
+    assert (code, found["works"]) == (1, False)
+    assert "cannot be reached" in steps(found)["is it there"]
+    assert list(steps(found)) == ["is it there", "ready to speak"]
+
+
+def test_a_robot_without_the_language_says_what_it_has() -> None:
+    with FurhatFake() as fake:
+        code, found = tried("--host", "127.0.0.1", "--port", fake.port, "--language", "fi")
+    assert code == 1
+    assert "has no voice of the language (fi: it has en-GB" in steps(found)["a voice for fi"]
+
+
+def test_the_realtime_api_is_tried_as_well() -> None:
+    with RealtimeFake() as fake:
+        code, found = tried("--host", "127.0.0.1", "--port", fake.port, "--realtime", "--say", "Hello")
+    assert (code, found["kind"]) == (0, "furhat-realtime")
+    assert fake.sentences == ["Hello"]
+
+
+def test_the_study_file_says_where_the_robot_is(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text("", "utf-8")
+    result = CliRunner().invoke(recollect, ["robot", "--study", str(study)])
+    assert "the study file names no robot" in str(result.exception)
+    with FurhatFake() as fake:
+        study.write_text(
+            f'language = "es"\n[robot]\nkind = "furhat"\nhost = "127.0.0.1"\nport = {fake.port}\n', "utf-8"
+        )
+        code, _ = tried("--study", study)
+    assert (code, fake.voice) == (0, "Lucia")
+
+
+@pytest.mark.parametrize(("mode", "changes"), [(Mode.WELL, 0), (Mode.RESET, 1)], ids=["well", "fails"])
+def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(tmp_path: Path, mode: Mode, changes: int) -> None:
+    with FurhatFake(character_ms=0.2) as fake:
+        fake.arm(mode, path="/furhat/say", after=4)
+        robot = ["--robot-host", "127.0.0.1", "--robot-port", str(fake.port)]
+        command = [sys.executable, "-m", "kiosk", "rehearse", "--headless", "--json", "--data", str(tmp_path), *robot]
+        played = json.loads(subprocess.run(command, capture_output=True, check=True, timeout=60).stdout)
+    assert (played["status"], played["body"], played["body_changes"]) == ("completed", "furhat", changes)
+    counted = played["utterances"]
+    assert counted["requested"] == counted["finished"] + counted["shown_only"]
+    assert counted["failed"] == changes
+    assert played["longest_gap_ms"] > 0
+
+
+def test_a_rehearsal_with_a_robot_has_no_other_speed(tmp_path: Path) -> None:
+    arguments = ["rehearse", "--headless", "--speed", "5", "--robot-host", "127.0.0.1", "--data", str(tmp_path)]
+    result = CliRunner().invoke(recollect, arguments)
+    assert "a robot speaks at its own speed" in str(result.exception)
