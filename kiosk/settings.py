@@ -8,20 +8,51 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, PositiveFloat, PositiveInt, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    NonNegativeInt,
+    PositiveFloat,
+    PositiveInt,
+    ValidationError,
+    field_validator,
+)
 
 from kiosk import BadInput
 
 
-class _Section(BaseModel):
-    """A part of the study file: unchangeable once read, and a key that does not exist is refused."""
+class Declared(BaseModel):
+    """Something that is declared in a TOML file, in whole or in part.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    It is unchangeable once read; a key that does not exist is refused, and so is a value that would have to be bent.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+    file_kind: ClassVar[str] = "file"
+    """What such a file is called in a refusal."""
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """Read a file; raises BadInput with one sentence that names the file, and the key if it is about one."""
+        try:
+            return cls.model_validate(tomllib.loads(path.read_text("utf-8")))
+        except OSError as error:
+            raise BadInput(f"the {cls.file_kind} {path} cannot be read: {error.strerror}") from error
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise BadInput(f"the {cls.file_kind} {path} is not TOML: {error}") from error
+        except ValidationError as error:
+            first = error.errors()[0]
+            key = ".".join(str(part) for part in first["loc"])
+            raise BadInput(
+                f"the {cls.file_kind} {path}: {key}: {first['msg']}, but it is {first['input']!r}"
+            ) from error
 
 
-class Timing(_Section):
+class Timing(Declared):
     """When things happen in a sitting; all times in milliseconds."""
 
     turn_back: Annotated[PositiveInt, Field(description="How long two unmatched cards stay open.")] = 1200
@@ -52,7 +83,7 @@ class Timing(_Section):
         return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
 
 
-class Game(_Section):
+class Game(Declared):
     """The board."""
 
     rows: Annotated[PositiveInt, Field(description="Rows of the board.")] = 4
@@ -60,7 +91,7 @@ class Game(_Section):
     deck: Annotated[str, Field(description="The folder of assets/cards that holds the pictures.")] = "animals"
 
 
-class Assistance(_Section):
+class Assistance(Declared):
     """Who helps, and how."""
 
     condition: Annotated[str, Field(description="Which help the next visitor gets: tom, notom, or another cell.")] = (
@@ -70,25 +101,101 @@ class Assistance(_Section):
     target_rule: Annotated[
         Literal["most_flipped", "most_recent"], Field(description="Where a mentalised hint for a first card points.")
     ] = "most_flipped"
+    step: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="How far one flip may move a value of the table within a sitting; 0 keeps it frozen.",
+        ),
+    ] = 0.0
 
 
-class Voice(_Section):
+class Voice(Declared):
     """The avatar's voice."""
 
     enabled: Annotated[bool, Field(description="Whether sentences are spoken as well as shown.")] = True
     rate: Annotated[int, Field(ge=80, le=300, description="How fast it speaks, in words per minute.")] = 150
     volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
+    sounds: Annotated[
+        bool, Field(description="Whether cards are heard: quiet sounds, never while somebody speaks.")
+    ] = True
 
 
-class Screen(_Section):
+class Screen(Declared):
     """The window."""
 
     text_size: Annotated[PositiveFloat, Field(le=2, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
 
 
-class Settings(_Section):
+class Robot(Declared):
+    """The robot that speaks in the avatar's place, if there is one; all times in milliseconds, all lengths in metres.
+
+    ``board_middle`` and ``board_size`` are told as the robot sees them: sideways, up, and forward.
+    """
+
+    kind: Annotated[
+        Literal["none", "furhat", "furhat-realtime"], Field(description="Which robot, or none: the avatar alone.")
+    ] = "none"
+    host: Annotated[str, Field(description="Its name or address on the network.")] = "localhost"
+    port: Annotated[
+        int | None, Field(ge=1, le=65535, description="Its port; by default 54321, or 9000 for furhat-realtime.")
+    ] = None
+    key: Annotated[
+        str, Field(exclude=True, description="The key of the Realtime API, if it asks for one; never recorded.")
+    ] = ""
+    voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
+    connect_deadline: Annotated[PositiveInt, Field(description="The longest that reaching it may take.")] = 1000
+    answer_deadline: Annotated[PositiveInt, Field(description="The longest that any answer but speech may take.")] = (
+        1500
+    )
+    speech_deadline: Annotated[
+        PositiveInt, Field(description="The longest that it may take to say a sentence, per character.")
+    ] = 110
+    speech_deadline_least: Annotated[PositiveInt, Field(description="The same, whatever its length.")] = 3500
+    look_every: Annotated[PositiveInt, Field(description="While it speaks, how often to see if it still answers.")] = (
+        1000
+    )
+    probe_every: Annotated[PositiveInt, Field(description="Between sittings, how often to see if it is well.")] = 10_000
+    retry_first: Annotated[PositiveInt, Field(description="The first pause before a lost robot is tried again.")] = 2000
+    retry_longest: Annotated[PositiveInt, Field(description="The longest such pause; each is twice the last.")] = (
+        120_000
+    )
+    gestures: Annotated[bool, Field(description="Whether it shows moods with its face.")] = True
+    attend: Annotated[bool, Field(description="Whether it looks at the player, and at the hinted place.")] = True
+    axes: Annotated[
+        str,
+        Field(
+            pattern=r"^-?[xyz] -?[xyz] -?[xyz]$",
+            description="Its axes for sideways (the visitor's right), up and forward, each with a minus if reversed.",
+        ),
+    ] = "x y z"
+    board_middle: Annotated[
+        tuple[float, float, float],
+        Field(strict=False, description="Where the middle of the board is, seen from its eyes."),
+    ] = (0.4, -0.2, 0.5)
+    board_size: Annotated[
+        tuple[PositiveFloat, PositiveFloat],
+        Field(strict=False, description="How wide and how high the board is on the screen."),
+    ] = (0.4, 0.25)
+
+    @field_validator("axes")
+    @classmethod
+    def _name_every_axis(cls, axes: str) -> str:
+        if {axis[-1] for axis in axes.split()} != {"x", "y", "z"}:
+            raise ValueError("each of x, y and z must be named once")
+        return axes
+
+    def speech_time(self, sentence: str) -> int:
+        """How long it may take to say a sentence, in ms."""
+        return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+
+
+class Settings(Declared):
     """Everything that one study may set."""
+
+    file_kind = "study file"
 
     language: Annotated[str, Field(description="The folder of assets/sentences.")] = "en"
     questionnaire: Annotated[str, Field(description="The file of assets/questionnaires, without its ending.")] = (
@@ -98,21 +205,8 @@ class Settings(_Section):
     assistance: Assistance = Assistance()
     timing: Timing = Timing()
     voice: Voice = Voice()
+    robot: Robot = Robot()
     screen: Screen = Screen()
-
-    @classmethod
-    def read(cls, path: Path) -> Self:
-        """Read a study file (TOML); raises BadInput with a sentence that names the key."""
-        try:
-            return cls.model_validate(tomllib.loads(path.read_text("utf-8")))
-        except OSError as error:
-            raise BadInput(f"the study file {path} cannot be read: {error.strerror}") from error
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise BadInput(f"the study file {path} is not TOML: {error}") from error
-        except ValidationError as error:
-            first = error.errors()[0]
-            key = ".".join(str(part) for part in first["loc"])
-            raise BadInput(f"the study file {path}: {key}: {first['msg']}, but it is {first['input']!r}") from error
 
     @property
     def sha256(self) -> str:

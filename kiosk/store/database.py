@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
+from contextlib import closing
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -29,10 +30,11 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         _refuse_foreign_or_newer(path)
         connection = sqlite3.connect(path, isolation_level=None)
-        _migrate(connection)
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = FULL")
-        connection.execute("PRAGMA foreign_keys = ON")
+        try:
+            _prepare(connection)
+        except BaseException:
+            connection.close()
+            raise
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
     except sqlite3.Error as error:
@@ -47,13 +49,28 @@ def open_for_reading(folder: Path) -> sqlite3.Connection:
         raise BadInput(f"there is no database in {folder}")
     try:
         _refuse_foreign_or_newer(path)
-        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
-        connection.execute("SELECT 1 FROM migration")
+        connection = _read_only(path)
+        try:
+            connection.execute("SELECT 1 FROM migration")
+        except sqlite3.Error:
+            connection.close()
+            raise
     except OSError as error:
         raise BadInput(f"the database {path} cannot be read: {error.strerror}") from error
     except sqlite3.Error as error:
         raise BadInput(f"the database {path} cannot be read: {error}") from error
     return connection
+
+
+def _read_only(path: Path) -> sqlite3.Connection:
+    return sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
+
+
+def _prepare(connection: sqlite3.Connection) -> None:
+    _migrate(connection)
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("PRAGMA synchronous = FULL")
+    connection.execute("PRAGMA foreign_keys = ON")
 
 
 def _refuse_foreign_or_newer(path: Path) -> None:
@@ -65,6 +82,10 @@ def _refuse_foreign_or_newer(path: Path) -> None:
     if not header.startswith(_MAGIC) or _number(header, _APPLICATION_ID_AT) != APPLICATION_ID:
         raise BadInput(f"{path} is not a Recollect database; it was left as it is")
     _refuse_newer(_number(header, _USER_VERSION_AT), path)
+    if path.with_name(f"{path.name}-wal").exists():
+        # A newer number may still stand in the write-ahead log alone; only a connection that may write would move it.
+        with closing(_read_only(path)) as connection:
+            _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
 
 
 def _refuse_newer(schema: int, path: Path) -> None:
@@ -81,8 +102,6 @@ def _number(header: bytes, at: int) -> int:
 def _migrate(connection: sqlite3.Connection) -> None:
     """Apply the steps that are missing, all or none of them."""
     schema: int = connection.execute("PRAGMA user_version").fetchone()[0]
-    # The header was looked at already, but a newer number may still have been in the write-ahead log.
-    _refuse_newer(schema, Path(connection.execute("PRAGMA database_list").fetchone()[2]))
     if schema == SCHEMA:
         return
     connection.execute("BEGIN IMMEDIATE")

@@ -78,6 +78,20 @@ MIGRATIONS: tuple[Migration, ...] = (
                 for table in ("event", "sitting", "source", "migration")
                 for deed in ("update", "delete")
             ),
+            # INSERT OR REPLACE deletes the row in its way without asking the triggers above.
+            *(
+                f"""
+                CREATE TRIGGER {table}_is_never_replaced BEFORE INSERT ON {table}
+                WHEN EXISTS (SELECT 1 FROM {table} WHERE {in_its_way})
+                BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+                """  # noqa: S608 - the names are ours
+                for table, in_its_way in (
+                    ("event", "sitting = NEW.sitting AND seq = NEW.seq"),
+                    ("sitting", "id = NEW.id"),
+                    ("source", "sha256 = NEW.sha256 AND content IS NOT NEW.content"),
+                    ("migration", "number = NEW.number"),
+                )
+            ),
         ),
     ),
 )

@@ -21,6 +21,7 @@ from kiosk.study.events import Event, SittingEnded, Status, WorldEvent, to_recor
 from kiosk.study.session import Plan
 
 LOCK = "recollect.lock"
+LOCK_WAIT_S = 1.0
 
 
 class StoreFailed(Exception):
@@ -46,13 +47,19 @@ class Recorder:
         self._connection = open_for_writing(folder)
         self._lock = FileLock(folder / LOCK)
         try:
-            self._lock.acquire(blocking=False)
+            # Whoever reads looks at the lock for a moment, and is no reason to give up.
+            self._lock.acquire(timeout=LOCK_WAIT_S)
         except Timeout as error:
             self._connection.close()
             raise BadInput(f"another Recollect is writing in {folder}") from error
         self._sitting = 0
         self._next_seq = 1
-        self.recovered = self._mark_interrupted()
+        try:
+            with self._transaction():
+                self.recovered = self._mark_interrupted()
+        except StoreFailed as error:
+            self._close()
+            raise BadInput(f"the data folder {folder} cannot be written: {error.__cause__}") from error
 
     def __enter__(self) -> Self:
         """The recorder itself."""
@@ -60,12 +67,15 @@ class Recorder:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the database and let others write."""
-        self._connection.close()
-        self._lock.release()
+        self._close()
 
     def begin(self, provenance: Provenance, events: Sequence[Event]) -> int:
-        """Write a sitting's row with its first events, in one transaction; returns its number."""
+        """Write a sitting's row with its first events, in one transaction; returns its number.
+
+        A sitting that never got its end, because the disk failed it, is marked as interrupted on the way.
+        """
         with self._transaction():
+            self._mark_interrupted()
             self._sitting = self._insert_sitting(provenance)
             self._insert_events(self._sitting, 1, events)
         self._next_seq = 1 + len(events)
@@ -77,6 +87,10 @@ class Recorder:
             self._insert_events(self._sitting, self._next_seq, events)
         self._next_seq += len(events)
 
+    def _close(self) -> None:
+        self._connection.close()
+        self._lock.release()
+
     @contextmanager
     def _transaction(self) -> Iterator[None]:
         try:
@@ -84,10 +98,11 @@ class Recorder:
             yield
             self._connection.execute("COMMIT")
         except sqlite3.Error as error:
-            # A full disk has already ended the transaction; then there is nothing left to roll back.
+            raise StoreFailed(f"what happened could not be written: {error}") from error
+        finally:
+            # Whatever went wrong, nothing of it stays; a full disk has already ended the transaction by itself.
             if self._connection.in_transaction:
                 self._connection.execute("ROLLBACK")
-            raise StoreFailed(f"what happened could not be written: {error}") from error
 
     def _insert_sitting(self, provenance: Provenance) -> int:
         plan = provenance.plan
@@ -150,4 +165,6 @@ def _type_and_body(event: Event) -> tuple[str, str]:
     record = to_record(event)
     kind = str(record.pop("type"))
     del record["at_ms"]
-    return kind, json.dumps(record, ensure_ascii=False, separators=(",", ":"))
+    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"))
+    # What the system says may hold lone surrogates, which no file can; written out, they are JSON's own escapes.
+    return kind, text.encode("utf-8", "backslashreplace").decode()

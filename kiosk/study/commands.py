@@ -13,7 +13,7 @@ from typing import Any
 from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk.game import Position
-from kiosk.study.events import SessionEvent, Status, Timer, json_converter
+from kiosk.study.events import BodyName, SessionEvent, Status, Timer, json_converter
 
 
 class Mood(Enum):
@@ -23,6 +23,8 @@ class Mood(Enum):
     HAPPY = "happy"
     CONFUSED = "confused"
     SAD = "sad"
+    THINKING = "thinking"
+    LISTENING = "listening"
 
 
 class Wait(Enum):
@@ -124,6 +126,13 @@ class Speak(Command):
 @dataclass(frozen=True)
 class StopSpeaking(Command):
     """Say no more of the sentence; it stays in the bubble."""
+
+
+@dataclass(frozen=True)
+class ChangeBody(Command):
+    """Have this body help from now on; the other one is not to be used again in this sitting."""
+
+    body: BodyName
 
 
 @dataclass(frozen=True)

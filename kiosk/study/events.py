@@ -12,7 +12,7 @@ from enum import Enum
 from functools import partial
 from typing import Any, ClassVar
 
-from cattrs import Converter
+from cattrs import BaseValidationError, Converter, transform_error
 from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk.assistant.gate import Verdict
@@ -51,6 +51,14 @@ class Status(Enum):
     COMPLETED = "completed"
     ABANDONED = "abandoned"
     INTERRUPTED = "interrupted"
+
+
+class BodyName(Enum):
+    """Who helps with voice and face."""
+
+    AVATAR = "avatar"
+    FURHAT = "furhat"
+    FURHAT_REALTIME = "furhat-realtime"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,6 +144,13 @@ class SpeechFailed(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class RobotLost(WorldEvent):
+    """The robot that was helping cannot be counted on any more in this sitting."""
+
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class KioskClosed(WorldEvent):
     """The program is being closed in the middle of a sitting."""
 
@@ -150,6 +165,22 @@ class StageEntered(SessionEvent):
     """The sitting went on to another stage."""
 
     stage: Stage
+
+
+@dataclass(frozen=True, kw_only=True)
+class SentenceRequested(SessionEvent):
+    """The body was asked to say a sentence that is no hint; a hint's sentence stands in HintGiven."""
+
+    utterance: int
+    sentence: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyChanged(SessionEvent):
+    """Another body helps from here on; the one at the start stands with the sitting."""
+
+    body: BodyName
+    why: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -225,6 +256,13 @@ class CardFlipped(SessionEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class TableAdapted(SessionEvent):
+    """The table that went on learning during this game came out of it with this hash; the file is as it was."""
+
+    sha256: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class GameFinished(SessionEvent):
     """Every pair was found and has been looked at."""
 
@@ -267,5 +305,8 @@ def to_record(event: Event) -> dict[str, Any]:
 
 
 def from_record(record: Mapping[str, Any]) -> Event:
-    """The event that ``to_record`` wrote; raises ValueError or KeyError for anything else."""
-    return _CONVERTER.structure(record, Event)
+    """The event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
+    try:
+        return _CONVERTER.structure(record, Event)
+    except (BaseValidationError, KeyError) as error:
+        raise ValueError("; ".join(transform_error(error, path="event"))) from error

@@ -132,16 +132,23 @@ class Play:
 
     def _move_completed(self, flip: Flip, given: _Given | None, script: Script) -> None:
         script.do(do.ShowProgress(self.game.pairs_found, self.game.moves))
-        if given is not None and given.hint.card is Card.SECOND:
+        if given is not None:
             script.do(do.Express(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood))
         if not flip.matched:
             script.do(do.HoldBoard(Wait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.turn_back))
             return
         script.do(do.ShowPair((flip.position, self.game.board.mate(flip.position))))
         if self.game.over:
-            script.do(do.StartTimer(Timer.FINISH, self._timing.finish))
+            self._finish(script)
         else:
             self._help_or_open(script)
+
+    def _finish(self, script: Script) -> None:
+        """Let the last pair be looked at; what was learnt from this game, if anything, is put on record."""
+        learnt = self._assistant.finish(self.game) if self._assistant else None
+        if learnt is not None:
+            script.note(happened.TableAdapted(at_ms=script.at_ms, sha256=learnt))
+        script.do(do.StartTimer(Timer.FINISH, self._timing.finish))
 
     def _help_or_open(self, script: Script) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""

@@ -2,43 +2,34 @@
 
 from __future__ import annotations
 
-import tomllib
-from pathlib import Path
-from typing import Annotated, Self
+from collections import Counter
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, field_validator
 
-from kiosk import BadInput
+from kiosk.settings import Declared
 
 
-class Item(BaseModel):
+class Item(Declared):
     """One question, answered on a scale from 1 to ``points``."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     id: str
     points: Annotated[int, Field(ge=2, le=11)]
 
 
-class Questionnaire(BaseModel):
+class Questionnaire(Declared):
     """Items in their order; ``version`` changes whenever one of them does."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    file_kind = "questionnaire"
 
     id: str
     version: str
-    items: Annotated[tuple[Item, ...], Field(min_length=1)]
+    items: Annotated[tuple[Item, ...], Field(min_length=1, strict=False)]
 
+    @field_validator("items")
     @classmethod
-    def read(cls, path: Path) -> Self:
-        """Read a questionnaire file (TOML); raises BadInput with a sentence that names what is wrong in it."""
-        try:
-            return cls.model_validate(tomllib.loads(path.read_text("utf-8")))
-        except OSError as error:
-            raise BadInput(f"the questionnaire {path} cannot be read: {error.strerror}") from error
-        except tomllib.TOMLDecodeError as error:
-            raise BadInput(f"the questionnaire {path} is not TOML: {error}") from error
-        except ValidationError as error:
-            first = error.errors()[0]
-            key = ".".join(str(part) for part in first["loc"])
-            raise BadInput(f"the questionnaire {path}: {key}: {first['msg']}, but it is {first['input']!r}") from error
+    def _name_every_item_once(cls, items: tuple[Item, ...]) -> tuple[Item, ...]:
+        twice = [name for name, count in Counter(item.id for item in items).items() if count > 1]
+        if twice:
+            raise ValueError(f"the item {twice[0]!r} stands twice")
+        return items

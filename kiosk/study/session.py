@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from itertools import count
 from random import Random
 
-from kiosk.assistant.assistant import Assistant
+from kiosk import BadInput
+from kiosk.assistant.adaptation import assistant_with
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue, Wording
@@ -20,7 +21,7 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Mood, Script
 from kiosk.study.condition import Condition, help_in
-from kiosk.study.events import Stage, Status, Timer, WorldEvent
+from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
 from kiosk.study.measures import Measures, measure
 from kiosk.study.play import Play
 from kiosk.study.questionnaire import Questionnaire
@@ -57,6 +58,8 @@ class Session:
         self._log: list[happened.SessionEvent] = []
         self._waiting: set[Timer] = set()
         self._asked_still_there = False
+        self._robot_lost = False
+        self._unsaid: do.Speak | None = None
         self._item = 0
         self._utterances = count(1)
         # One stream of chance for each purpose: two conditions with the same seed play the same board.
@@ -73,7 +76,7 @@ class Session:
         for step in (event, *script.notes):
             self._go_on_after(step, script)
         self._log.extend(script.notes)
-        self._keep_waits(script)
+        self._keep_track(script)
         return script.commands
 
     @property
@@ -83,10 +86,14 @@ class Session:
 
     def _prepare_play(self, deal: Random, targets: Random) -> Play:
         plan, game = self._plan, self._plan.settings.game
-        board = Board.deal(game.rows, game.columns, plan.deck, deal)
+        try:
+            board = Board.deal(game.rows, game.columns, plan.deck, deal)
+        except ValueError as error:
+            raise BadInput(f"no game can be dealt from the deck {game.deck!r}: {error}") from error
         rule = TargetRule(plan.settings.assistance.target_rule)
         given = help_in(plan.condition, rule, self._wording, targets)
-        assistant = Assistant(plan.policy, given.mentaliser) if given else None
+        step = plan.settings.assistance.step
+        assistant = assistant_with(plan.policy, given.mentaliser, step) if given else None
         return Play(board, assistant, given.sentences if given else None, self._timing, self._utterances)
 
     def _check(self, event: WorldEvent) -> None:
@@ -95,6 +102,8 @@ class Session:
             case happened.TimerEnded(timer=timer) if timer not in self._waiting:
                 raise UnexpectedEvent(self.stage, event)
             case happened.StillHereTapped() if not self._asked_still_there:
+                raise UnexpectedEvent(self.stage, event)
+            case happened.RobotLost() if self._robot_lost:
                 raise UnexpectedEvent(self.stage, event)
             case happened.AnswerGiven(item=item, value=value):
                 asked = self._plan.questionnaire.items[self._item]
@@ -113,12 +122,34 @@ class Session:
             case happened.TimerEnded(timer=timer):
                 self._waiting.discard(timer)
                 self._wait_ended(timer, script)
+            case happened.RobotLost(why=why):
+                self._go_on_without_robot(why, script)
+            case happened.SpeechStarted() | happened.SpeechFinished() | happened.SpeechFailed():
+                self._hear(event, script)
+
+    def _hear(self, event: WorldEvent, script: Script) -> None:
+        """What a body reports of a sentence."""
+        match event:
             case happened.SpeechStarted(utterance=utterance):
                 self._play.speech_started(utterance, script)
             case happened.SpeechFinished(utterance=utterance):
+                self._said(utterance)
                 self._play.speech_finished(utterance, script)
             case happened.SpeechFailed(utterance=utterance):
+                self._said(utterance)
                 self._play.speech_failed(utterance, script)
+
+    def _go_on_without_robot(self, why: str, script: Script) -> None:
+        """Have the avatar help; it says at once what the robot had not said to its end."""
+        self._robot_lost = True
+        script.note(happened.BodyChanged(at_ms=script.at_ms, body=BodyName.AVATAR, why=why))
+        script.do(do.ChangeBody(BodyName.AVATAR))
+        if self._unsaid is not None:
+            script.do(self._unsaid)
+
+    def _said(self, utterance: int) -> None:
+        if self._unsaid is not None and self._unsaid.utterance == utterance:
+            self._unsaid = None
 
     def _wait_ended(self, timer: Timer, script: Script) -> None:
         match timer:
@@ -134,10 +165,14 @@ class Session:
         """Start the idle time anew whenever somebody shows that they are there."""
         if not event.by_visitor:
             return
+        self._stop_asking(script)
+        self._start_idle(self.stage, script)
+
+    def _stop_asking(self, script: Script) -> None:
+        """Ask no longer whether somebody is there."""
         if self._asked_still_there:
             self._asked_still_there = False
             script.do(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
-        self._start_idle(self.stage, script)
 
     def _start_idle(self, stage: Stage, script: Script) -> None:
         after = self._timing.idle_game if stage is Stage.GAME else self._timing.idle
@@ -151,6 +186,7 @@ class Session:
         running = {*self._waiting, *(c.timer for c in script.deeds if isinstance(c, do.StartTimer))}
         script.do(do.StopSpeaking(), do.ClearBubble())
         script.do(*(do.StopTimer(timer) for timer in Timer if timer in running))
+        self._stop_asking(script)
         self.stage = stage
         script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
         if stage is Stage.OVER:
@@ -181,7 +217,7 @@ class Session:
         self._speak(self._wording.say(_remark(measures.moves), moves=measures.moves), script)
 
     def _first_question(self, script: Script) -> None:
-        script.do(do.Express(Mood.IDLE))
+        script.do(do.Express(Mood.LISTENING))
         self._ask(script)
 
     def _next_question(self, script: Script) -> None:
@@ -197,19 +233,25 @@ class Session:
         script.do(do.ShowQuestion(questionnaire.id, item.id, item.points, self._item + 1, len(questionnaire.items)))
 
     def _speak(self, sentence: str, script: Script) -> None:
-        script.do(do.Speak(next(self._utterances), sentence))
+        number = next(self._utterances)
+        script.note(happened.SentenceRequested(at_ms=script.at_ms, utterance=number, sentence=sentence))
+        script.do(do.Speak(number, sentence))
 
     def _end(self, status: Status, script: Script) -> None:
         script.note(happened.SittingEnded(at_ms=script.at_ms, status=status))
-        script.do(do.EndSitting(status))
+        script.do(do.Express(Mood.IDLE), do.EndSitting(status))
 
-    def _keep_waits(self, script: Script) -> None:
-        """Remember which waits are running, so that the end of any other can be refused."""
+    def _keep_track(self, script: Script) -> None:
+        """Remember which waits are running, so that the end of any other can be refused, and what is being said."""
         for command in script.deeds:
             if isinstance(command, do.StartTimer):
                 self._waiting.add(command.timer)
             elif isinstance(command, do.StopTimer):
                 self._waiting.discard(command.timer)
+            elif isinstance(command, do.Speak):
+                self._unsaid = command
+            elif isinstance(command, do.StopSpeaking):
+                self._unsaid = None
 
 
 _ENDINGS = {

@@ -16,6 +16,7 @@ from kiosk.study.events import (
     GameFinished,
     KioskClosed,
     QuestionsFinished,
+    RobotLost,
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
@@ -40,7 +41,7 @@ class UnexpectedEvent(Exception):
 
 def _underway(stage: Stage, own: Mapping[type[Event], Stage]) -> Mapping[type[Event], Stage]:
     """A stage's own events, and those that may come in any stage that a visitor is in."""
-    anywhere = (TimerEnded, SpeechStarted, SpeechFinished, SpeechFailed, StillHereTapped)
+    anywhere = (TimerEnded, SpeechStarted, SpeechFinished, SpeechFailed, RobotLost, StillHereTapped)
     leaving = (VisitorLeft, KioskClosed)
     return MappingProxyType(dict.fromkeys(anywhere, stage) | dict.fromkeys(leaving, Stage.OVER) | dict(own))
 

@@ -1,0 +1,123 @@
+"""How long anybody waits for a body: before a robot is asked, until the avatar takes over, until the board is open.
+
+``pytest tests/bench/test_body.py -s`` prints medians and 99th percentiles; the fake robot runs in the same process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from statistics import quantiles
+from time import monotonic
+from typing import Any
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk.cli.wiring import make_plan
+from kiosk.settings import Settings
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study import commands as do
+from kiosk.study import events as happened
+from kiosk.study.events import BodyName
+from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.rehearsal import Rehearsal
+from tests.robot.furhat_fake import FurhatFake
+from tests.robot.furhat_fake import Mode as Fault
+
+SITTINGS = 5
+LOSSES = 20
+FAR_TOO_LONG_MS = 500
+"""Well above what any machine needs, and below what any visitor would call waiting."""
+
+
+@contextmanager
+def kiosk(data: Path, pace: Pace, fake: FurhatFake) -> Iterator[App]:
+    """A kiosk with this robot, which is tried again soon after a loss."""
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "retry_first": 5, "retry_longest": 5}
+    plan = make_plan(Settings.model_validate({"robot": robot}))
+    provenance = Provenance(plan, 1, "avatar", "a bench", simulated=True)
+    with Recorder(data) as recorder, App(plan, Mode(Display.NOWHERE, pace), recorder, lambda: provenance) as app:
+        yield app
+
+
+def told(what: str, times_ms: list[float]) -> None:
+    """Print the middle and the slow end."""
+    cuts = quantiles(times_ms, n=100, method="inclusive")
+    print(f"\n{what}: {len(times_ms)} times, p50 {cuts[49]:.1f} ms, p99 {cuts[98]:.1f} ms")  # noqa: T201 - a bench
+    assert cuts[49] < FAR_TOO_LONG_MS
+
+
+def noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
+    """The same call, noted just before it is made."""
+
+    def noted(*arguments: Any, **options: Any) -> Any:
+        note(*arguments, **options)
+        return call(*arguments, **options)
+
+    return noted
+
+
+def test_from_a_hint_to_the_robot_and_from_its_last_word_to_the_open_board(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    del qtbot  # the kiosk needs its application
+    decided: dict[str, float] = {}
+    ended: list[float] = []
+    opened: list[float] = []
+    asked: list[float] = []
+
+    def decide(_: object, events: tuple[happened.Event, ...]) -> None:
+        decided.update({event.sentence: monotonic() for event in events if isinstance(event, happened.HintGiven)})
+
+    with FurhatFake(character_ms=0.2) as fake:
+        answer = fake.answer
+
+        def answered(*arguments: Any) -> Any:
+            done = answer(*arguments)
+            if arguments[0].path == "/furhat/say" and arguments[0].parameters["text"] in decided:
+                asked.append(arguments[0].at - decided[arguments[0].parameters["text"]])
+                ended.append(monotonic())
+            return done
+
+        monkeypatch.setattr(fake, "answer", answered)
+        monkeypatch.setattr(Recorder, "append", noting(Recorder.append, decide))
+        with kiosk(tmp_path, Pace.VIRTUAL, fake) as app:
+            for seed in range(SITTINGS):
+                rehearsal = Rehearsal(app, seed)
+                watch = app.conductor.witness
+                assert watch is not None
+
+                def look(event: Any, commands: Any, stage: Any, watch: Any = watch) -> None:
+                    if isinstance(event, happened.SpeechFinished) and do.OpenBoard() in commands:
+                        opened.append(monotonic() - ended[-1])
+                    watch(event, commands, stage)
+
+                app.conductor.witness = look
+                rehearsal.run()
+    told("hint decided to request at the robot", [1000 * seconds for seconds in asked])
+    told("end of the robot's speech to board open", [1000 * seconds for seconds in opened])
+
+
+def test_from_a_failure_to_the_avatars_voice(qtbot: QtBot, tmp_path: Path) -> None:
+    lost: list[float] = []
+    spoke: list[float] = []
+    taken: list[float] = []
+    with FurhatFake() as fake, kiosk(tmp_path, Pace.WALL, fake) as app:
+        app.conductor.robot_lost = noting(app.conductor.robot_lost, lambda _: lost.append(monotonic()))  # type: ignore[method-assign]
+        app.conductor.speech_started = noting(  # type: ignore[method-assign]
+            app.conductor.speech_started, lambda _: spoke.append(monotonic())
+        )
+        for _ in range(LOSSES):
+            fake.mode = Fault.WELL
+            qtbot.waitUntil(
+                lambda: app.bodies.current is not None and app.bodies.current.name is BodyName.FURHAT, timeout=10_000
+            )
+            fake.mode = Fault.RESET
+            lost.clear()
+            app.screens.attract.start()
+            qtbot.waitUntil(lambda: bool(lost and spoke and spoke[-1] > lost[-1]), timeout=10_000)
+            taken.append(spoke[-1] - lost[-1])
+            app.conductor.close()
+    told("failure noticed to avatar speaking", [1000 * seconds for seconds in taken])

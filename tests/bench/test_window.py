@@ -1,0 +1,131 @@
+"""How long a visitor waits: for the first frame after the start, and for the first sign that a tap was felt."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from textwrap import dedent
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPoint, Qt
+from PySide6.QtQuick import QQuickView, QQuickWindow
+from PySide6.QtTest import QTest
+
+from kiosk.cli.wiring import make_plan
+from kiosk.settings import Settings
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.rehearsal import find, lay_out, middle
+from tests.bench.percentiles import tell_percentiles
+
+OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}
+
+EMPTY_WINDOW = """
+    from PySide6.QtCore import QTimer
+    from PySide6.QtGui import QGuiApplication
+    from PySide6.QtQuick import QQuickView
+
+    application = QGuiApplication([])
+    window = QQuickView()
+    window.resize(1920, 1080)
+    window.frameSwapped.connect(application.quit)
+    window.show()
+    application.exec()
+"""
+
+KIOSK = """
+    import sys
+    from pathlib import Path
+
+    from kiosk.cli.wiring import code_commit, make_plan, read_settings
+    from kiosk.store.recorder import Provenance, Recorder
+    from kiosk.ui.app import App, Display, Mode
+
+    plan = make_plan(read_settings(None))
+    provenance = Provenance(plan, 1, "avatar", code_commit(), simulated=True)
+    with Recorder(Path(sys.argv[1])) as recorder:
+        with App(plan, Mode(Display.NOWHERE), recorder, lambda: provenance) as app:
+            app.window.frameSwapped.connect(app.quit)
+            app.window.update()
+            app.run()
+"""
+
+PRESSED = b"""
+    import QtQuick
+    Rectangle { Rectangle { x: 100; y: 100; width: 200; height: 200; color: "teal"; scale: tap.pressed ? 0.95 : 1
+        TapHandler { id: tap } } }
+"""
+
+
+@pytest.mark.benchmark(group="start to first frame")
+@pytest.mark.parametrize("program", [EMPTY_WINDOW, KIOSK], ids=["empty Qt Quick window", "kiosk"])
+def test_start_to_first_frame(benchmark: Any, tmp_path: Path, program: str) -> None:
+    """From the start of the process until the first frame is drawn, offscreen at 1080 lines."""
+
+    def start() -> None:
+        command = [sys.executable, "-c", dedent(program), str(tmp_path)]
+        subprocess.run(command, env=os.environ | OFFSCREEN, check=True, timeout=60)
+
+    benchmark.pedantic(start, rounds=7, warmup_rounds=1)
+    tell_percentiles(benchmark)
+
+
+def press_and_wait(window: QQuickWindow, place: QPoint) -> Callable[[], None]:
+    """Press at a place and wait until a frame that followed it is drawn."""
+
+    def press() -> None:
+        frames: list[bool] = []
+        drawn = window.frameSwapped.connect(lambda: frames.append(True))
+        QTest.mousePress(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+        while not frames:
+            QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
+        window.frameSwapped.disconnect(drawn)
+
+    return press
+
+
+def release(window: QQuickWindow) -> None:
+    """Let go outside of whatever was pressed, and let everything come to rest."""
+    QTest.mouseRelease(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, QPoint(5, 5))
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    lay_out(window)
+
+
+@pytest.mark.usefixtures("qapp")
+@pytest.mark.benchmark(group="tap to first changed frame")
+def test_tap_to_first_changed_frame(benchmark: Any, tmp_path: Path) -> None:
+    """From the press on a card until the card is drawn smaller, on the full board at 1080 lines."""
+    plan = make_plan(Settings())
+    provenance = Provenance(plan, 1, "avatar", "a bench", simulated=True)
+    mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
+    with Recorder(tmp_path) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
+        app.screens.board.deal(4, 6, 12)
+        app.screens.kiosk.show("game")
+        lay_out(app.window)
+        card = find(app.window.contentItem(), "card-9")
+        assert card is not None
+        place = middle(card)
+        benchmark.pedantic(
+            press_and_wait(app.window, place), teardown=lambda: release(app.window), rounds=60, warmup_rounds=3
+        )
+    tell_percentiles(benchmark)
+
+
+@pytest.mark.usefixtures("qapp")
+@pytest.mark.benchmark(group="tap to first changed frame")
+def test_tap_to_first_changed_frame_of_one_square(benchmark: Any, tmp_path: Path) -> None:
+    """The reference: one square in an otherwise empty window of the same size."""
+    (tmp_path / "square.qml").write_bytes(dedent(PRESSED.decode()).encode())
+    window = QQuickView(str(tmp_path / "square.qml"))
+    window.setResizeMode(QQuickView.ResizeMode.SizeRootObjectToView)
+    window.resize(1920, 1080)
+    window.show()
+    lay_out(window)
+    place = QPoint(200, 200)
+    benchmark.pedantic(press_and_wait(window, place), teardown=lambda: release(window), rounds=60, warmup_rounds=3)
+    tell_percentiles(benchmark)
+    window.close()

@@ -1,0 +1,174 @@
+"""Whoever looks at what is stored changes nothing, and may look at any time."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from kiosk import BadInput
+from kiosk.store.database import FILE
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study import events as happened
+from kiosk.study.events import Status
+from tests.samples import plan
+from tests.study.driver import Driver, notes, with_memory
+
+START = happened.StartTapped(at_ms=0)
+
+
+def write(folder: Path, provenance: Provenance, played: Driver) -> int:
+    """Write what was played of a sitting."""
+    with Recorder(folder) as recorder:
+        return recorder.begin(provenance, played.events)
+
+
+def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Driver) -> None:
+    write(folder, provenance, played)
+    with archive(folder) as stored:
+        (sitting,) = stored.sittings()
+    measures = played.session.measures
+    assert sitting.measures == measures
+    assert sitting.to_json() == {
+        "sitting": 1,
+        "status": "completed",
+        "condition": "tom",
+        "body": "avatar",
+        "flips": measures.flips,
+        "moves": measures.moves,
+        "pairs": 12,
+        "hints": measures.hints,
+    }
+
+
+def test_the_events_of_a_sitting_as_the_command_line_prints_them(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        number = recorder.begin(provenance, [START])
+        recorder.append([happened.TimerEnded(at_ms=9, timer=happened.Timer.IDLE), happened.VisitorLeft(at_ms=9)])
+        with archive(folder) as stored:
+            assert stored.records(number) == [
+                {"seq": 1, "at_ms": 0, "type": "StartTapped", "origin": "world"},
+                {"seq": 2, "at_ms": 9, "type": "TimerEnded", "origin": "world", "timer": "idle"},
+                {"seq": 3, "at_ms": 9, "type": "VisitorLeft", "origin": "session"},
+            ]
+
+
+@pytest.mark.parametrize(
+    ("status", "word"),
+    [(Status.COMPLETED, "completed"), (Status.ABANDONED, "abandoned"), (Status.INTERRUPTED, "interrupted")],
+)
+def test_a_sitting_ended_as_it_says(folder: Path, provenance: Provenance, status: Status, word: str) -> None:
+    with Recorder(folder) as recorder:
+        number = recorder.begin(provenance, [START, happened.SittingEnded(at_ms=1, status=status)])
+        with archive(folder) as stored:
+            assert stored.sitting(number).status is status
+            assert stored.sitting(number).to_json()["status"] == word
+
+
+def test_while_somebody_writes_a_sitting_without_an_end_is_running(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        number = recorder.begin(provenance, [START])
+        with archive(folder) as stored:
+            assert stored.sitting(number).status is None
+            assert stored.sitting(number).to_json()["status"] == "running"
+            recorder.append([happened.ContinueTapped(at_ms=4)])
+            assert len(stored.events(number)) == 2
+        recorder.append([happened.ContinueTapped(at_ms=5)])
+
+
+def test_after_a_crash_it_was_interrupted_though_nobody_has_said_so_yet(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        number = recorder.begin(provenance, [START])
+    with archive(folder) as stored:
+        assert stored.sitting(number).status is Status.INTERRUPTED
+        assert [event for event in stored.events(number) if isinstance(event, happened.SittingEnded)] == []
+
+
+def test_looking_changes_nothing(folder: Path, provenance: Provenance, played: Driver) -> None:
+    write(folder, provenance, played)
+    before = (folder / FILE).read_bytes()
+    with archive(folder) as stored:
+        stored.sittings()
+        stored.records(1)
+        stored.plan(1)
+    assert (folder / FILE).read_bytes() == before
+
+
+def test_looking_at_what_a_crash_left_changes_nothing_either(
+    folder: Path, tmp_path: Path, provenance: Provenance
+) -> None:
+    """A copy made while somebody writes is what a power cut leaves: a database and its log."""
+    crashed = tmp_path / "crashed"
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+        shutil.copytree(folder, crashed)
+    kept = {name: (crashed / name).read_bytes() for name in (FILE, f"{FILE}-wal")}
+    assert kept[f"{FILE}-wal"]
+    for _ in range(2):
+        with archive(crashed) as stored:
+            assert stored.sitting(1).status is Status.INTERRUPTED
+            assert stored.events(1) == [START]
+    assert {name: (crashed / name).read_bytes() for name in kept} == kept
+    with Recorder(crashed) as recorder:
+        assert recorder.recovered == (1,)
+
+
+def test_looking_does_not_keep_anybody_from_writing(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+    with archive(folder) as stored:
+        assert len(stored.sittings()) == 1
+        with Recorder(folder) as recorder:
+            recorder.begin(provenance, [START])
+        assert len(stored.sittings()) == 2
+
+
+def test_sittings_stand_in_the_order_in_which_they_began(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        numbers = [recorder.begin(provenance, [START]) for _ in range(12)]
+        with archive(folder) as stored:
+            assert [sitting.id for sitting in stored.sittings()] == numbers == list(range(1, 13))
+
+
+def test_a_sitting_that_does_not_exist_is_refused_in_words(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+    with archive(folder) as stored:
+        for look in (stored.sitting, stored.records, stored.events, stored.plan, stored.seed):
+            with pytest.raises(BadInput, match="there is no sitting 2"):
+                look(2)
+
+
+def test_what_was_never_kept_is_refused_in_words(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+    with archive(folder) as stored, pytest.raises(BadInput, match="nothing is kept under the hash abc"):
+        stored.source("abc")
+
+
+def test_what_a_sitting_followed_can_be_rebuilt(folder: Path, provenance: Provenance, played: Driver) -> None:
+    number = write(folder, provenance, played)
+    with archive(folder) as stored:
+        rebuilt, seed = stored.plan(number), stored.seed(number)
+    plan = provenance.plan
+    assert seed == provenance.seed
+    assert (rebuilt.settings, rebuilt.condition, rebuilt.policy) == (plan.settings, plan.condition, plan.policy)
+    assert (rebuilt.questionnaire, rebuilt.deck) == (plan.questionnaire, plan.deck)
+    assert (rebuilt.catalogue.language, rebuilt.catalogue.sources) == (plan.catalogue.language, plan.catalogue.sources)
+
+
+def test_every_sitting_has_its_own_measures(folder: Path, provenance: Provenance) -> None:
+    measures = []
+    with Recorder(folder) as recorder:
+        for seed in range(3):
+            driver = Driver(plan(), seed)
+            driver.to_the_game()
+            driver.play(with_memory(seed))
+            measures.append(driver.session.measures)
+            recorder.begin(
+                provenance, [event for step in driver.steps for event in (step.event, *notes(step.commands))]
+            )
+        with archive(folder) as stored:
+            assert [sitting.measures for sitting in stored.sittings()] == measures

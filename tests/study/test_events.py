@@ -1,0 +1,162 @@
+"""An event is written as JSON that anybody can read, and comes back as it was."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kiosk.assistant.gate import Verdict
+from kiosk.assistant.hint import Reason
+from kiosk.assistant.mdp import Action, Card, Outcome, Phase
+from kiosk.game import Position, Refusal
+from kiosk.study import commands as do
+from kiosk.study import events as happened
+from kiosk.study.commands import command_record
+from kiosk.study.events import Event, SessionEvent, Stage, Status, Timer, WorldEvent, from_record, to_record
+from tests.samples import plan
+from tests.study.driver import Driver, with_memory
+
+
+def kinds(family: type[Any]) -> Iterator[type[Any]]:
+    """Every class of a family that has none below it."""
+    for kind in family.__subclasses__():
+        yield from kinds(kind) if kind.__subclasses__() else [kind]
+
+
+EVERY_EVENT = list(kinds(Event))
+
+
+@pytest.mark.parametrize("kind", EVERY_EVENT, ids=lambda kind: str(kind.__name__))
+@given(st.data())
+def test_any_event_comes_back_from_its_record_as_it_was(kind: type[Event], data: st.DataObject) -> None:
+    event = data.draw(st.builds(kind))
+    record = json.loads(json.dumps(to_record(event)))
+    assert record["type"] == kind.__name__
+    assert from_record(record) == event
+    assert type(from_record(record)) is kind
+
+
+def test_every_event_is_from_outside_or_a_conclusion() -> None:
+    assert {*kinds(WorldEvent), *kinds(SessionEvent)} == set(EVERY_EVENT)
+    assert len({kind.__name__ for kind in EVERY_EVENT}) == len(EVERY_EVENT)
+
+
+def test_a_tap_shows_that_somebody_is_there_and_a_clock_does_not() -> None:
+    assert {kind.__name__ for kind in kinds(WorldEvent) if kind.by_visitor} == {
+        "StartTapped",
+        "ContinueTapped",
+        "CardTapped",
+        "AnswerGiven",
+        "StillHereTapped",
+    }
+
+
+def test_a_record_can_be_read_without_the_program() -> None:
+    flipped = happened.CardFlipped(at_ms=12, number=2, move=1, position=Position(0, 5), card="owl", matched=False)
+    assert to_record(flipped) == {
+        "type": "CardFlipped",
+        "at_ms": 12,
+        "number": 2,
+        "move": 1,
+        "position": {"row": 0, "column": 5},
+        "card": "owl",
+        "matched": False,
+    }
+    decided = happened.AssistanceDecided(
+        at_ms=3,
+        flip=7,
+        card=Card.SECOND,
+        game=Phase.MIDDLE,
+        last=Action.SUG_ROW,
+        outcome=Outcome.S_WRONG,
+        gate=Verdict.STILL_EXPLORING,
+        action=Action.NO_HELP,
+    )
+    assert to_record(decided) == {
+        "type": "AssistanceDecided",
+        "at_ms": 3,
+        "flip": 7,
+        "card": "second",
+        "game": "middle",
+        "last": "sug_row",
+        "outcome": "s_wrong",
+        "gate": "still_exploring",
+        "action": "no_help",
+    }
+
+
+@pytest.mark.parametrize(
+    ("closed_set", "names"),
+    [
+        (Stage, "attract introduction game result questions over"),
+        (Timer, "turn_back mark reading speech_deadline mood finish idle still_there"),
+        (Status, "completed abandoned interrupted"),
+        (Card, "first second"),
+    ],
+)
+def test_the_names_in_the_records_are_fixed_for_ever(closed_set: Any, names: str) -> None:
+    assert [member.value for member in closed_set] == names.split()
+
+
+def test_why_a_tap_was_ignored_and_why_a_hint_was_given_are_told_by_name() -> None:
+    ignored = happened.TapIgnored(at_ms=1, position=Position(0, 0), why=Refusal.TURNING_BACK)
+    assert to_record(ignored)["why"] == "two cards are still turning back"
+    assert to_record(happened.TapIgnored(at_ms=1, position=Position(0, 0), why=None))["why"] is None
+    assert {reason.value for reason in Reason} == {
+        *("nothing-known", "one-seen-once", "both-seen-once", "often-and-never"),
+        *("often-and-once", "both-often", "first-sight", "open-once-mate-often"),
+    }
+
+
+@pytest.mark.parametrize(
+    "record",
+    [
+        {},
+        {"at_ms": 1},
+        {"type": "StartTapped"},
+        {"type": "NoSuchEvent", "at_ms": 1},
+        {"type": "StartTapped", "at_ms": "soon"},
+        {"type": "StartTapped", "at_ms": None},
+        {"type": "StartTapped", "at_ms": 1, "why": "an extra key"},
+        {"type": "CardTapped", "at_ms": 1},
+        {"type": "CardTapped", "at_ms": 1, "position": 5},
+        {"type": "CardTapped", "at_ms": 1, "position": {"row": 1}},
+        {"type": "StageEntered", "at_ms": 1, "stage": "moon"},
+        {"type": "TimerEnded", "at_ms": 1, "timer": "TURN_BACK"},
+    ],
+    ids=str,
+)
+def test_anything_else_is_refused(record: dict[str, Any]) -> None:
+    with pytest.raises((ValueError, KeyError)):
+        from_record(record)
+
+
+def test_a_whole_sitting_comes_back_from_its_records() -> None:
+    driver = Driver(plan())
+    driver.whole_sitting(with_memory(1))
+    text = json.dumps([to_record(event) for event in driver.events])
+    assert [from_record(record) for record in json.loads(text)] == driver.events
+
+
+@pytest.mark.parametrize("kind", list(kinds(do.Command)), ids=lambda kind: str(kind.__name__))
+@given(st.data())
+def test_any_command_can_be_written_as_json(kind: type[do.Command], data: st.DataObject) -> None:
+    command = data.draw(
+        st.builds(kind, event=st.builds(happened.BoardOpened)) if kind is do.Record else st.builds(kind)
+    )
+    record = json.loads(json.dumps(command_record(command)))
+    assert record.pop("type") == kind.__name__
+    assert set(record) == set(vars(command))
+
+
+def test_a_written_command_tells_all_of_it() -> None:
+    assert command_record(do.StartTimer(Timer.MARK, 600)) == {"type": "StartTimer", "timer": "mark", "after_ms": 600}
+    assert command_record(do.Record(happened.HintMarked(at_ms=4, flip=7))) == {
+        "type": "Record",
+        "event": {"type": "HintMarked", "at_ms": 4, "flip": 7},
+    }

@@ -1,0 +1,136 @@
+"""The study file says what it sets, and what it cannot set is refused by name."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel, ValidationError
+
+from kiosk import BadInput, settings
+from kiosk.settings import ASSETS, POLICIES, Game, Settings, Timing, policy_path
+
+
+def written(folder: Path, content: str | bytes) -> Path:
+    """A study file of this content."""
+    file = folder / "study.toml"
+    file.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return file
+
+
+def refusal(file: Path) -> str:
+    """The sentence with which a study file is refused."""
+    with pytest.raises(BadInput) as refused:
+        Settings.read(file)
+    assert str(refused.value).startswith(f"the study file {file}")
+    return str(refused.value)
+
+
+def test_an_empty_study_file_sets_what_the_study_set(tmp_path: Path) -> None:
+    read = Settings.read(written(tmp_path, ""))
+    assert read == Settings()
+    assert (read.game.rows, read.game.columns, read.assistance.condition, read.language) == (4, 6, "tom", "en")
+    assert (read.assistance.target_rule, read.timing.mark_delay) == ("most_flipped", 3500)
+
+
+def test_a_study_file_sets_what_it_names_and_nothing_else(tmp_path: Path) -> None:
+    read = Settings.read(written(tmp_path, 'language = "it"\n[game]\nrows = 2\n[voice]\nvolume = 0\n'))
+    assert read == Settings(language="it", game=Game(rows=2), voice=settings.Voice(volume=0))
+
+
+def test_settings_cannot_be_changed() -> None:
+    with pytest.raises(ValidationError, match="frozen"):
+        Settings().game.rows = 2
+
+
+def test_a_study_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    assert "cannot be read: " in refusal(tmp_path / "none.toml")
+
+
+def test_a_folder_is_refused(tmp_path: Path) -> None:
+    assert "cannot be read: " in refusal(tmp_path)
+
+
+@pytest.mark.parametrize("content", ["language = en", "[game", b"language = '\xff'"])
+def test_a_file_that_is_not_toml_is_refused(tmp_path: Path, content: str | bytes) -> None:
+    assert "is not TOML" in refusal(written(tmp_path, content))
+
+
+@pytest.mark.parametrize(
+    ("content", "where"),
+    [
+        ("[game]\nrows = 0", "game.rows: Input should be greater than 0, but it is 0"),
+        ("[game]\nrows = -4", "game.rows: Input should be greater than 0, but it is -4"),
+        ("[game]\nrows = 'four'", "game.rows: Input should be a valid integer"),
+        ("[game]\nrow = 4", "game.row: Extra inputs are not permitted, but it is 4"),
+        ("game = 4", "game: Input should be"),
+        ("colour = 'red'", "colour: Extra inputs are not permitted, but it is 'red'"),
+        ("language = 5", "language: Input should be a valid string, but it is 5"),
+        ("[timing]\nmark_delay = -1", "timing.mark_delay: Input should be greater than or equal to 0"),
+        ("[timing]\nturn_back = 0", "timing.turn_back: Input should be greater than 0"),
+        ("[timing]\nidle = 1.5", "timing.idle: Input should be a valid integer"),
+        ("[assistance]\ntarget_rule = 'random'", "assistance.target_rule: Input should be 'most_flipped' or 'most"),
+        ("[voice]\nvolume = 1.1", "voice.volume: Input should be less than or equal to 1"),
+        ("[voice]\nvolume = nan", "voice.volume: Input should be "),
+        ("[voice]\nrate = 79", "voice.rate: Input should be greater than or equal to 80"),
+        ("[screen]\ntext_size = inf", "screen.text_size: Input should be less than or equal to 2"),
+        ("[screen]\ntext_size = 0", "screen.text_size: Input should be greater than 0"),
+    ],
+)
+def test_what_cannot_be_set_is_refused_by_name(tmp_path: Path, content: str, where: str) -> None:
+    assert where in refusal(written(tmp_path, content))
+
+
+@pytest.mark.parametrize("content", ["[game]\nrows = '4'", "[game]\nrows = true", "[game]\nrows = 4.0"])
+def test_a_number_is_written_as_a_number(tmp_path: Path, content: str) -> None:
+    assert "game.rows: Input should be a valid integer" in refusal(written(tmp_path, content))
+
+
+def sections() -> list[type[BaseModel]]:
+    """Every part of the study file, and the whole."""
+    found = [kind for _, kind in inspect.getmembers(settings, inspect.isclass) if issubclass(kind, BaseModel)]
+    return [kind for kind in found if kind.__module__ == settings.__name__ and not kind.__name__.startswith("_")]
+
+
+@pytest.mark.parametrize("section", sections(), ids=lambda section: str(section.__name__))
+def test_every_setting_has_its_sentence(section: type[BaseModel]) -> None:
+    for name, field in section.model_fields.items():
+        described = field.description or (isinstance(field.default, BaseModel) and type(field.default).__doc__)
+        assert described, f"{section.__name__}.{name} has no sentence"
+        assert str(described).strip().endswith((".", "?"))
+
+
+def test_settings_are_told_apart_by_their_hash() -> None:
+    assert Settings().sha256 == Settings(language="en").sha256
+    assert len({Settings().sha256, Settings(language="it").sha256, Settings(game=Game(rows=2)).sha256}) == 3
+    assert len(Settings().sha256) == 64
+
+
+def test_settings_come_back_from_what_is_kept_of_them() -> None:
+    kept = Settings(language="it", timing=Timing(mood=1))
+    assert Settings.model_validate_json(kept.model_dump_json()) == kept
+
+
+@pytest.mark.parametrize(("length", "time"), [(0, 1500), (27, 1500), (28, 1540), (100, 5500)])
+def test_a_sentence_is_shown_for_as_long_as_it_takes_to_read(length: int, time: int) -> None:
+    assert Timing().reading_time("x" * length) == time
+
+
+@pytest.mark.parametrize(("length", "time"), [(0, 4000), (30, 4000), (31, 4030), (100, 13_000)])
+def test_a_spoken_sentence_holds_the_game_for_no_longer_than_its_length_allows(length: int, time: int) -> None:
+    assert Timing().speech_time("x" * length) == time
+
+
+def test_the_assets_are_found() -> None:
+    assert (ASSETS / "sentences" / "en").is_dir()
+    assert ASSETS.name == "assets"
+    assert POLICIES.name == "policies"
+
+
+def test_a_policy_goes_by_its_name_or_by_its_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settings, "POLICIES", tmp_path)
+    (tmp_path / "own.json").write_text("{}")
+    assert policy_path("own") == tmp_path / "own.json"
+    assert policy_path("other") == Path("other")
+    assert policy_path(str(tmp_path / "own.json")) == tmp_path / "own.json"

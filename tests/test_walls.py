@@ -1,0 +1,232 @@
+"""The walls of the house: who may know whom, in one table; nothing else in the tests says so."""
+
+from __future__ import annotations
+
+import ast
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "kiosk"
+
+BELOW_ALL = {"kiosk", "settings"}
+"""The package itself and the study file's types: every room may know them, and they know no room."""
+
+ROOMS: dict[str, set[str]] = {
+    "kiosk": set(),
+    "settings": set(),
+    "game": set(),
+    "assistant": {"game"},
+    "study": {"game", "assistant"},
+    "robot": {"game", "assistant", "study"},
+    "store": {"game", "assistant", "study"},
+    "ui": {"game", "assistant", "study", "robot", "store"},
+    "training": {"game", "assistant"},
+    "analysis": {"game", "assistant", "study", "robot", "store"},
+    "cli": {"game", "assistant", "study", "robot", "store", "ui", "training", "analysis"},
+    "__main__": {"cli"},
+}
+"""Which rooms a room may import from, besides itself and what is below all."""
+
+OUTSIDE: dict[str, set[str]] = {
+    "PySide6": {"ui"},
+    "shiboken6": {"ui"},
+    "sqlite3": {"store"},
+    "sqlite_utils": {"store"},
+    "requests": {"robot"},
+    "urllib": {"robot"},
+    "urllib3": {"robot"},
+    "http": {"robot"},
+    "socket": {"robot"},
+    "websocket": {"robot"},
+    "websockets": {"robot"},
+    "pyttsx3": {"robot"},
+    "scipy": {"analysis"},
+    "matplotlib": {"analysis"},
+    "pandas": {"analysis"},
+    "numpy": {"robot", "training", "analysis"},
+    "numba": {"training"},
+    "gymnasium": {"training"},
+    "click": {"cli"},
+    "rich": {"cli"},
+}
+"""What of the world outside belongs to some rooms only; anything else may be imported anywhere."""
+
+LOADED_ANYWAY = {"urllib", "http", "socket", "click", "rich"}
+"""Libraries load these on their own account, so having them in memory breaks no wall."""
+
+BROUGHT_ALONG = {"store": {"numpy"}, "training": {"sqlite3"}}
+"""The same in one room only: sqlite_utils looks for numpy, numba for coverage, which keeps a database."""
+
+
+def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
+    """Every module of the package: its full name, its room, and its file."""
+    for file in sorted(package.rglob("*.py")):
+        parts = [package.name, *file.relative_to(package).with_suffix("").parts]
+        name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+        yield name, parts[1] if parts[1] != "__init__" else package.name, file
+
+
+def imported(module: str, file: Path) -> Iterator[tuple[int, str]]:
+    """Everything that a module imports, anywhere in it and by whatever means that can be read, and in which line."""
+    package = module if file.name == "__init__.py" else module.rpartition(".")[0]
+    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+        match node:
+            case ast.Import(names=names):
+                yield from ((node.lineno, alias.name) for alias in names)
+            case ast.ImportFrom(module=source, names=names, level=level):
+                above = ".".join(package.split(".")[: len(package.split(".")) + 1 - level]) if level else ""
+                base = ".".join(part for part in (above, source) if part)
+                yield from ((node.lineno, f"{base}.{alias.name}") for alias in names)
+            case ast.Call(
+                func=ast.Name(id="import_module" | "__import__") | ast.Attribute(attr="import_module"),
+                args=[ast.Constant(value=str(name)), *_],
+            ):
+                yield node.lineno, name
+
+
+def room_of(name: str, rooms: set[str]) -> str | None:
+    """The room of this house that a name belongs to; what belongs to no room is the package's own."""
+    first, _, rest = name.partition(".")
+    if first != "kiosk":
+        return None
+    return rest.split(".")[0] if rest.split(".")[0] in rooms else "kiosk"
+
+
+def breaches(package: Path) -> list[str]:
+    """Every import that goes through a wall, in words."""
+    found = []
+    there = set(ROOMS) | {room for _, room, _ in modules(package)}
+    for module, room, file in modules(package):
+        if room not in ROOMS:
+            found.append(f"{module}: the house has no room {room}")
+            continue
+        for line, name in imported(module, file):
+            other = room_of(name, there)
+            if other is not None and other not in {room, *ROOMS[room], *BELOW_ALL}:
+                found.append(f"{module}:{line}: {room} may not know {other} ({name})")
+            elif room not in OUTSIDE.get(name.split(".")[0], {room}):
+                found.append(f"{module}:{line}: {name.split('.')[0]} does not belong in {room}")
+    return found
+
+
+def loaded_by(room: str) -> set[str]:
+    """What is in memory once every module of a room has been imported by a fresh interpreter."""
+    names = [name for name, of, _ in modules(PACKAGE) if of == room and not name.endswith("__main__")]
+    program = (
+        "import importlib, json, sys\n"
+        f"for name in {names!r}: importlib.import_module(name)\n"
+        "print(json.dumps(sorted(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=PACKAGE.parent, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+def test_no_import_goes_through_a_wall() -> None:
+    assert breaches(PACKAGE) == []
+
+
+@pytest.mark.parametrize("room", [room for room in ROOMS if room != "__main__"])
+def test_a_room_in_memory_has_brought_nobody_along_whom_it_may_not_know(room: str) -> None:
+    if room not in {of for _, of, _ in modules(PACKAGE)}:
+        pytest.skip(f"the room {room} is not built yet")
+    known = {room, *ROOMS[room]}
+    loaded = loaded_by(room)
+    rooms = {name.split(".")[1] for name in loaded if name.startswith("kiosk.")}
+    assert rooms <= known | BELOW_ALL
+    outsiders = {name.split(".")[0] for name in loaded} & set(OUTSIDE) - LOADED_ANYWAY
+    strangers = {name for name in outsiders if not OUTSIDE[name] & known}
+    assert strangers <= BROUGHT_ALONG.get(room, set())
+
+
+def test_the_way_to_the_first_screen_loads_nothing_that_is_slow_and_not_needed_yet() -> None:
+    program = "import sys, kiosk.ui.app, kiosk.store.recorder; print(sorted(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=PACKAGE.parent, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    loaded = set(ast.literal_eval(done.stdout))
+    slow = {"sqlite_utils", "requests", "numpy", "scipy", "matplotlib", "numba", "gymnasium", "pyttsx3"}
+    assert loaded & slow == set()
+
+
+def test_the_rooms_know_each_other_in_one_direction() -> None:
+    """Whoever a room may know, may never know it back, at first hand or at second."""
+    for room, known in ROOMS.items():
+        for other in known:
+            assert room not in ROOMS[other]
+            assert ROOMS[other] <= known or room in {"__main__"}
+    for one, another in (("robot", "store"), ("ui", "training"), ("ui", "analysis"), ("training", "analysis")):
+        assert another not in ROOMS[one]
+        assert one not in ROOMS[another]
+
+
+def test_tests_of_quiet_rooms_open_no_window_either() -> None:
+    tests = Path(__file__).parent
+    for room in ("game", "assistant", "study", "store", "training"):
+        for file in (tests / room).glob("**/*.py"):
+            names = {name.split(".")[0] for _, name in imported(f"tests.{room}.{file.stem}", file)}
+            assert not names & {"PySide6", "pytestqt"}, file
+
+
+# The watchman is watched
+
+
+@pytest.mark.parametrize(
+    ("room", "planted", "cry"),
+    [
+        ("game", "import kiosk.assistant.mdp", "game may not know assistant"),
+        ("game", "from kiosk import study", "game may not know study"),
+        ("assistant", "from kiosk.study.condition import Condition", "assistant may not know study"),
+        ("assistant", "from ..study import condition", "assistant may not know study"),
+        ("study", "def f():\n    from kiosk.store import recorder", "study may not know store"),
+        ("study", "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import kiosk.ui", "study may not know ui"),
+        ("store", "from kiosk.robot.body import Body", "store may not know robot"),
+        ("robot", "import kiosk.store", "robot may not know store"),
+        ("ui", "import kiosk.training", "ui may not know training"),
+        ("training", "from kiosk.study import session", "training may not know study"),
+        ("analysis", "import kiosk.ui", "analysis may not know ui"),
+        ("analysis", "import kiosk.cli.front", "analysis may not know cli"),
+        ("study", "import kiosk.__main__", "study may not know __main__"),
+        ("game", "import sqlite3", "sqlite3 does not belong in game"),
+        ("study", "import PySide6.QtCore", "PySide6 does not belong in study"),
+        ("store", "from PySide6.QtCore import QObject", "PySide6 does not belong in store"),
+        ("ui", "import sqlite3 as database", "sqlite3 does not belong in ui"),
+        ("store", "import urllib.request", "urllib does not belong in store"),
+        ("ui", "import requests", "requests does not belong in ui"),
+        ("training", "import scipy.stats", "scipy does not belong in training"),
+        ("store", "import click", "click does not belong in store"),
+        ("game", "from importlib import import_module\nimport_module('numpy')", "numpy does not belong in game"),
+        ("study", "import importlib\nimportlib.import_module('kiosk.ui.app')", "study may not know ui"),
+        ("game", "__import__('kiosk.store')", "game may not know store"),
+        ("attic", "", "the house has no room attic"),
+    ],
+)
+def test_a_planted_import_is_found(tmp_path: Path, room: str, planted: str, cry: str) -> None:
+    package = tmp_path / "kiosk"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
+    (package / room).mkdir(exist_ok=True)
+    (package / room / "planted.py").write_text(planted)
+    (found,) = set(breaches(package)) - set(breaches(PACKAGE))
+    assert f"kiosk.{room}.planted" in found
+    assert cry in found
+
+
+def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
+    package = tmp_path / "kiosk"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
+    for name in ("__init__.py", "settings.py"):
+        with (package / name).open("a") as file:
+            file.write("\nimport kiosk.game\n")
+    assert [line.split(": ")[1] for line in breaches(package)] == [
+        "kiosk may not know game (kiosk.game)",
+        "settings may not know game (kiosk.game)",
+    ]
