@@ -19,9 +19,13 @@ BAD_INPUT = 2
 _COMMANDS = {
     "open": "kiosk.cli.sitting:open_kiosk",
     "rehearse": "kiosk.cli.sitting:rehearse",
+    "robot": "kiosk.cli.robot:robot",
     "sittings": "kiosk.cli.records:sittings",
     "events": "kiosk.cli.records:events",
+    "explain": "kiosk.cli.explain:explain",
     "train": "kiosk.cli.learning:train",
+    "simulate": "kiosk.cli.learning:simulate",
+    "policy": "kiosk.cli.learning:policy",
 }
 
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from random import SystemRandom
+from typing import Any
 
 import click
 
+from kiosk import BadInput
 from kiosk.cli.records import data_option, json_option
 from kiosk.cli.wiring import code_commit, make_plan, read_settings
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.events import Event
+from kiosk.study.utterances import body_changes, utterances
 from kiosk.ui.app import App, Display, Mode, Pace
 from kiosk.ui.avatar import AvatarBody
 from kiosk.ui.rehearsal import Rehearsal
@@ -21,24 +26,29 @@ SEED_BITS = 32
 SETTLE_MS = 450
 """When a picture is taken after its moment, so that nothing moves any more."""
 
+robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
+robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), help="The robot's port.")
 study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")
 
 
 @click.command("open")
 @data_option
 @study_option
+@robot_host_option
+@robot_port_option
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
-def open_kiosk(data: Path, study: Path | None, *, window: bool) -> None:
+def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_port: int | None, *, window: bool) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
-    plan = make_plan(read_settings(study))
+    plan = make_plan(read_settings(study, robot_host, robot_port))
     chance = SystemRandom()
     commit = code_commit()
 
     def next_sitting() -> Provenance:
-        return Provenance(plan, chance.getrandbits(SEED_BITS), AvatarBody.name, commit, simulated=False)
+        return Provenance(plan, chance.getrandbits(SEED_BITS), AvatarBody.name.value, commit, simulated=False)
 
-    with Recorder(data) as recorder:
-        App(plan, Mode(Display.WINDOW if window else Display.FULL_SCREEN), recorder, next_sitting).run()
+    mode = Mode(Display.WINDOW if window else Display.FULL_SCREEN)
+    with Recorder(data) as recorder, App(plan, mode, recorder, next_sitting) as app:
+        app.run()
 
 
 @click.command()
@@ -49,6 +59,8 @@ def open_kiosk(data: Path, study: Path | None, *, window: bool) -> None:
 @click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
 @data_option
 @study_option
+@robot_host_option
+@robot_port_option
 @json_option
 def rehearse(
     seed: int,
@@ -57,20 +69,29 @@ def rehearse(
     shots: Path | None,
     data: Path,
     study: Path | None,
+    robot_host: str | None,
+    robot_port: int | None,
     *,
     headless: bool,
     as_json: bool,
 ) -> None:
-    """Let a simulated visitor play one sitting through the real window."""
-    plan = make_plan(read_settings(study), condition)
-    provenance = Provenance(plan, seed, AvatarBody.name, code_commit(), simulated=True)
+    """Let a simulated visitor play one sitting through the real window.
+
+    A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
+    """
+    plan = make_plan(read_settings(study, robot_host, robot_port), condition)
+    if plan.settings.robot.kind != "none" and speed not in {None, 1}:
+        raise BadInput("a robot speaks at its own speed, so a rehearsal with one cannot have another")
+    provenance = Provenance(plan, seed, AvatarBody.name.value, code_commit(), simulated=True)
     mode = _mode(speed, headless=headless)
-    with Recorder(data) as recorder:
-        app = App(plan, mode, recorder, lambda: provenance)
+    with Recorder(data) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
-        Rehearsal(app, seed, pictures).run()
+        rehearsal = Rehearsal(app, seed, pictures)
+        rehearsal.run()
     with archive(data) as stored:
         played = stored.sittings()[-1].to_json()
+        if plan.settings.robot.kind != "none":
+            played |= _with_robot(stored.events(played["sitting"]), rehearsal.pulse.longest_ms)
     if as_json:
         click.echo(json.dumps(played))
         return
@@ -78,6 +99,15 @@ def rehearse(
         "Sitting {sitting} ({condition}) {status}: {pairs} pairs in {moves} moves, {hints} hints.".format(**played)
     )
     click.echo(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else "."))
+
+
+def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
+    """What a rehearsal with a robot tells besides."""
+    return {
+        "longest_gap_ms": round(longest_gap_ms, 1),
+        "body_changes": body_changes(events),
+        "utterances": asdict(utterances(events)),
+    }
 
 
 def _mode(speed: float | None, *, headless: bool) -> Mode:

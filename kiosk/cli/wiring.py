@@ -21,9 +21,15 @@ DATA = user_data_path("recollect", appauthor=False)
 _GIT_DEADLINE_S = 2
 
 
-def read_settings(study: Path | None) -> Settings:
-    """The settings of a study file, or the study's own without one."""
-    return Settings.read(study) if study else Settings()
+def read_settings(study: Path | None, robot_host: str | None = None, robot_port: int | None = None) -> Settings:
+    """The settings of a study file, or the study's own without one; a robot's host or port goes before the file's."""
+    settings = Settings.read(study) if study else Settings()
+    if robot_host is None and robot_port is None:
+        return settings
+    robot = settings.robot
+    found = {"kind": "furhat" if robot.kind == "none" else robot.kind}
+    given = {"host": robot_host or robot.host, "port": robot_port or robot.port}
+    return settings.model_copy(update={"robot": robot.model_copy(update=found | given)})
 
 
 def make_plan(settings: Settings, condition: str | None = None) -> Plan:

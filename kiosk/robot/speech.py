@@ -1,9 +1,10 @@
 """The voice, in a process of its own: whatever a speech engine does, it can be ended and started again.
 
-Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines, a sentence to say or
-``{"stop": true}``; the end of input ends it. It writes events as JSON lines: ``ready`` with what it found, or
-``unavailable``; then for each sentence ``started`` with the duration in ms and the loudness (0-1) of every LOUDNESS_MS,
-and ``finished``, or ``failed`` and why. Without a sound card it keeps the time of the sentence in silence and says so.
+Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines: a sentence to say,
+``{"stop": true}``, or the file of a short sound to play; the end of input ends it. It writes events as JSON lines:
+``ready`` with what it found, or ``unavailable``; then for each sentence ``started`` with the duration in ms and the
+loudness (0-1) of every LOUDNESS_MS, and ``finished``, or ``failed`` and why. Without a sound card it keeps the time of
+the sentence in silence and says so.
 """
 
 from __future__ import annotations
@@ -26,8 +27,7 @@ from typing import Any
 import numpy as np
 import pyttsx3
 
-LOUDNESS_MS = 40
-"""Length of one step of the loudness, in ms: 25 steps a second, the rate at which the avatar's mouth moves."""
+from kiosk.robot import LOUDNESS_MS
 
 _POLL_S = 0.01
 _FULL_LOUDNESS = 0.25
@@ -70,7 +70,12 @@ class Engine:
             self._engine.setProperty("voice", self.voice)
 
     def render(self, text: str, file: Path) -> Sound:
-        """Render a sentence; raises OSError, wave.Error or EOFError if no sound came of it."""
+        """Render a sentence; raises OSError, wave.Error or EOFError if no sound came of it.
+
+        Raises RuntimeError if no voice speaks the language: another one would make nonsense of it.
+        """
+        if self.voice is None:
+            raise RuntimeError("no installed voice speaks the language")
         self._engine.save_to_file(text, str(file))
         self._engine.runAndWait()
         return Sound.of(file)
@@ -141,6 +146,7 @@ class Worker:
         """Render into ``file``; ``None`` among the commands ends the work."""
         self._engine = engine
         self._player = player
+        self._sounds = Player()
         self._report = report
         self._file = file
         self._commands = commands
@@ -149,20 +155,33 @@ class Worker:
     def run(self) -> None:
         """Work until the commands end."""
         for command in self._next_commands():
+            if "play" in command:
+                self._play(Path(command["play"]))
+                continue
+            # A sound card may take only one at a time, and a sentence never waits for a sound.
+            self._sounds.stop()
             self._player.stop()
             self._saying = None
             if "say" in command:
                 self._say(int(command["say"]), str(command["text"]))
 
+    def _play(self, file: Path) -> None:
+        """Play a short sound in place of any other, but not while a sentence is under way."""
+        if self._saying is None:
+            self._sounds.stop()
+            self._sounds.play(Sound(file, 0, ()))
+
     def _next_commands(self) -> Iterator[dict[str, Any]]:
         """Every command in turn; while a sentence is under way, look after it as well."""
         while True:
             try:
-                command = self._commands.get(timeout=_POLL_S if self._saying is not None else None)
+                busy = self._saying is not None or self._sounds.playing()
+                command = self._commands.get(timeout=_POLL_S if busy else None)
             except queue.Empty:
                 self._look_after_sentence()
                 continue
             if command is None:
+                self._sounds.stop()
                 self._player.stop()
                 return
             yield command
@@ -198,9 +217,12 @@ class Report:
 
 
 def _read_into(commands: queue.Queue[dict[str, Any] | None]) -> None:
-    for line in sys.stdin:
-        commands.put(json.loads(line))
-    commands.put(None)
+    try:
+        for line in sys.stdin:
+            commands.put(json.loads(line))
+    finally:
+        # Whatever ends the input, a line that is no command too, ends the work: nobody is left to speak to.
+        commands.put(None)
 
 
 def main(language: str, rate: int, volume: float) -> None:

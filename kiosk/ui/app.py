@@ -12,13 +12,17 @@ from enum import Enum
 from pathlib import Path
 from random import Random
 from types import TracebackType
+from typing import Self
 
 # PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
-from PySide6.QtCore import QObject, Qt, QTimer, QUrl
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QObject, Qt, QTimer, QUrl
 from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
+from kiosk.robot.bodies import Bodies
+from kiosk.robot.kinds import robot_of
+from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.session import Plan
@@ -31,6 +35,7 @@ from kiosk.ui.performer import Screens
 from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
 from kiosk.ui.words import words
+from kiosk.ui.work import Landing
 
 QML = Path(__file__).parent / "qml" / "Main.qml"
 FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
@@ -74,44 +79,75 @@ class App:
     def __init__(self, plan: Plan, mode: Mode, recorder: Recorder, next_sitting: Callable[[], Provenance]) -> None:
         """Build everything for this plan and show the window; ``next_sitting`` is asked once for each sitting."""
         self.application = _application(mode.display)
+        # A loop of our own: the application's asks every window first, and the window refuses everybody.
+        self._loop = QEventLoop()
         self._owner = QObject()
         self.clock = _clock(mode, self._owner)
         self.started_ms = self.clock.now_ms()
         self.screens = _screens(plan, self._owner)
         self.conductor = Conductor(self.screens, recorder, self.clock, next_sitting)
         self._voice = _voice(plan.settings, mode, self.clock, self._owner)
-        self.conductor.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, self._owner))
-        if mode.pace is Pace.WALL:
+        self.bodies = Bodies(self.conductor, self.clock.after, plan.settings.robot)
+        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, self._owner))
+        self.conductor.take(self.bodies)
+        self._landing = Landing()
+        self._take_robot(plan)
+        if plan.settings.voice.sounds:
+            self.conductor.play = lambda effect: self._voice.play(effect.file)
+        if mode.pace is Pace.WALL and plan.settings.screen.motion:
             IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
         self._engine = QQmlApplicationEngine()
         self.window = self._load(plan, mode)
         self.screens.kiosk.left.connect(self.quit)
         self._keep_heart_beating()
 
+    def __enter__(self) -> Self:
+        """The kiosk itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """End what is under way, and let go of everything."""
+        self.close()
+
     def run(self) -> None:
-        """Run until the kiosk is left; then end the sitting that is under way, and let go of everything."""
-        before, sys.excepthook = sys.excepthook, self._fault
+        """Run until somebody leaves the kiosk."""
+        before, sys.excepthook = sys.excepthook, self.fault
+        ticking = QTimer()
+        if isinstance(self.clock, VirtualClock):
+            # Whenever the interface has nothing else to do.
+            ticking.timeout.connect(self.clock.jump)
+            ticking.start(0)
         try:
-            self.application.exec()
+            self._loop.exec()
         finally:
+            ticking.stop()
             sys.excepthook = before
-            self.close()
 
     def quit(self) -> None:
         """Leave the kiosk."""
-        # Not quit(): that asks the window first, and the window refuses everybody.
-        self.application.exit()
+        self._loop.quit()
 
     def close(self) -> None:
-        """End what is under way; the application object itself stays, for Qt allows no second one."""
+        """End the sitting that is under way, and everything but the application object: Qt allows no second one."""
         self.conductor.close()
+        self.bodies.close()
+        self._landing.close()
         self._voice.close()
         self.screens.kiosk.let_go()
         self.window.close()
-        # The engine must go before the objects that its windows look at.
-        self._engine.deleteLater()
-        self._owner.deleteLater()
-        self.application.processEvents()
+        # The engine goes before the objects that its windows look at.
+        for part in (self._engine, self._owner):
+            part.deleteLater()
+            QCoreApplication.sendPostedEvents(part, QEvent.Type.DeferredDelete)
+
+    def _take_robot(self, plan: Plan) -> None:
+        settings = plan.settings.robot
+        device = robot_of(settings, plan.catalogue.language)
+        if device is None:
+            return
+        self.bodies.take_robot(RobotBody(device, self.bodies, self._landing, settings.look_every))
+        if isinstance(self.clock, VirtualClock):
+            self.clock.waits_for = lambda: self.bodies.busy
 
     def _load(self, plan: Plan, mode: Mode) -> QQuickWindow:
         moving = plan.settings.screen.motion and mode.pace is Pace.WALL
@@ -125,7 +161,7 @@ class App:
                 "result": screens.result,
                 "question": screens.question,
                 "avatar": screens.avatar,
-                "words": words(plan.catalogue, self._owner),
+                "words": words(plan.catalogue),
                 "cardBack": QUrl.fromLocalFile(str(ASSETS / "cards" / "back.svg")),
                 "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
                 "textSize": plan.settings.screen.text_size,
@@ -147,7 +183,7 @@ class App:
         for ending in (signal.SIGINT, signal.SIGTERM):
             signal.signal(ending, lambda *_: self.quit())
 
-    def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
+    def fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
         """A fault of ours: into the log with it, and a calm screen for the visitor."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.conductor.pause()
@@ -161,6 +197,7 @@ def _application(display: Display) -> QGuiApplication:
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     existing = QGuiApplication.instance()
     application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
+    application.setQuitOnLastWindowClosed(False)
     for font in FONTS:
         QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
     application.setFont(QFont("Noto Sans"))
@@ -168,7 +205,7 @@ def _application(display: Display) -> QGuiApplication:
 
 
 def _clock(mode: Mode, owner: QObject) -> Clock:
-    return VirtualClock(owner) if mode.pace is Pace.VIRTUAL else WallClock(owner, mode.speed)
+    return VirtualClock() if mode.pace is Pace.VIRTUAL else WallClock(owner, mode.speed)
 
 
 def _voice(settings: Settings, mode: Mode, clock: Clock, owner: QObject) -> Voice:
@@ -202,3 +239,4 @@ def _show(window: QQuickWindow, display: Display) -> None:
         window.showFullScreen()
     else:
         window.show()
+    window.requestActivate()

@@ -8,13 +8,17 @@ from __future__ import annotations
 from PySide6.QtCore import Property, QObject, QTimer, Signal
 from PySide6.QtQml import QmlElement
 
-from kiosk.robot.body import Listener
-from kiosk.robot.speech import LOUDNESS_MS
+from kiosk.robot import LOUDNESS_MS
+from kiosk.robot.body import Health, Listener, Place
 from kiosk.study.commands import Mood
+from kiosk.study.events import BodyName
 from kiosk.ui.voice import Voice
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
+
+PATIENCE_MS = 200
+"""When a sentence is not to be heard after this time, the face looks thoughtful; usually it is heard after 50 ms."""
 
 
 @QmlElement
@@ -27,11 +31,19 @@ class AvatarScreen(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._present = True
         self._mood = Mood.IDLE
         self._bubble = ""
+        self._ponders = False
         self._gaze = (0.0, 0.0)
+        self._glance = (0.0, 0.0)
         self._blinking = False
         self._mouth = 0.0
+
+    def appear(self, *, present: bool) -> None:
+        """Show the face, or leave the place to another body; the bubble stays."""
+        self._present = present
+        self.changed.emit()
 
     def express(self, mood: Mood) -> None:
         """Show a mood."""
@@ -48,6 +60,16 @@ class AvatarScreen(QObject):
         self._gaze = (x, y)
         self.changed.emit()
 
+    def glance(self, x: float, y: float) -> None:
+        """Let the eyes wander a little, as far as they look at nothing in particular."""
+        self._glance = (x, y)
+        self.changed.emit()
+
+    def ponder(self, *, ponders: bool) -> None:
+        """Look thoughtful for as long as it takes to find words, unless another mood is shown."""
+        self._ponders = ponders
+        self.changed.emit()
+
     def blink(self, *, shut: bool) -> None:
         """Shut the lids, or open them."""
         self._blinking = shut
@@ -58,10 +80,16 @@ class AvatarScreen(QObject):
         self._mouth = how_far
         self.spoke.emit()
 
+    @Property(bool, notify=changed)
+    def present(self) -> bool:
+        """Whether the face is shown."""
+        return self._present
+
     @Property(str, notify=changed)
     def mood(self) -> str:
         """The name of the mood."""
-        return self._mood.value
+        mood = Mood.THINKING if self._ponders and self._mood is Mood.IDLE else self._mood
+        return mood.value
 
     @Property(str, notify=changed)
     def bubble(self) -> str:
@@ -71,12 +99,12 @@ class AvatarScreen(QObject):
     @Property(float, notify=changed)
     def gazeX(self) -> float:  # noqa: N802 - QML's convention
         """How far it looks to the right."""
-        return self._gaze[0]
+        return self._gaze[0] or self._glance[0]
 
     @Property(float, notify=changed)
     def gazeY(self) -> float:  # noqa: N802 - QML's convention
         """How far it looks down."""
-        return self._gaze[1]
+        return self._gaze[1] if any(self._gaze) else self._glance[1]
 
     @Property(bool, notify=changed)
     def blinking(self) -> bool:
@@ -92,7 +120,7 @@ class AvatarScreen(QObject):
 class AvatarBody(QObject):
     """The avatar as a body: says a sentence with its voice, and moves its mouth to it."""
 
-    name = "avatar"
+    name = BodyName.AVATAR
 
     def __init__(self, face: AvatarScreen, voice: Voice, listener: Listener, parent: QObject | None = None) -> None:
         """Speak with this voice and this face, and report to ``listener``."""
@@ -104,6 +132,10 @@ class AvatarBody(QObject):
         self._mouth = QTimer(self)
         self._mouth.setInterval(LOUDNESS_MS)
         self._mouth.timeout.connect(self._move_mouth)
+        self._searching = QTimer(self)
+        self._searching.setSingleShot(True)
+        self._searching.setInterval(PATIENCE_MS)
+        self._searching.timeout.connect(lambda: self._face.ponder(ponders=True))
         voice.started.connect(self._started)
         voice.finished.connect(self._finished)
         voice.failed.connect(self._failed)
@@ -111,6 +143,7 @@ class AvatarBody(QObject):
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence."""
         self._rest()
+        self._searching.start()
         self._voice.say(utterance, sentence)
 
     def stop(self) -> None:
@@ -122,7 +155,33 @@ class AvatarBody(QObject):
         """Show a mood."""
         self._face.express(mood)
 
+    @property
+    def health(self) -> Health:
+        """The avatar is always there; what it cannot say is read."""
+        return Health(well=True, words=f"the avatar is there; {self._voice.health.words}")
+
+    def attend(self, place: Place | None) -> None:
+        """Look at a place on the board, which lies to its left, or at the visitor."""
+        self._face.look(*((0.0, 0.0) if place is None else (place.across * 0.5 - 1, place.down * 2 - 1)))
+
+    def appear(self) -> None:
+        """Show the face."""
+        self._face.appear(present=True)
+
+    def withdraw(self) -> None:
+        """Leave the place to another body."""
+        self.stop()
+        self._face.appear(present=False)
+
+    def rest(self) -> None:
+        """Be silent, calm, and look straight ahead."""
+        self.stop()
+        self._voice.restore()
+        self._face.express(Mood.IDLE)
+        self._face.look(0, 0)
+
     def _started(self, utterance: int, loudness: list[float]) -> None:
+        self._found_words()
         self._loudness = loudness[::-1]
         self._mouth.start()
         self._listener.speech_started(utterance)
@@ -138,6 +197,11 @@ class AvatarBody(QObject):
     def _move_mouth(self) -> None:
         self._face.open_mouth(self._loudness.pop() if self._loudness else 0.0)
 
+    def _found_words(self) -> None:
+        self._searching.stop()
+        self._face.ponder(ponders=False)
+
     def _rest(self) -> None:
+        self._found_words()
         self._mouth.stop()
         self._face.open_mouth(0.0)

@@ -23,6 +23,7 @@ from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
 from kiosk.game import Position
+from kiosk.robot.body import Place
 from kiosk.study.commands import Wait
 
 QML_IMPORT_NAME = "Recollect"
@@ -137,11 +138,11 @@ class BoardScreen(QAbstractListModel):
         """Whether a tap counts."""
         return self._wait is None
 
-    def direction(self, row: int | None, column: int | None) -> tuple[float, float]:
-        """Where a mark lies seen from the avatar, which sits to the right of the board: x and y from -1 to 1."""
+    def place(self, row: int | None, column: int | None) -> Place:
+        """Where the middle of a mark lies."""
         across = 0.5 if column is None else (column + 0.5) / self._columns
         down = 0.5 if row is None else (row + 0.5) / self._rows
-        return across * 0.5 - 1, down * 2 - 1
+        return Place(across, down)
 
     def location(self, position: Position) -> int:
         """The number of a card, row by row from 0."""

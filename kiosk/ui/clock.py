@@ -9,12 +9,15 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable
 from itertools import count
-from time import monotonic
+from time import monotonic, sleep
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer
 
 MS_PER_SECOND = 1000
+
+_TICK_S = 0.0005
+"""How long a virtual clock that keeps pace with the wall's gives way to whoever it waits for."""
 
 
 class Wait(Protocol):
@@ -39,11 +42,14 @@ class Clock(Protocol):
 
 class _TimerWait:
     def __init__(self, timer: QTimer) -> None:
-        self._timer = timer
+        self._timer: QTimer | None = timer
+        timer.timeout.connect(self.cancel)
 
     def cancel(self) -> None:
-        self._timer.stop()
-        self._timer.deleteLater()
+        timer, self._timer = self._timer, None
+        if timer is not None:
+            timer.stop()
+            timer.deleteLater()
 
 
 class WallClock:
@@ -63,10 +69,10 @@ class WallClock:
         timer = QTimer(self._owner)
         timer.setSingleShot(True)
         timer.setTimerType(Qt.TimerType.PreciseTimer)
+        wait = _TimerWait(timer)
         timer.timeout.connect(call)
-        timer.timeout.connect(timer.deleteLater)
         timer.start(round(ms / self._speed))
-        return _TimerWait(timer)
+        return wait
 
 
 class _QueuedWait:
@@ -78,16 +84,16 @@ class _QueuedWait:
 
 
 class VirtualClock:
-    """Time that passes only by jumping to the end of the next wait, whenever the interface has nothing else to do."""
+    """Time that passes only by jumping to the end of the next wait, when it is told to."""
 
-    def __init__(self, owner: QObject) -> None:
-        """Runs from now on, until ``owner`` goes."""
+    def __init__(self) -> None:
+        """Begin at 0."""
+        self.waits_for: Callable[[], bool] = lambda: False
+        """Whether something takes its own time just now, such as a robot; meanwhile this clock goes like the wall's."""
         self._now = 0
+        self._waited_since: float | None = None
         self._order = count()
         self._waits: list[tuple[int, int, _QueuedWait]] = []
-        self._idle = QTimer(owner)
-        self._idle.timeout.connect(self._jump)
-        self._idle.start(0)
 
     def now_ms(self) -> int:
         """Milliseconds since the clock was made."""
@@ -99,10 +105,35 @@ class VirtualClock:
         heapq.heappush(self._waits, (self._now + ms, next(self._order), wait))
         return wait
 
-    def _jump(self) -> None:
-        while self._waits:
-            at, _, wait = heapq.heappop(self._waits)
-            if wait.call is not None:
-                self._now = at
-                wait.call()
-                return
+    def jump(self) -> None:
+        """Go on to the end of the next wait, if there is one."""
+        if self.waits_for():
+            self._keep_pace()
+            return
+        self._waited_since = None
+        self._forget_cancelled()
+        if self._waits:
+            self._end(heapq.heappop(self._waits))
+
+    def _keep_pace(self) -> None:
+        """Go on as the wall's clock does; end one wait if its time has come."""
+        now = monotonic()
+        if self._waited_since is None:
+            self._waited_since = now - self._now / MS_PER_SECOND
+        reached = int((now - self._waited_since) * MS_PER_SECOND)
+        self._forget_cancelled()
+        if self._waits and self._waits[0][0] <= reached:
+            self._end(heapq.heappop(self._waits))
+        else:
+            self._now = max(self._now, reached)
+            sleep(_TICK_S)
+
+    def _forget_cancelled(self) -> None:
+        while self._waits and self._waits[0][2].call is None:
+            heapq.heappop(self._waits)
+
+    def _end(self, due: tuple[int, int, _QueuedWait]) -> None:
+        at, _, wait = due
+        self._now = max(self._now, at)
+        if wait.call is not None:
+            wait.call()

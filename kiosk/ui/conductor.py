@@ -8,18 +8,20 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
-from kiosk.robot.body import Body
+from kiosk.robot.bodies import Bodies
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command
-from kiosk.study.events import Stage, WorldEvent
+from kiosk.study.events import Event, Stage, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
 from kiosk.ui.clock import Clock
 from kiosk.ui.performer import Performer, Screens
+from kiosk.ui.sounds import Effect, effect
 
 PAUSE_MS = 15_000
 """How long the calm screen stays before the kiosk tries to go on."""
@@ -38,6 +40,7 @@ class Conductor:
     ) -> None:
         """``next_sitting`` is asked once for each sitting what it is to follow."""
         self.witness: Witness | None = None
+        self.play: Callable[[Effect], None] = lambda _: None
         self._recorder = recorder
         self._clock = clock
         self._next_sitting = next_sitting
@@ -48,9 +51,9 @@ class Conductor:
         self._listen(screens)
         self._prepare()
 
-    def take(self, body: Body) -> None:
-        """Let this body speak; bodies report to the conductor, so it is there before them."""
-        self._performer.body = body
+    def take(self, bodies: Bodies) -> None:
+        """Let these bodies speak; bodies report to the conductor, so it is there before them."""
+        self._performer.bodies = bodies
 
     def tell(self, kind: type[WorldEvent], **what: object) -> None:
         """Something happened just now."""
@@ -72,6 +75,10 @@ class Conductor:
     def speech_failed(self, utterance: int, why: str) -> None:
         """The body will not say a sentence, or not to its end."""
         self.tell(happened.SpeechFailed, utterance=utterance, why=why)
+
+    def robot_lost(self, why: str) -> None:
+        """The robot that was helping cannot be counted on any more."""
+        self.tell(happened.RobotLost, why=why)
 
     def close(self) -> None:
         """End the sitting that is under way, if there is one, because the program is being closed."""
@@ -121,6 +128,9 @@ class Conductor:
             return
         for command in commands:
             self._performer.perform(command)
+        sound = effect(commands)
+        if sound is not None:
+            self.play(sound)
         if self.witness is not None:
             self.witness(event, commands, self._session.stage)
         if self._session.stage is Stage.OVER:
@@ -129,6 +139,15 @@ class Conductor:
     def _record(self, event: WorldEvent, commands: tuple[Command, ...], *, first: bool) -> None:
         events = (event, *(command.event for command in commands if isinstance(command, do.Record)))
         if first:
-            self._recorder.begin(self._sitting, events)
+            self._begin(events)
         else:
             self._recorder.append(events)
+
+    def _begin(self, events: tuple[Event, ...]) -> None:
+        """Write the sitting with the body that it begins with, whichever was meant."""
+        bodies = self._performer.bodies
+        if bodies is not None and bodies.current is not None:
+            self._sitting = replace(self._sitting, body=bodies.current.name.value)
+        self._recorder.begin(self._sitting, events)
+        if bodies is not None:
+            bodies.begin()

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial, singledispatchmethod
 
+from kiosk.robot.bodies import Bodies
 from kiosk.robot.body import Body
 from kiosk.study import commands as do
-from kiosk.study.commands import Command, Mood
+from kiosk.study.commands import Command
 from kiosk.study.events import Timer
 from kiosk.ui.avatar import AvatarScreen
 from kiosk.ui.board import BoardScreen
@@ -34,7 +35,7 @@ class Performer:
 
     def __init__(self, screens: Screens, clock: Clock, wait_ended: Callable[[Timer], None]) -> None:
         """``wait_ended`` is called when a wait is over that was not stopped."""
-        self.body: Body | None = None
+        self.bodies: Bodies | None = None
         self.screens = screens
         self._clock = clock
         self._wait_ended = wait_ended
@@ -44,11 +45,9 @@ class Performer:
         """Leave nothing of a sitting: no wait, no sound, no bubble, no question; then show the screen of this name."""
         for timer in Timer:
             self._stop_wait(timer)
-        if self.body is not None:
-            self.body.stop()
-            self.body.express(Mood.IDLE)
+        if self.bodies is not None:
+            self.bodies.rest()
         self.screens.avatar.say("")
-        self.screens.avatar.look(0, 0)
         self.screens.kiosk.ask_still_there(asks=False)
         self.screens.kiosk.show(screen)
 
@@ -97,23 +96,30 @@ class Performer:
     @perform.register
     def _(self, command: do.ShowMark) -> None:
         self.screens.board.mark(command.row, command.column)
-        self.screens.avatar.look(*self.screens.board.direction(command.row, command.column))
+        if self._body is not None:
+            self._body.attend(self.screens.board.place(command.row, command.column))
 
     @perform.register
     def _(self, command: do.ClearMark) -> None:
         self.screens.board.clear_mark()
-        self.screens.avatar.look(0, 0)
+        if self._body is not None:
+            self._body.attend(None)
 
     @perform.register
     def _(self, command: do.Speak) -> None:
         self.screens.avatar.say(command.sentence)
-        if self.body is not None:
-            self.body.say(command.utterance, command.sentence)
+        if self._body is not None:
+            self._body.say(command.utterance, command.sentence)
 
     @perform.register
     def _(self, command: do.StopSpeaking) -> None:
-        if self.body is not None:
-            self.body.stop()
+        if self._body is not None:
+            self._body.stop()
+
+    @perform.register
+    def _(self, command: do.ChangeBody) -> None:
+        if self.bodies is not None:
+            self.bodies.change(command.body)
 
     @perform.register
     def _(self, command: do.ClearBubble) -> None:
@@ -121,8 +127,8 @@ class Performer:
 
     @perform.register
     def _(self, command: do.Express) -> None:
-        if self.body is not None:
-            self.body.express(command.mood)
+        if self._body is not None:
+            self._body.express(command.mood)
 
     @perform.register
     def _(self, command: do.ShowResult) -> None:
@@ -158,6 +164,11 @@ class Performer:
     @perform.register
     def _(self, command: do.EndSitting) -> None:
         """The conductor gets ready for the next visitor; there is nothing to carry out before."""
+
+    @property
+    def _body(self) -> Body | None:
+        """The body that helps now."""
+        return None if self.bodies is None else self.bodies.current
 
     def _stop_wait(self, timer: Timer) -> None:
         wait = self._waits.pop(timer, None)

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from random import Random
 
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtQuick import QQuickItem
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
 from kiosk.study.commands import Command
 from kiosk.study.events import Stage, WorldEvent
 from kiosk.ui.app import App
+from kiosk.ui.pulse import Pulse
 from kiosk.ui.shots import Shots
 from kiosk.ui.visitor import View, Visitor
 
@@ -30,10 +31,12 @@ class Rehearsal:
 
     def __init__(self, app: App, seed: int, shots: Shots | None = None) -> None:
         """Play on this kiosk; the same seed plays the same way. ``shots`` takes pictures on the way."""
+        self.pulse = Pulse()
         self._app = app
         self._visitor = Visitor(Random(f"{seed}/visitor"))
         self._shots = shots
-        self._began = False
+        self._began = self._over = False
+        self._begun_ms = app.clock.now_ms()
         self._stuck: Stuck | None = None
         app.conductor.witness = self._watch
 
@@ -41,7 +44,9 @@ class Rehearsal:
         """Play the sitting to its end; raises Stuck if it has none."""
         self._photograph("attract")
         self._think()
+        self.pulse.start()
         self._app.run()
+        self.pulse.stop()
         if self._stuck is not None:
             raise self._stuck
 
@@ -49,6 +54,8 @@ class Rehearsal:
         self._app.clock.after(self._visitor.think(), self._act)
 
     def _act(self) -> None:
+        if self._over:
+            return
         try:
             self._click_what_comes_next()
         except Stuck as stuck:
@@ -58,10 +65,10 @@ class Rehearsal:
         self._think()
 
     def _click_what_comes_next(self) -> None:
-        if self._app.clock.now_ms() > self._app.started_ms + LONGEST_MS:
+        if self._app.clock.now_ms() > self._begun_ms + LONGEST_MS:
             raise Stuck(f"after two hours the sitting is still at the screen {self._app.screens.kiosk.shown}")
         match self._app.screens.kiosk.shown:
-            case "attract" if not self._began:
+            case "attract" if not self._began and self._app.bodies.settled:
                 self._began = True
                 self._click("start")
             case "introduction" | "result":
@@ -91,6 +98,7 @@ class Rehearsal:
         if self._shots is not None:
             self._shots.watch(commands)
         if stage is Stage.OVER:
+            self._over = True
             self._app.quit()
 
     def _photograph(self, moment: str) -> None:
@@ -100,11 +108,23 @@ class Rehearsal:
     def _click(self, name: str) -> None:
         """Press and release the left button in the middle of the item of this name."""
         window = self._app.window
+        if self._app.screens.kiosk.shown != "game" or find(window.contentItem(), name) is None:
+            with self.pulse.aside():
+                lay_out(window)
         item = find(window.contentItem(), name)
         if item is None:
             raise Stuck(f"there is no {name!r} on the screen {self._app.screens.kiosk.shown}")
-        middle = item.mapToScene(QPointF(item.width() / 2, item.height() / 2)).toPoint()
-        QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, middle)
+        QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, middle(item))
+
+
+def lay_out(window: QQuickWindow) -> None:
+    """See that everything is where it belongs: Qt Quick places items only when it draws."""
+    window.grabWindow()
+
+
+def middle(item: QQuickItem) -> QPoint:
+    """Where the middle of an item is in its window."""
+    return item.mapToScene(QPointF(item.width() / 2, item.height() / 2)).toPoint()
 
 
 def find(item: QQuickItem, name: str) -> QQuickItem | None:

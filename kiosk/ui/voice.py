@@ -9,10 +9,12 @@ from __future__ import annotations
 import json
 import logging
 import sys
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
+from kiosk.robot.body import Health
 from kiosk.settings import Voice as VoiceSettings
 from kiosk.ui.clock import Clock, Wait
 
@@ -21,6 +23,9 @@ START_DEADLINE_MS = 2_000
 
 END_GRACE_MS = 1_500
 """How much longer than its own length a sentence may take."""
+
+READY_DEADLINE_MS = 800
+"""The same once the process has said that it is ready; with a new start within a second of a sentence that hangs."""
 
 MAX_FAILURES = 3
 """After so many failures in a row the voice is not tried again until ``restore``."""
@@ -45,6 +50,17 @@ class Voice(QObject):
     def stop(self) -> None:
         """Be silent; the sentence under way is not reported any more."""
         raise NotImplementedError
+
+    def play(self, sound: Path) -> None:
+        """Play a short sound, unless a sentence is under way."""
+
+    def restore(self) -> None:
+        """Try again whatever was given up."""
+
+    @property
+    def health(self) -> Health:
+        """Whether sentences are heard, in words for the experimenter."""
+        return Health(well=True, words="the voice is silent on purpose")
 
     def close(self) -> None:
         """Be silent for good."""
@@ -88,17 +104,24 @@ class SilentVoice(Voice):
 class EngineVoice(Voice):
     """The speech engine in its process."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913, PLR0917 - what differs between the booth and a test
         self,
         settings: VoiceSettings,
         language: str,
         command: tuple[str, ...] | None = None,
+        start_deadline_ms: int = START_DEADLINE_MS,
+        end_grace_ms: int = END_GRACE_MS,
         parent: QObject | None = None,
     ) -> None:
-        """Start the process; ``command`` stands in for it in tests."""
+        """Start the process; ``command`` and other deadlines stand in for its own in tests."""
         super().__init__(parent)
         worker = (sys.executable, "-m", "kiosk.robot.speech", language, str(settings.rate), str(settings.volume))
         self._command = command or worker
+        self._start_deadline_ms = start_deadline_ms
+        self._end_grace_ms = end_grace_ms
+        self._language = language
+        self._health = Health(well=True, words="the voice is starting")
+        self._ready = False
         self._saying: int | None = None
         self._failures = 0
         self._deadline = QTimer(self)
@@ -110,13 +133,14 @@ class EngineVoice(Voice):
     def say(self, number: int, sentence: str) -> None:
         """Send a sentence to the engine."""
         self.stop()
-        if self._process is None and self._failures < MAX_FAILURES:
-            self._start()
-        if self._process is None:
+        if self._failures >= MAX_FAILURES:
             self.failed.emit(number, "there is no voice")
             return
+        if self._process is None:
+            self._start()
         self._saying = number
-        self._deadline.start(START_DEADLINE_MS)
+        most = READY_DEADLINE_MS if self._ready else self._start_deadline_ms
+        self._deadline.start(min(most, self._start_deadline_ms))
         self._send({"say": number, "text": sentence})
 
     def stop(self) -> None:
@@ -126,16 +150,26 @@ class EngineVoice(Voice):
             self._send({"stop": True})
         self._saying = None
 
+    def play(self, sound: Path) -> None:
+        """Have the engine's process play a short sound; without one there is none."""
+        if self._ready:
+            self._send({"play": str(sound)})
+
     def restore(self) -> None:
         """Try the engine again, however often it has failed."""
         self._failures = 0
+
+    @property
+    def health(self) -> Health:
+        """What the engine said of itself, or why it is gone."""
+        return self._health
 
     def close(self) -> None:
         """End the process."""
         self._saying = None
         process, self._process = self._process, None
         if process is not None:
-            process.disconnect(self)
+            process.blockSignals(True)  # noqa: FBT003 - Qt's signature
             process.closeWriteChannel()
             if not process.waitForFinished(QUIT_MS):
                 process.kill()
@@ -167,15 +201,21 @@ class EngineVoice(Voice):
             self._heard(kind, event)
 
     def _heard(self, kind: str, event: dict[str, Any]) -> None:
+        if kind == "ready":
+            self._ready = True
+            self._health = _found(self._language, event.get("voice"), plays=event.get("player") is True)
+            if not self._health.well:
+                _log.warning("%s", self._health.words)
         if kind == "unavailable":
             _log.warning("there is no voice: %s", event.get("why"))
             self._failures = MAX_FAILURES
+            self._health = Health(well=False, words=f"sentences are only shown: {event.get('why')}")
             self._give_up(str(event.get("why")))
         if event.get("id") != self._saying or self._saying is None:
             return
         match kind:
             case "started":
-                self._deadline.start(int(event["duration_ms"]) + END_GRACE_MS)
+                self._deadline.start(int(event["duration_ms"]) + self._end_grace_ms)
                 self.started.emit(self._saying, event["loudness"])
             case "finished":
                 self._failures = 0
@@ -190,7 +230,7 @@ class EngineVoice(Voice):
             self.finished.emit(number)
 
     def _overdue(self) -> None:
-        """The engine hangs: end it; the next sentence starts another."""
+        """The engine hangs: end it, and start another."""
         _log.warning("the voice hangs and is ended")
         self._drop_process()
         self._give_up("the voice did not answer in time")
@@ -205,13 +245,28 @@ class EngineVoice(Voice):
     def _drop_process(self) -> None:
         process, self._process = self._process, None
         if process is not None:
-            process.disconnect(self)
-            process.finished.connect(process.deleteLater)
+            process.blockSignals(True)  # noqa: FBT003 - Qt's signature
             process.kill()
+            # It is reaped when its last word comes; until then it stays a child of this object.
+            QTimer.singleShot(QUIT_MS, process, process.deleteLater)
+        self._ready = False
         self._failures += 1
+        if self._failures < MAX_FAILURES:
+            self._start()
+        else:
+            self._health = Health(well=False, words="sentences are only shown: the voice failed again and again")
 
     def _give_up(self, why: str) -> None:
         number, self._saying = self._saying, None
         self._deadline.stop()
         if number is not None:
             self.failed.emit(number, why)
+
+
+def _found(language: str, voice: object, *, plays: bool) -> Health:
+    """What an engine that is ready can do."""
+    if voice is None:
+        return Health(well=False, words=f"sentences are only shown: no installed voice speaks {language!r}")
+    if not plays:
+        return Health(well=False, words="sentences are only shown: there is no program that plays sound")
+    return Health(well=True, words=f"the voice {voice} speaks")

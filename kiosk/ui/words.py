@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject
-from PySide6.QtQml import QQmlPropertyMap
-
 from kiosk.assistant.wording import Catalogue
 
 FIXED = (
@@ -35,9 +32,6 @@ FIXED = (
 """Every message that QML shows as it stands; those with variables are filled in by the screens' objects."""
 
 
-def words(catalogue: Catalogue, parent: QObject) -> QQmlPropertyMap:
+def words(catalogue: Catalogue) -> dict[str, str]:
     """The fixed texts, by the names of their messages."""
-    texts = QQmlPropertyMap(parent)
-    for message in FIXED:
-        texts.insert(message, catalogue.text(message))
-    return texts
+    return {message: catalogue.text(message) for message in FIXED}

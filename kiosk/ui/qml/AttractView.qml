@@ -4,7 +4,7 @@ import QtQuick
 import Recollect
 import "."
 
-Item {
+FocusScope {
     id: view
 
     required property AttractScreen attract
@@ -36,18 +36,16 @@ Item {
                 }
             }
         }
-        Text {
+        Line {
             anchors.horizontalCenter: parent.horizontalCenter
+            room: view.width - 4 * Theme.gap
             topPadding: Theme.gap
             text: view.words["attract-title"]
             font { pixelSize: Theme.title; bold: true }
-            color: Theme.ink
         }
-        Text {
+        Line {
             anchors.horizontalCenter: parent.horizontalCenter
-            width: Math.min(implicitWidth, view.width - 4 * Theme.gap)
-            horizontalAlignment: Text.AlignHCenter
-            wrapMode: Text.WordWrap
+            room: view.width - 4 * Theme.gap
             text: view.words["attract-line"]
             font.pixelSize: Theme.body
             color: Theme.faintInk

@@ -4,7 +4,7 @@ import QtQuick
 import Recollect
 import "."
 
-Item {
+FocusScope {
     id: view
 
     required property BoardScreen board
@@ -13,8 +13,9 @@ Item {
 
     readonly property real header: 84 * Theme.unit
     readonly property real numbers: 64 * Theme.unit
+    readonly property real footer: 64 * Theme.unit
     readonly property real cell: Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
-                                          (height - header - numbers - 2 * Theme.gap) / Math.max(1, board.rows))
+                                          (height - header - numbers - footer) / Math.max(1, board.rows))
 
     Item {
         id: status
@@ -27,17 +28,20 @@ Item {
             color: Theme.ink
         }
         Text {
-            anchors.centerIn: parent
-            text: view.board.wait
-            font.pixelSize: Theme.small
-            color: Theme.deepAmber
-        }
-        Text {
             anchors { right: parent.right; verticalCenter: parent.verticalCenter }
             text: view.board.moves
             font.pixelSize: Theme.body
             color: Theme.faintInk
         }
+    }
+
+    Text {
+        anchors { top: cards.bottom; horizontalCenter: cards.horizontalCenter }
+        height: view.footer
+        verticalAlignment: Text.AlignVCenter
+        text: view.board.wait
+        font.pixelSize: Theme.small
+        color: Theme.deepAmber
     }
 
     Item {
@@ -148,5 +152,11 @@ Item {
         }
         property bool byKeyboard: false
         Keys.onPressed: byKeyboard = true
+
+        // A new board begins at its first card for those who play by keyboard.
+        Connections {
+            target: view.board
+            function onModelReset() { cards.currentIndex = 0 }
+        }
     }
 }

@@ -2,7 +2,7 @@
 import QtQuick
 import "."
 
-Rectangle {
+FocusScope {
     id: calm
 
     required property string title
@@ -10,10 +10,13 @@ Rectangle {
     property string button: ""
     signal confirmed()
 
-    color: "#D9FBF6EC"
-
-    // Whatever lies below cannot be reached.
-    MouseArea { anchors.fill: parent; hoverEnabled: true }
+    // Whatever lies below cannot be reached, and steps back.
+    Rectangle {
+        anchors.fill: parent
+        color: Theme.paper
+        opacity: 0.85
+        MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true }
+    }
 
     Rectangle {
         anchors.centerIn: parent

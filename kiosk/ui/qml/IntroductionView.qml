@@ -4,7 +4,7 @@ import QtQuick
 import Recollect
 import "."
 
-Item {
+FocusScope {
     id: view
 
     required property IntroductionScreen introduction
@@ -15,8 +15,8 @@ Item {
 
     readonly property real cardSize: 120 * Theme.unit
 
-    component Line: Row {
-        id: line
+    component Rule: Row {
+        id: rule
         property string text
         property string leftCard
         property string rightCard
@@ -26,22 +26,22 @@ Item {
             height: view.cardSize
             back: view.cardBack
             shadow: view.cardShadow
-            picture: line.leftCard
-            up: line.leftCard !== ""
+            picture: rule.leftCard
+            up: rule.leftCard !== ""
         }
         CardFace {
             width: view.cardSize
             height: view.cardSize
             back: view.cardBack
             shadow: view.cardShadow
-            picture: line.rightCard
-            up: line.rightCard !== ""
+            picture: rule.rightCard
+            up: rule.rightCard !== ""
         }
         Text {
             anchors.verticalCenter: parent.verticalCenter
             width: Math.min(720 * Theme.unit, view.width - 2 * view.cardSize - 6 * Theme.gap)
             leftPadding: Theme.gap
-            text: line.text
+            text: rule.text
             font.pixelSize: Theme.body
             wrapMode: Text.WordWrap
             color: Theme.ink
@@ -52,18 +52,18 @@ Item {
         anchors.centerIn: parent
         spacing: 1.6 * Theme.gap
 
-        Text {
+        Line {
+            room: view.width - 4 * Theme.gap
             text: view.words["introduction-title"]
             font { pixelSize: Theme.title; bold: true }
-            color: Theme.ink
         }
-        Line { text: view.words["introduction-turn"]; leftCard: view.attract.pictures[0] }
-        Line {
+        Rule { text: view.words["introduction-turn"]; leftCard: view.attract.pictures[0] }
+        Rule {
             text: view.words["introduction-match"]
             leftCard: view.attract.pictures[2]
             rightCard: view.attract.pictures[2]
         }
-        Line { text: view.words["introduction-help"]; leftCard: view.attract.pictures[4] }
+        Rule { text: view.words["introduction-help"]; leftCard: view.attract.pictures[4] }
         BigButton {
             objectName: "continue"
             text: view.words["introduction-continue"]

@@ -53,6 +53,7 @@ Window {
         AttractView {
             anchors.fill: parent
             visible: root.kiosk.screen === "attract"
+            focus: visible && !root.kiosk.asksStillThere
             attract: root.attract
             words: root.words
             cardBack: root.cardBack
@@ -61,6 +62,7 @@ Window {
         IntroductionView {
             anchors.fill: parent
             visible: root.kiosk.screen === "introduction"
+            focus: visible && !root.kiosk.asksStillThere
             introduction: root.introduction
             attract: root.attract
             words: root.words
@@ -70,6 +72,7 @@ Window {
         BoardView {
             anchors.fill: parent
             visible: root.kiosk.screen === "game"
+            focus: visible && !root.kiosk.asksStillThere
             board: root.board
             cardBack: root.cardBack
             cardShadow: root.cardShadow
@@ -77,12 +80,14 @@ Window {
         ResultView {
             anchors.fill: parent
             visible: root.kiosk.screen === "result"
+            focus: visible && !root.kiosk.asksStillThere
             result: root.result
             words: root.words
         }
         QuestionView {
             anchors.fill: parent
             visible: root.kiosk.screen === "questions"
+            focus: visible && !root.kiosk.asksStillThere
             question: root.question
             words: root.words
         }
@@ -97,6 +102,7 @@ Window {
     CalmCard {
         anchors.fill: parent
         visible: root.kiosk.asksStillThere
+        focus: visible
         title: root.words["still-there-title"]
         line: root.words["still-there-line"]
         button: root.words["still-there-yes"]

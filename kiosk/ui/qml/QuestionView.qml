@@ -5,7 +5,7 @@ import QtQuick.Controls.Basic
 import Recollect
 import "."
 
-Item {
+FocusScope {
     id: view
 
     required property QuestionScreen question
@@ -23,14 +23,11 @@ Item {
             font.pixelSize: Theme.small
             color: Theme.faintInk
         }
-        Text {
+        Line {
             anchors.horizontalCenter: parent.horizontalCenter
-            width: Math.min(1100 * Theme.unit, view.width - 4 * Theme.gap)
-            horizontalAlignment: Text.AlignHCenter
-            wrapMode: Text.WordWrap
+            room: Math.min(1100 * Theme.unit, view.width - 4 * Theme.gap)
             text: view.question.text
             font { pixelSize: Theme.heading; bold: true }
-            color: Theme.ink
         }
         Column {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -46,6 +43,7 @@ Item {
                         readonly property int value: index + 1
                         readonly property bool chosen: view.question.chosen === value
                         objectName: "answer-" + value
+                        focus: index === 0
                         width: view.answerSize
                         height: view.answerSize
                         text: value
@@ -53,6 +51,8 @@ Item {
                         scale: down ? 0.96 : 1
                         Accessible.checked: chosen
                         onClicked: view.question.choose(value)
+                        Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
+                        Keys.onRightPressed: nextItemInFocusChain().forceActiveFocus(Qt.TabFocusReason)
                         Keys.onReturnPressed: clicked()
                         Keys.onEnterPressed: clicked()
                         contentItem: Text {

@@ -4,7 +4,7 @@ import QtQuick
 import Recollect
 import "."
 
-Item {
+FocusScope {
     id: view
 
     required property ResultScreen result
@@ -14,11 +14,11 @@ Item {
         id: figure
         property string value
         property string label
-        width: 300 * Theme.unit
+        width: Math.max(240 * Theme.unit, implicitWidth + 2 * Theme.gap)
         Text {
             anchors.horizontalCenter: parent.horizontalCenter
             text: figure.value
-            font { pixelSize: Theme.title; bold: true }
+            font { pixelSize: Theme.figure; bold: true }
             color: Theme.sea
         }
         Text {
@@ -33,11 +33,11 @@ Item {
         anchors.centerIn: parent
         spacing: 3 * Theme.gap
 
-        Text {
+        Line {
             anchors.horizontalCenter: parent.horizontalCenter
+            room: view.width - 4 * Theme.gap
             text: view.words["result-title"]
             font { pixelSize: Theme.title; bold: true }
-            color: Theme.ink
         }
         Rectangle {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -52,7 +52,7 @@ Item {
                 anchors.centerIn: parent
                 Figure { value: view.result.pairs; label: view.words["result-pairs-label"] }
                 Figure { value: view.result.moves; label: view.words["result-moves-label"] }
-                Figure { value: view.result.time; label: view.words["result-time-label"]; width: 420 * Theme.unit }
+                Figure { value: view.result.time; label: view.words["result-time-label"] }
             }
         }
         BigButton {

@@ -23,5 +23,6 @@ Item {
         gazeY: panel.avatar.gazeY
         blinking: panel.avatar.blinking
         motion: Theme.motion * 1.5
+        visible: panel.avatar.present
     }
 }

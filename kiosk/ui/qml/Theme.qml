@@ -20,6 +20,7 @@ QtObject {
     readonly property color deepAmber: "#8A4B00"
 
     readonly property real title: 76 * unit * textSize
+    readonly property real figure: 64 * unit * textSize
     readonly property real heading: 46 * unit * textSize
     readonly property real body: 32 * unit * textSize
     readonly property real small: 26 * unit * textSize

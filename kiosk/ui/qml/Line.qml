@@ -1,0 +1,12 @@
+// A text that is as wide as it needs to be and no wider than its place; then it goes on in another line.
+import QtQuick
+import "."
+
+Text {
+    required property real room
+
+    width: Math.min(implicitWidth, room)
+    wrapMode: Text.WordWrap
+    horizontalAlignment: Text.AlignHCenter
+    color: Theme.ink
+}

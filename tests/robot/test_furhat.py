@@ -1,0 +1,262 @@
+"""Furhat's Remote API: what is asked is what the robot takes, and whatever goes wrong is a failure in time."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from time import monotonic
+
+import pytest
+
+from kiosk.robot.body import Place
+from kiosk.robot.device import Fault, RobotFailed, RobotVoice, Saying, speakable
+from kiosk.robot.furhat import Furhat, chosen_voice
+from kiosk.settings import Robot as RobotSettings
+from kiosk.study.commands import Mood
+from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode
+
+DEADLINE_MS = 250
+SPARE_S = 1.0
+"""How much later than its deadline a call may end on a machine that does other things as well."""
+
+
+@pytest.fixture
+def fake() -> Iterator[FurhatFake]:
+    """A robot."""
+    with FurhatFake() as robot:
+        yield robot
+
+
+def furhat(fake: FurhatFake, language: str = "en", **settings: object) -> Furhat:
+    """A client with short deadlines."""
+    deadlines = {
+        **dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), DEADLINE_MS),
+        "speech_deadline": 1,
+    }
+    given = {"host": "127.0.0.1", "port": fake.port, **deadlines, **settings}
+    return Furhat(RobotSettings.model_validate(given), language)
+
+
+def saying(text: str, started: Callable[[], None] = lambda: None) -> Saying:
+    """A sentence."""
+    return Saying(text, started)
+
+
+CALLS: dict[str, Callable[[Furhat], object]] = {
+    "probe": Furhat.probe,
+    "voices": Furhat.voices,
+    "gestures": Furhat.gestures,
+    "users": Furhat.users,
+    "voice": lambda robot: robot.speak_with(RobotVoice("Amy", "en-GB")),
+    "say": lambda robot: robot.say(saying("Hello")),
+    "hush": Furhat.hush,
+    "confused": lambda robot: robot.express(Mood.CONFUSED),
+}
+
+
+def test_at_connect_it_is_given_the_first_voice_of_the_language(fake: FurhatFake) -> None:
+    assert furhat(fake, "it").connect().voice == RobotVoice("Bianca", "it-IT")
+    assert fake.voice == "Bianca"
+
+
+def test_a_voice_can_be_wished_for_by_name(fake: FurhatFake) -> None:
+    furhat(fake, "en", voice="Amy").connect()
+    assert fake.voice == "Amy"
+
+
+def test_a_robot_without_a_voice_of_the_language_is_not_used() -> None:
+    with FurhatFake(voices={"Astrid": "sv-SE"}) as fake, pytest.raises(RobotFailed, match="it has sv-SE") as failed:
+        furhat(fake, "es").connect()
+    assert failed.value.fault is Fault.NO_VOICE
+
+
+@pytest.mark.parametrize("language", ["en", "en-US", "en_GB", "EN-au"])
+def test_a_language_is_known_however_it_is_written(language: str) -> None:
+    assert chosen_voice((RobotVoice("X", "eng"), RobotVoice("Y", language)), "en").name == "Y"
+
+
+def test_after_every_reconnection_the_voice_is_set_again(fake: FurhatFake) -> None:
+    robot = furhat(fake)
+    robot.connect()
+    fake.restart()
+    assert fake.voice is None
+    robot.connect()
+    assert fake.voice == "Matthew"
+
+
+def test_it_asks_only_for_what_the_robot_takes(fake: FurhatFake) -> None:
+    robot = furhat(fake)
+    robot.connect()
+    for mood in Mood:
+        robot.express(mood)
+    robot.attend(None)
+    robot.attend(Place(0.25, 1))
+    robot.say(saying("Try row 2 & <the owl>\u2069"))
+    robot.hush()
+    assert robot.users() == 1
+    assert fake.refusals == []
+    assert fake.sentences == ["Try row 2 the owl"]
+
+
+def test_a_mood_becomes_a_gesture_that_the_robot_offers_or_none(fake: FurhatFake) -> None:
+    fake.gestures = {"Smile": 1.04}
+    robot = furhat(fake)
+    robot.connect()
+    for mood in (Mood.HAPPY, Mood.SAD, Mood.IDLE):
+        robot.express(mood)
+    assert [asked.parameters["name"] for asked in fake.asked("/furhat/gesture")] == ["Smile"]
+
+
+def test_a_sentence_is_said_when_it_has_been_heard_to_its_end() -> None:
+    with FurhatFake(character_ms=5) as fake:
+        begun = monotonic()
+        furhat(fake).say(saying("x" * 20))
+        assert monotonic() - begun >= 0.1
+
+
+def test_speech_starts_when_the_request_is_out(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    started = threading.Event()
+    with pytest.raises(RobotFailed):
+        furhat(fake).say(saying("Hello", started.set))
+    assert started.is_set()
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
+@pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
+def test_whatever_goes_wrong_is_a_failure_before_the_deadline(
+    fake: FurhatFake, mode: Mode, call: Callable[[Furhat], object]
+) -> None:
+    fake.mode = mode
+    begun = monotonic()
+    with pytest.raises(RobotFailed):
+        call(furhat(fake))
+    assert monotonic() - begun < DEADLINE_MS / 1000 + SPARE_S
+
+
+@pytest.mark.parametrize(
+    ("mode", "fault"),
+    [
+        (Mode.REFUSE, Fault.UNREACHABLE),
+        (Mode.HANG, Fault.SLOW),
+        (Mode.SLOW, Fault.SLOW),
+        (Mode.TRICKLE, Fault.SLOW),
+        (Mode.CLIENT_ERROR, Fault.DECLINED),
+        (Mode.BARE_CLIENT_ERROR, Fault.ERROR),
+        (Mode.SERVER_ERROR, Fault.ERROR),
+        (Mode.UNSUCCESSFUL, Fault.DECLINED),
+        (Mode.GARBAGE, Fault.GARBAGE),
+        (Mode.PAGE, Fault.GARBAGE),
+        (Mode.DROP, Fault.DROPPED),
+        (Mode.RESET, Fault.DROPPED),
+    ],
+    ids=lambda value: value.name.lower(),
+)
+def test_a_failure_says_what_went_wrong(fake: FurhatFake, mode: Mode, fault: Fault) -> None:
+    fake.mode = mode
+    with pytest.raises(RobotFailed) as failed:
+        furhat(fake).say(saying("Hello"))
+    assert failed.value.fault is fault
+    assert str(failed.value).startswith(f"the robot {fault.value} (POST /furhat/say")
+
+
+@pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
+def test_a_sentence_is_sent_once_whatever_becomes_of_it(fake: FurhatFake, mode: Mode) -> None:
+    fake.arm(mode, path="/furhat/say")
+    with pytest.raises(RobotFailed):
+        furhat(fake).say(saying("Hello"))
+    assert len(fake.sentences) == 1
+
+
+def test_nobody_to_look_at_is_no_failure(fake: FurhatFake) -> None:
+    fake.mode = Mode.UNSUCCESSFUL
+    furhat(fake).attend(None)
+    fake.mode = Mode.SERVER_ERROR
+    with pytest.raises(RobotFailed):
+        furhat(fake).attend(None)
+
+
+@pytest.mark.parametrize("success", ['"true"', "1", "null"])
+def test_only_true_counts_as_true(fake: FurhatFake, success: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tests.robot.furhat_fake.json.dumps", lambda _: f'{{"success": {success}}}')
+    with pytest.raises(RobotFailed) as failed:
+        furhat(fake).hush()
+    assert failed.value.fault is Fault.GARBAGE
+
+
+def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    under_way = saying("Hello")
+    robot = furhat(fake, speech_deadline_least=60_000)
+    failures: list[RobotFailed] = []
+
+    def say() -> None:
+        with pytest.raises(RobotFailed) as failed:
+            robot.say(under_way)
+        failures.append(failed.value)
+
+    thread = threading.Thread(target=say)
+    thread.start()
+    fake.wait_until(lambda: fake.sentences)
+    under_way.cut()
+    thread.join(SPARE_S)
+    assert [failure.fault for failure in failures] == [Fault.CUT]
+
+
+def test_a_sentence_that_was_cut_before_it_was_sent_is_not_waited_for(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    cut = saying("Hello")
+    cut.cut()
+    with pytest.raises(RobotFailed) as failed:
+        furhat(fake, speech_deadline_least=60_000).say(cut)
+    assert failed.value.fault is Fault.CUT
+
+
+def test_an_answer_without_an_end_is_garbage() -> None:
+    listening = socket.create_server(("127.0.0.1", 0))
+
+    def pour() -> None:
+        connection, _ = listening.accept()
+        with connection, suppress(OSError):
+            connection.recv(10_000)
+            connection.sendall(b"HTTP/1.1 200 OK\r\n\r\n")
+            while True:
+                connection.sendall(b"[" * 100_000)
+
+    thread = threading.Thread(target=pour)
+    thread.start()
+    settings = RobotSettings(host="127.0.0.1", port=listening.getsockname()[1])
+    with listening, pytest.raises(RobotFailed) as failed:
+        Furhat(settings, "en").voices()
+    thread.join(SPARE_S)
+    assert failed.value.fault is Fault.GARBAGE
+
+
+def test_a_name_that_nobody_knows_cannot_be_reached() -> None:
+    with pytest.raises(RobotFailed) as failed:
+        Furhat(RobotSettings(host="no such robot"), "en").connect()
+    assert failed.value.fault is Fault.UNREACHABLE
+
+
+@pytest.mark.parametrize(
+    ("axes", "there"),
+    [("x y z", "0.20,-0.08,0.50"), ("-x y z", "-0.20,-0.08,0.50"), ("y z -x", "-0.50,0.20,-0.08")],
+)
+def test_the_hinted_place_is_told_along_the_robots_own_axes(fake: FurhatFake, axes: str, there: str) -> None:
+    furhat(fake, axes=axes, board_middle=(0.4, -0.2, 0.5), board_size=(0.4, 0.24)).attend(Place(0, 0))
+    assert fake.requests[-1].parameters == {"location": there}
+
+
+def test_gestures_and_gaze_can_be_switched_off(fake: FurhatFake) -> None:
+    robot = furhat(fake, gestures=False, attend=False)
+    robot.express(Mood.HAPPY)
+    robot.attend(None)
+    assert fake.requests == []
+
+
+def test_a_very_long_text_is_cut_at_a_word() -> None:
+    text = speakable("word " * 400)
+    assert len(text) < 1000
+    assert text.endswith("word")

@@ -1,0 +1,123 @@
+"""A kiosk without a screen, on virtual time, with a data folder of its own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import mkdtemp
+
+os.environ["QT_QPA_PLATFORM"] = "offscreen"
+os.environ["QT_QUICK_BACKEND"] = "software"
+os.environ["QSG_RENDER_LOOP"] = "basic"
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtQuick import QQuickItem
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from kiosk.cli.wiring import make_plan
+from kiosk.settings import Settings
+from kiosk.store.reading import Archive, archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.clock import VirtualClock
+from kiosk.ui.rehearsal import Rehearsal, find, lay_out, middle
+
+
+@pytest.fixture(scope="session")
+def qapp_cls() -> type[QGuiApplication]:
+    """The kiosk has no widgets, and so neither have its tests."""
+    return QGuiApplication
+
+
+@dataclass
+class Booth:
+    """A kiosk at work, and the hand and eye of somebody in front of it."""
+
+    app: App
+    data: Path
+
+    def item(self, name: str) -> QQuickItem:
+        """The visible item of this name, where it belongs."""
+        lay_out(self.app.window)
+        item = find(self.app.window.contentItem(), name)
+        assert item is not None, f"there is no {name} on the screen {self.screen}"
+        return item
+
+    def sees(self, name: str) -> bool:
+        """Whether an item of this name is to be seen."""
+        return find(self.app.window.contentItem(), name) is not None
+
+    def click(self, name: str, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
+        """Click with the mouse in the middle of an item."""
+        QTest.mouseClick(self.app.window, button, Qt.KeyboardModifier.NoModifier, middle(self.item(name)))
+
+    def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+        """Press and release a key."""
+        QTest.keyClick(self.app.window, key, modifiers)
+
+    def jump(self) -> None:
+        """Let time pass until the next wait ends."""
+        assert isinstance(self.app.clock, VirtualClock)
+        self.app.clock.jump()
+
+    def wait_until(self, condition: Callable[[], bool]) -> None:
+        """Let time pass until something is so; nothing in a sitting takes ten thousand waits."""
+        for _ in range(10_000):
+            if condition():
+                return
+            self.jump()
+        pytest.fail(f"it never came; the screen is {self.screen}")
+
+    @property
+    def screen(self) -> str:
+        """The name of the screen that is shown."""
+        return self.app.screens.kiosk.shown
+
+    def start_game(self) -> None:
+        """Go from attract to the game."""
+        self.click("start")
+        self.click("continue")
+
+    def rehearse(self, seed: int) -> None:
+        """Let a simulated visitor play a whole sitting."""
+        Rehearsal(self.app, seed).run()
+
+
+MakeBooth = Callable[..., Booth]
+
+
+@pytest.fixture
+def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
+    """Build a booth; all are taken down at the end."""
+    with ExitStack() as built:
+
+        def make(seed: int = 1, condition: str = "tom", settings: Settings | None = None) -> Booth:
+            plan = make_plan(settings or Settings(), condition)
+            data = Path(mkdtemp(dir=tmp_path))
+            recorder = built.enter_context(Recorder(data))
+            provenance = Provenance(plan, seed, "avatar", "a test", simulated=True)
+            app = App(plan, Mode(Display.NOWHERE, Pace.VIRTUAL), recorder, lambda: provenance)
+            built.enter_context(app)
+            qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
+            return Booth(app, data)
+
+        yield make
+
+
+@pytest.fixture
+def booth(make_booth: MakeBooth) -> Booth:
+    """One booth in the condition ToM."""
+    return make_booth()
+
+
+@pytest.fixture
+def stored(booth: Booth) -> Iterator[Archive]:
+    """What the booth has stored."""
+    with archive(booth.data) as there:
+        yield there

@@ -1,0 +1,120 @@
+"""Every fault at every moment, each in a sitting of its own: ``python -m tests.ui.fault_matrix [--seeds 2]``.
+
+The robot is a process of its own and the deadlines are the study's. Prints one line per sitting, and ends with 1 if
+anything was as it must not be. Takes some minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from random import Random
+
+import click
+
+from kiosk.cli.wiring import make_plan, read_settings
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.app import App, Display, Mode, Pace
+from tests.robot.furhat_fake import FAULTS
+from tests.robot.furhat_fake import Mode as Fault
+from tests.ui.sabotage import Moment, Outcome, Sabotage, outcome, replayed
+
+CLICKS = 60
+"""A sitting has about so many clicks."""
+
+
+class Robot:
+    """A fake robot in a process of its own."""
+
+    def __init__(self, *arguments: str) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "tests.robot.furhat_fake", "--character-ms", "1", *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self._process.stdout is not None
+        self.port = int(self._process.stdout.readline())
+
+    def fall_into(self, mode: Fault) -> None:
+        """Have it answer so from now on."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"{mode.name}\n")
+        self._process.stdin.flush()
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.communicate()
+
+
+@contextmanager
+def kiosk(port: int, data: Path) -> Iterator[App]:
+    """A kiosk without a screen, with the robot on this port."""
+    plan = make_plan(read_settings(None, "127.0.0.1", port))
+    provenance = Provenance(plan, 1, "avatar", "a test", simulated=True)
+    mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
+    with Recorder(data) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
+        yield app
+
+
+def sitting(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Outcome:
+    """One sitting with one fault."""
+    rehearsal = Sabotage(app, 1, lambda: robot.fall_into(fault), at)
+    rehearsal.run()
+    with archive(data) as stored:
+        result = outcome(stored, rehearsal)
+        assert replayed(stored, result.sitting.id) == result.events
+    return result
+
+
+def planned(seeds: int) -> Iterator[tuple[Fault, int | Moment]]:
+    """Every fault in every stage and at random moments; and a robot that is well."""
+    yield Fault.WELL, 1
+    for fault in FAULTS:
+        yield from ((fault, moment) for moment in Moment)
+        yield from ((fault, Random(f"{fault.name}/{seed}").randint(1, CLICKS)) for seed in range(seeds))
+
+
+def line(fault: Fault, at: int | Moment, result: Outcome) -> str:
+    """A sitting in one line."""
+    counted = result.utterances
+    return (
+        f"{fault.value:27} {at.value if isinstance(at, Moment) else f'click {at}':19} "
+        f"{result.sitting.status.value if result.sitting.status else 'running'}, body changes {result.body_changes}, "
+        f"requested {counted.requested:2}, finished {counted.finished:2}, failed {counted.failed}, "
+        f"shown only {counted.shown_only}, longest gap {result.longest_gap_ms:5.1f} ms: {result.faults() or 'well'}"
+    )
+
+
+def main() -> int:
+    """Play them all."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seeds", type=int, default=2, help="random moments for each fault")
+    seeds = parser.parse_args().seeds
+    os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    results = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number, (fault, at) in enumerate(planned(seeds)):
+            robot, data = Robot(), Path(folder) / str(number)
+            with kiosk(robot.port, data) as app:
+                results.append(sitting(app, data, robot, fault, at))
+            robot.close()
+            click.echo(line(fault, at, results[-1]))
+    wrong = sum(bool(result.faults()) for result in results)
+    gaps = sorted(result.longest_gap_ms for result in results)
+    click.echo(
+        f"{len(results)} sittings, {wrong} with something wrong; longest gap of the event loop:"
+        f" median {gaps[len(gaps) // 2]:.1f} ms, worst {gaps[-1]:.1f} ms"
+    )
+    return int(wrong > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

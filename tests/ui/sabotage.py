@@ -1,0 +1,126 @@
+"""A rehearsal in which the robot fails at a chosen moment, and what must hold whatever the moment and the fault."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from kiosk.store.reading import Archive, Sitting
+from kiosk.study import commands as do
+from kiosk.study import events as happened
+from kiosk.study.commands import Command
+from kiosk.study.events import Event, Stage, Status, WorldEvent
+from kiosk.study.session import Session
+from kiosk.study.utterances import Utterances, body_changes, utterances
+from kiosk.ui.app import App
+from kiosk.ui.rehearsal import Rehearsal
+
+
+class Moment(Enum):
+    """When the robot fails: with the click that leads into a stage, or in the middle of the game."""
+
+    INTRODUCTION = "introduction"
+    GAME = "game"
+    MIDDLE = "middle of the game"
+    RESULT = "result"
+    QUESTIONS = "questions"
+
+
+class Sabotage(Rehearsal):
+    """A sitting in which ``strike`` is called once: just before click number ``at`` or before a stage's first event."""
+
+    def __init__(self, app: App, seed: int, strike: Callable[[], None], at: int | Moment) -> None:
+        super().__init__(app, seed)
+        self._strike: Callable[[], None] | None = strike
+        self._at = at
+        self._clicks = 0
+        self.unseen: list[str] = []
+        """Sentences that were to be said and did not stand in the bubble."""
+        self._check = app.conductor.witness
+        app.conductor.witness = self._look
+
+    def _click(self, name: str) -> None:
+        self._clicks += 1
+        if self._strike is not None and self._is_time(name):
+            strike, self._strike = self._strike, None
+            strike()
+        super()._click(name)
+
+    def _is_time(self, name: str) -> bool:
+        board, shown = self._app.screens.board, self._app.screens.kiosk.shown
+        match self._at:
+            case Moment.INTRODUCTION:
+                return name == "start"
+            case Moment.GAME:
+                return shown == "introduction"
+            case Moment.MIDDLE:
+                return shown == "game" and len(board.closed) <= len(board.unmatched) + 12
+            case Moment.RESULT:
+                return shown == "game" and len(board.closed) == 1
+            case Moment.QUESTIONS:
+                return shown == "result"
+        return self._clicks >= self._at
+
+    def _look(self, event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+        said = [command.sentence for command in commands if isinstance(command, do.Speak)]
+        if said and self._app.screens.avatar.property("bubble") != said[-1]:
+            self.unseen.append(said[-1])
+        if self._check is not None:
+            self._check(event, commands, stage)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a sitting."""
+
+    sitting: Sitting
+    events: list[Event]
+    unseen: list[str]
+    longest_gap_ms: float
+
+    @property
+    def utterances(self) -> Utterances:
+        """What became of its sentences."""
+        return utterances(self.events)
+
+    @property
+    def body_changes(self) -> int:
+        """How often the body changed."""
+        return body_changes(self.events)
+
+    def faults(self) -> list[str]:
+        """Whatever must not be; nothing, if all is well."""
+        counted = self.utterances
+        wrong = {
+            "the sitting did not end": self.sitting.status is not Status.COMPLETED,
+            "not all pairs were found": self.sitting.measures.pairs != 12,
+            "it began with another body": self.sitting.body != "furhat",
+            "a sentence was neither heard nor shown": bool(self.unseen),
+            "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,
+            "the body changed more than once": self.body_changes > 1,
+        }
+        return [what for what, holds in wrong.items() if holds]
+
+
+def outcome(stored: Archive, rehearsal: Sabotage) -> Outcome:
+    """What became of the last sitting."""
+    sitting = stored.sittings()[-1]
+    return Outcome(sitting, stored.events(sitting.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
+
+
+def replayed(stored: Archive, number: int) -> list[Event]:
+    """The events of a stored sitting as they come out of its world events today."""
+    session = Session(stored.plan(number), stored.seed(number))
+    again: list[Event] = []
+    for event in stored.events(number):
+        if isinstance(event, WorldEvent):
+            commands = session.handle(event)
+            again += [event, *(command.event for command in commands if isinstance(command, do.Record))]
+    return again
+
+
+def after_loss(events: list[Event]) -> list[Event]:
+    """What followed the loss of the robot."""
+    lost = next(number for number, event in enumerate(events) if isinstance(event, happened.RobotLost))
+    return events[lost + 1 :]

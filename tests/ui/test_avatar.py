@@ -1,0 +1,129 @@
+"""The avatar: one face for every mood, eyes that find the hinted place, and a mouth that moves with the voice."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk.robot.body import Health, Place
+from kiosk.study.commands import Mood
+from kiosk.ui.avatar import AvatarBody, AvatarScreen
+from kiosk.ui.voice import Voice
+from tests.robot.recording import Reports
+
+AVATAR = Path(__file__).parents[2] / "kiosk" / "ui" / "qml" / "Avatar.qml"
+
+
+class VoiceFake(Voice):
+    """A voice that waits to be told what to report."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked: list[str] = []
+
+    def say(self, number: int, sentence: str) -> None:
+        self.asked.append(f"{number} {sentence}")
+
+    def stop(self) -> None:
+        self.asked.append("stop")
+
+    def restore(self) -> None:
+        self.asked.append("restore")
+
+    @property
+    def health(self) -> Health:
+        return Health(well=True, words="the voice is a fake")
+
+
+@pytest.fixture
+def face() -> AvatarScreen:
+    """A face."""
+    return AvatarScreen()
+
+
+@pytest.fixture
+def voice() -> VoiceFake:
+    """A voice."""
+    return VoiceFake()
+
+
+@pytest.fixture
+def reports() -> Reports:
+    """Who listens."""
+    return Reports()
+
+
+@pytest.fixture
+def avatar(face: AvatarScreen, voice: VoiceFake, reports: Reports) -> AvatarBody:
+    """An avatar with this face and voice."""
+    return AvatarBody(face, voice, reports)
+
+
+@pytest.mark.parametrize("mood", Mood)
+def test_every_mood_has_a_face_of_its_own(avatar: AvatarBody, face: AvatarScreen, mood: Mood) -> None:
+    avatar.express(mood)
+    assert face.property("mood") == mood.value
+    assert f"{mood.value}:" in AVATAR.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("place", "gaze"),
+    [(Place(0, 0), (-1, -1)), (Place(1, 1), (-0.5, 1)), (Place(0.5, 0.5), (-0.75, 0)), (None, (0, 0))],
+)
+def test_it_looks_at_the_hinted_place_and_back_at_the_visitor(
+    avatar: AvatarBody, face: AvatarScreen, place: Place | None, gaze: tuple[float, float]
+) -> None:
+    avatar.attend(Place(0.1, 0.1))
+    avatar.attend(place)
+    assert (face.property("gazeX"), face.property("gazeY")) == gaze
+
+
+def test_its_eyes_wander_only_while_they_look_at_nothing(avatar: AvatarBody, face: AvatarScreen) -> None:
+    face.glance(0.2, -0.1)
+    assert (face.property("gazeX"), face.property("gazeY")) == (0.2, -0.1)
+    avatar.attend(Place(0.5, 0.5))
+    assert (face.property("gazeX"), face.property("gazeY")) == (-0.75, 0)
+
+
+def test_it_looks_thoughtful_until_it_has_found_its_words(
+    qtbot: QtBot, avatar: AvatarBody, face: AvatarScreen, voice: VoiceFake
+) -> None:
+    avatar.say(1, "Hello")
+    assert face.property("mood") == "idle"
+    qtbot.waitUntil(lambda: face.property("mood") == "thinking")
+    voice.started.emit(1, [])
+    assert face.property("mood") == "idle"
+
+
+def test_its_mouth_moves_with_the_loudness_and_closes_at_the_end(
+    qtbot: QtBot, avatar: AvatarBody, face: AvatarScreen, voice: VoiceFake, reports: Reports
+) -> None:
+    avatar.say(1, "Hello")
+    voice.started.emit(1, [0.2, 0.8, 0.4])
+    qtbot.waitUntil(lambda: face.property("mouth") == 0.8)
+    voice.finished.emit(1)
+    assert face.property("mouth") == 0
+    assert reports.heard == [("started", 1), ("finished", 1)]
+
+
+def test_a_robot_takes_its_place_and_gives_it_back(avatar: AvatarBody, face: AvatarScreen) -> None:
+    avatar.withdraw()
+    assert not face.property("present")
+    avatar.appear()
+    assert face.property("present")
+
+
+def test_between_visitors_it_is_silent_calm_and_ready_to_try_its_voice_again(
+    avatar: AvatarBody, face: AvatarScreen, voice: VoiceFake
+) -> None:
+    avatar.express(Mood.SAD)
+    avatar.attend(Place(0, 0))
+    avatar.rest()
+    assert (face.property("mood"), face.property("gazeX")) == ("idle", 0)
+    assert voice.asked == ["stop", "restore"]
+
+
+def test_its_health_is_its_voices(avatar: AvatarBody) -> None:
+    assert avatar.health.words == "the avatar is there; the voice is a fake"

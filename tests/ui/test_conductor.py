@@ -1,0 +1,140 @@
+"""Recorded, then shown, then spoken; and what a visitor sees when something of that fails."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+import pytest
+from PySide6.QtCore import Qt
+
+from kiosk.game import Position
+from kiosk.settings import Settings
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Recorder, StoreFailed
+from kiosk.study import events as happened
+from kiosk.study.events import Event, Status
+from tests.ui.conftest import Booth, MakeBooth
+
+QUICK = Settings.model_validate({"timing": {"idle": 2_000, "idle_game": 3_000, "still_there": 1_000}})
+
+
+def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature
+    """Stand in for a recorder whose disk is full."""
+    raise StoreFailed("what happened could not be written: the disk is full")
+
+
+def test_a_tap_that_cannot_be_recorded_is_not_shown(
+    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth.click("start")
+    assert booth.screen == "introduction"
+    monkeypatch.setattr(Recorder, "append", refuse)
+    booth.click("continue")
+    assert booth.screen == "pause"
+    assert booth.app.screens.board.closed == ()
+    assert "the disk is full" in caplog.text
+    caplog.clear()
+
+
+def test_after_a_failure_of_the_disk_the_kiosk_goes_on_by_itself(
+    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth.click("start")
+    with monkeypatch.context() as patch:
+        patch.setattr(Recorder, "append", refuse)
+        booth.click("continue")
+    assert booth.screen == "pause"
+    booth.wait_until(lambda: booth.screen == "attract")
+    booth.rehearse(seed=1)
+    with archive(booth.data) as stored:
+        assert [sitting.status for sitting in stored.sittings()] == [Status.INTERRUPTED, Status.COMPLETED]
+    caplog.clear()
+
+
+def test_a_fault_of_ours_shows_a_calm_screen_and_goes_into_the_log(
+    booth: Booth, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth.start_game()
+    booth.app.fault(RuntimeError, RuntimeError("a fault"), None)
+    assert booth.screen == "pause"
+    assert "a fault" in caplog.text
+    caplog.clear()
+
+
+def flip_until(booth: Booth, words: str) -> None:
+    """Flip closed cards until taps do not count, for this reason."""
+    board = booth.app.screens.board
+    cards = iter(range(24))
+    while board.property("wait") != words:
+        if board.accepts_taps:
+            booth.click(f"card-{next(cards)}")
+        else:
+            booth.jump()
+
+
+@pytest.mark.parametrize("words", ["One moment, I am speaking", "One moment, the cards turn back"])
+def test_a_tap_that_does_not_count_is_recorded_and_the_screen_says_why(booth: Booth, words: str) -> None:
+    booth.start_game()
+    flip_until(booth, words)
+    shown = booth.app.screens.board.closed
+    booth.click("card-23")
+    assert booth.app.screens.board.closed == shown
+    with archive(booth.data) as stored:
+        (ignored,) = (event for event in stored.events(1) if isinstance(event, happened.TapIgnored))
+    assert ignored.position == Position(3, 5)
+
+
+def test_a_visitor_who_walks_away_is_asked_and_then_the_kiosk_is_ready_again(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=QUICK)
+    booth.start_game()
+    booth.click("card-3")
+    booth.wait_until(lambda: booth.sees("still-here"))
+    booth.wait_until(lambda: booth.screen == "attract")
+    with archive(booth.data) as stored:
+        assert stored.sittings()[0].status is Status.ABANDONED
+    assert not booth.sees("still-here")
+
+
+def test_a_visitor_who_is_still_there_goes_on_where_the_game_was(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=QUICK)
+    booth.start_game()
+    booth.click("card-3")
+    booth.wait_until(lambda: booth.sees("still-here"))
+    booth.press(Qt.Key.Key_Return)
+    assert not booth.sees("still-here")
+    assert booth.screen == "game"
+    assert len(booth.app.screens.board.closed) == 23
+    booth.press(Qt.Key.Key_Return)
+    assert len(booth.app.screens.board.closed) == 22
+
+
+def test_leaving_the_kiosk_in_the_middle_of_a_sitting_is_recorded(booth: Booth) -> None:
+    booth.start_game()
+    booth.app.conductor.close()
+    with archive(booth.data) as stored:
+        assert stored.sittings()[0].status is Status.INTERRUPTED
+        assert any(isinstance(event, happened.KioskClosed) for event in stored.events(1))
+
+
+def test_a_word_from_the_last_sitting_changes_nothing_in_the_next(
+    booth: Booth, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO)
+    booth.app.conductor.speech_finished(4)
+    assert booth.screen == "attract"
+    assert "SpeechFinished has no place in the stage attract" in caplog.text
+    booth.click("start")
+    with archive(booth.data) as stored:
+        assert stored.events(1)[0] == happened.StartTapped(at_ms=0)
+
+
+def test_nothing_of_one_visitor_is_left_for_the_next(booth: Booth) -> None:
+    booth.rehearse(seed=1)
+    booth.start_game()
+    board = booth.app.screens.board
+    assert len(board.closed) == 24
+    assert board.unmatched == {}
+    assert board.marked == (None, None)
+    assert str(board.property("progress")) == "0 of 12 pairs"
+    assert str(board.property("moves")) == "0 moves"

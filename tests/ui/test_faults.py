@@ -1,0 +1,120 @@
+"""A whole sitting while the robot fails: it ends, nothing is lost, every sentence is heard or shown.
+
+A handful of the matrix; all of it is printed by ``python -m tests.ui.fault_matrix``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from random import Random
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk.settings import Settings
+from kiosk.store.reading import archive
+from kiosk.study import events as happened
+from kiosk.study.events import BodyName
+from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode
+from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
+
+QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 300)
+
+
+@pytest.fixture
+def fake() -> Iterator[FurhatFake]:
+    """A robot that speaks fast."""
+    with FurhatFake(character_ms=0.2) as robot:
+        yield robot
+
+
+@pytest.fixture
+def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
+    """A kiosk with this robot."""
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
+    return make_booth(settings=Settings.model_validate({"robot": robot}))
+
+
+def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Outcome:
+    """A sitting in which the robot falls into this mode; it must be whole, and replay as it was."""
+    rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), at)
+    rehearsal.run()
+    with archive(booth.data) as stored:
+        result = outcome(stored, rehearsal)
+        assert replayed(stored, result.sitting.id) == result.events
+    assert result.faults() == []
+    return result
+
+
+def helps(booth: Booth, name: BodyName) -> bool:
+    """Whether this body helps now."""
+    return booth.app.bodies.current is not None and booth.app.bodies.current.name is name
+
+
+def wait_for(qtbot: QtBot, booth: Booth, holds: Callable[[], bool]) -> None:
+    """Let time pass, and land what comes from the robot, until something is so."""
+
+    def passing() -> bool:
+        booth.jump()
+        return holds()
+
+    qtbot.waitUntil(passing, timeout=10_000)
+
+
+def test_a_robot_that_is_well_says_everything(booth: Booth, fake: FurhatFake) -> None:
+    result = sabotaged(booth, fake, Mode.WELL, 1)
+    assert result.body_changes == 0
+    assert result.utterances.finished == result.utterances.requested
+    assert fake.refusals == []
+    assert len(fake.sentences) == result.utterances.requested
+
+
+@pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
+def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: FurhatFake, mode: Mode) -> None:
+    at = Random(f"{mode.name}/1").randint(1, 50)
+    result = sabotaged(booth, fake, mode, at)
+    assert result.body_changes == 1
+    changed = next(event for event in result.events if isinstance(event, happened.BodyChanged))
+    assert changed.body is BodyName.AVATAR
+    assert changed.why.startswith("the robot ")
+
+
+@pytest.mark.parametrize("moment", Moment, ids=lambda moment: moment.name.lower())
+def test_a_fault_in_any_stage_costs_nobody_anything(booth: Booth, fake: FurhatFake, moment: Moment) -> None:
+    result = sabotaged(booth, fake, Mode.RESET, moment)
+    assert result.body_changes == 1
+
+
+def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake: FurhatFake) -> None:
+    fake.arm(Mode.SERVER_ERROR, path="/furhat/say", after=3)
+    rehearsal = Sabotage(booth.app, 1, lambda: None, 1)
+    rehearsal.run()
+    with archive(booth.data) as stored:
+        events = outcome(stored, rehearsal).events
+    hint = [event for event in events if isinstance(event, happened.HintGiven)][2]
+    started = next(event for event in after_loss(events) if isinstance(event, happened.SpeechStarted))
+    lost = next(event for event in events if isinstance(event, happened.RobotLost))
+    assert started.utterance == hint.utterance
+    assert started.at_ms - lost.at_ms < 100
+
+
+def test_a_robot_that_comes_back_helps_the_next_visitor(qtbot: QtBot, booth: Booth, fake: FurhatFake) -> None:
+    sabotaged(booth, fake, Mode.RESET, Moment.GAME)
+    fake.restart()
+    wait_for(qtbot, booth, lambda: helps(booth, BodyName.FURHAT))
+    result = sabotaged(booth, fake, Mode.WELL, 1)
+    assert result.body_changes == 0
+    assert fake.voice == "Matthew"
+
+
+def test_a_robot_that_is_lost_between_sittings_leaves_them_to_the_avatar(
+    qtbot: QtBot, booth: Booth, fake: FurhatFake
+) -> None:
+    wait_for(qtbot, booth, lambda: helps(booth, BodyName.FURHAT))
+    fake.mode = Mode.REFUSE
+    wait_for(qtbot, booth, lambda: helps(booth, BodyName.AVATAR))
+    booth.rehearse(seed=1)
+    with archive(booth.data) as stored:
+        assert stored.sittings()[0].body == "avatar"
+        assert stored.sittings()[0].measures.pairs == 12

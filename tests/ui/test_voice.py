@@ -1,0 +1,207 @@
+"""The voice may be missing, hang or die at any moment: every sentence is finished or given up, and no tap is lost."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk.settings import Voice as VoiceSettings
+from kiosk.ui.voice import EngineVoice, NoVoice
+
+SPEAKS = """
+import json, sys
+for line in sys.stdin:
+    command = json.loads(line)
+    if "say" in command:
+        n = command["say"]
+        print(json.dumps({"event": "started", "id": n, "duration_ms": 10, "loudness": [0.5]}), flush=True)
+        print(json.dumps({"event": "finished", "id": n, "audible": True}), flush=True)
+"""
+SPEAKS_NONSENSE_FIRST = "print('Audio saved!', flush=True); print('[1, 2]', flush=True)" + SPEAKS
+HANGS = "import sys\nfor line in sys.stdin: pass"
+DIES_WHEN_IT_SHOULD_SPEAK = "import sys\nsys.stdin.readline(); sys.exit(3)"
+STARTS_AND_HANGS = """
+import json, sys
+n = json.loads(sys.stdin.readline())["say"]
+print(json.dumps({"event": "started", "id": n, "duration_ms": 10, "loudness": []}), flush=True)
+for line in sys.stdin: pass
+"""
+CANNOT_RENDER = """
+import json, sys
+for line in sys.stdin:
+    command = json.loads(line)
+    if "say" in command:
+        print(json.dumps({"event": "failed", "id": command["say"], "why": "no sound came of it"}), flush=True)
+"""
+HAS_NO_ENGINE = """
+import json, sys
+print(json.dumps({"event": "unavailable", "why": "no speech engine"}), flush=True)
+sys.stdin.read()
+"""
+HANGS_ONCE_THEN_SPEAKS = (
+    """
+import pathlib, sys
+marker = pathlib.Path(sys.argv[1])
+if not marker.exists():
+    marker.touch()
+    sys.stdin.read()
+"""
+    + SPEAKS
+)
+
+
+@pytest.fixture
+def voices() -> Iterator[list[EngineVoice]]:
+    """Voices that are ended when the test is."""
+    made: list[EngineVoice] = []
+    yield made
+    for voice in made:
+        voice.close()
+
+
+def engine(voices: list[EngineVoice], program: str, *arguments: str) -> EngineVoice:
+    """A voice whose engine is a small program, with short deadlines."""
+    command = (sys.executable, "-c", program, *arguments)
+    voice = EngineVoice(VoiceSettings(), "en", command, start_deadline_ms=1_500, end_grace_ms=200)
+    voices.append(voice)
+    return voice
+
+
+@pytest.mark.parametrize("program", [SPEAKS, SPEAKS_NONSENSE_FIRST], ids=["plain", "nonsense first"])
+def test_a_sentence_starts_with_its_loudness_and_finishes(
+    qtbot: QtBot, voices: list[EngineVoice], program: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, program)
+    reports: list[tuple[object, ...]] = []
+    voice.started.connect(lambda *started: reports.append(started))
+    voice.finished.connect(lambda *finished: reports.append(finished))
+    with qtbot.waitSignal(voice.finished):
+        voice.say(7, "Hello")
+    assert reports == [(7, [0.5]), (7,)]
+    caplog.clear()
+
+
+@pytest.mark.parametrize(
+    ("program", "why"),
+    [
+        (HANGS, "the voice did not answer in time"),
+        (DIES_WHEN_IT_SHOULD_SPEAK, "the voice is gone"),
+        (STARTS_AND_HANGS, "the voice did not answer in time"),
+        (CANNOT_RENDER, "no sound came of it"),
+    ],
+    ids=["hangs", "dies", "hangs while speaking", "cannot render"],
+)
+def test_a_sentence_that_will_not_be_heard_is_given_up_with_a_reason(
+    qtbot: QtBot, voices: list[EngineVoice], program: str, why: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, program)
+    with qtbot.waitSignal(voice.failed, timeout=10_000) as failed:
+        voice.say(1, "Hello")
+    assert failed.args == [1, why]
+    caplog.clear()
+
+
+def test_a_missing_program_gives_every_sentence_up_at_once(
+    qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = EngineVoice(VoiceSettings(), "en", ("/nowhere/voice",))
+    voices.append(voice)
+    for number in range(1, 6):
+        with qtbot.waitSignal(voice.failed):
+            voice.say(number, "Hello")
+    caplog.clear()
+
+
+def test_without_an_engine_nothing_is_tried_again(
+    qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, HAS_NO_ENGINE)
+    with qtbot.waitSignal(voice.failed):
+        voice.say(1, "Hello")
+    with qtbot.waitSignal(voice.failed) as failed:
+        voice.say(2, "Hello")
+    assert failed.args == [2, "there is no voice"]
+    caplog.clear()
+
+
+def test_an_engine_that_hung_is_ended_and_another_one_speaks(
+    qtbot: QtBot, voices: list[EngineVoice], tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, HANGS_ONCE_THEN_SPEAKS, str(tmp_path / "hung"))
+    with qtbot.waitSignal(voice.failed, timeout=10_000):
+        voice.say(1, "Hello")
+    with qtbot.waitSignal(voice.finished, timeout=10_000) as finished:
+        voice.say(2, "Hello again")
+    assert finished.args == [2]
+    caplog.clear()
+
+
+def test_a_sentence_that_was_stopped_is_not_reported_any_more(qtbot: QtBot, voices: list[EngineVoice]) -> None:
+    voice = engine(voices, SPEAKS)
+    reports: list[int] = []
+    voice.finished.connect(reports.append)
+    voice.say(1, "Hello")
+    voice.stop()
+    with qtbot.waitSignal(voice.finished):
+        voice.say(2, "Hello")
+    assert reports == [2]
+
+
+def test_a_voice_that_is_switched_off_leaves_every_sentence_to_be_read(qtbot: QtBot) -> None:
+    voice = NoVoice()
+    with qtbot.waitSignal(voice.failed) as failed:
+        voice.say(3, "Hello")
+    assert failed.args == [3, "the voice is switched off"]
+
+
+IS_READY_THEN_HANGS_ONCE = """
+import json, pathlib, sys
+print(json.dumps({"event": "ready", "voice": "en", "player": True}), flush=True)
+marker = pathlib.Path(sys.argv[1])
+if not marker.exists():
+    marker.touch()
+    for line in sys.stdin: pass
+"""
+
+
+def test_a_hung_engine_is_ended_and_started_again_within_a_second(
+    qtbot: QtBot, voices: list[EngineVoice], tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, IS_READY_THEN_HANGS_ONCE + SPEAKS, str(tmp_path / "hung"))
+    qtbot.waitUntil(lambda: "speaks" in voice.health.words)
+    with qtbot.waitSignal(voice.failed, timeout=1_000):
+        voice.say(1, "Hello")
+    with qtbot.waitSignal(voice.finished, timeout=10_000):
+        voice.say(2, "Hello again")
+    caplog.clear()
+
+
+@pytest.mark.parametrize(
+    ("ready", "words"),
+    [
+        ({"voice": "gmw/en", "player": True}, "the voice gmw/en speaks"),
+        ({"voice": None, "player": True}, "sentences are only shown: no installed voice speaks 'en'"),
+        ({"voice": "en", "player": False}, "sentences are only shown: there is no program that plays sound"),
+    ],
+)
+def test_the_experimenter_is_told_what_the_voice_can_do(
+    qtbot: QtBot, voices: list[EngineVoice], ready: dict[str, object], words: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    line = json.dumps({"event": "ready", **ready})
+    voice = engine(voices, f"import sys; print({line!r}, flush=True); sys.stdin.read()")
+    qtbot.waitUntil(lambda: voice.health.words == words)
+    caplog.clear()
+
+
+def test_a_missing_engine_is_told_in_words(
+    qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, HAS_NO_ENGINE)
+    qtbot.waitUntil(lambda: voice.health.words == "sentences are only shown: no speech engine")
+    assert not voice.health.well
+    caplog.clear()

@@ -1,0 +1,153 @@
+"""The window: nobody leaves it by accident, everything works without a mouse, and nothing is drawn that cannot be."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QImage
+from pytestqt.qtbot import QtBot
+
+from kiosk.settings import ASSETS, Settings
+from kiosk.ui.app import QML
+from kiosk.ui.words import FIXED
+from tests.samples import CATALOGUES
+from tests.ui.conftest import Booth, MakeBooth
+
+SCREENS = sorted(QML.parent.glob("*.qml"))
+
+INVISIBLE = ("MultiEffect", "RectangularShadow", "ShaderEffect", "layer.effect", "layer.enabled", "ImageParticle")
+"""What the software renderer draws as nothing, without a word."""
+
+KEYS_THAT_LEAVE_ELSEWHERE = (Qt.Key.Key_Escape, Qt.Key.Key_Back, Qt.Key.Key_F11, Qt.Key.Key_Q, Qt.Key.Key_Menu)
+
+
+@pytest.mark.parametrize("file", SCREENS, ids=lambda file: file.name)
+def test_no_screen_uses_what_the_software_renderer_cannot_draw(file: Path) -> None:
+    text = file.read_text("utf-8")
+    assert [effect for effect in INVISIBLE if effect in text] == []
+
+
+@pytest.mark.parametrize("file", SCREENS, ids=lambda file: file.name)
+def test_no_screen_has_a_timer_or_a_sentence_of_its_own(file: Path) -> None:
+    code = re.sub(r"//.*", "", file.read_text("utf-8"))
+    assert "Timer {" not in code
+    assert re.findall(r'\btext: "[^"]*[A-Za-z]{2}', code) == []
+
+
+def test_the_screens_show_exactly_the_fixed_texts_and_every_language_has_them() -> None:
+    shown = {word for file in SCREENS for word in re.findall(r'"([a-z]+(?:-[a-z]+)+)"', file.read_text("utf-8"))}
+    assert shown & set(FIXED) == set(FIXED)
+    for catalogue in CATALOGUES.values():
+        assert [word for word in FIXED if word not in catalogue] == []
+
+
+def test_the_window_refuses_to_be_closed_until_the_kiosk_is_left(booth: Booth) -> None:
+    assert not booth.app.window.close()
+    assert booth.app.window.isVisible()
+    booth.app.screens.kiosk.let_go()
+    assert booth.app.window.close()
+
+
+@pytest.mark.parametrize("key", KEYS_THAT_LEAVE_ELSEWHERE)
+def test_a_key_that_leaves_other_programs_does_nothing(booth: Booth, key: Qt.Key) -> None:
+    booth.start_game()
+    booth.press(key)
+    booth.press(Qt.Key.Key_F4, Qt.KeyboardModifier.AltModifier)
+    booth.click("card-7", Qt.MouseButton.RightButton)
+    assert booth.screen == "game"
+    assert booth.app.window.isVisible()
+    assert len(booth.app.screens.board.closed) == 24
+
+
+def test_the_experimenter_leaves_with_a_chord(booth: Booth) -> None:
+    left: list[bool] = []
+    booth.app.screens.kiosk.left.connect(lambda: left.append(True))
+    booth.press(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert left == [True]
+
+
+def test_a_sitting_needs_no_mouse(booth: Booth) -> None:
+    booth.press(Qt.Key.Key_Return)
+    assert booth.screen == "introduction"
+    booth.press(Qt.Key.Key_Space)
+    assert booth.screen == "game"
+    booth.press(Qt.Key.Key_Right)
+    booth.press(Qt.Key.Key_Down)
+    booth.press(Qt.Key.Key_Return)
+    ((position, _),) = booth.app.screens.board.unmatched.items()
+    assert (position.row, position.column) == (1, 1)
+
+
+def test_the_questions_are_answered_by_keyboard_alone(booth: Booth) -> None:
+    question = booth.app.screens.question
+    question.ask("closing", "enjoyed", 5, 1, 3)
+    booth.app.screens.kiosk.show("questions")
+    given: list[tuple[str, int]] = []
+    question.answered.connect(lambda item, value: given.append((item, value)))
+    booth.press(Qt.Key.Key_Right)
+    booth.press(Qt.Key.Key_Right)
+    booth.press(Qt.Key.Key_Return)
+    assert given == [("enjoyed", 3)]
+
+
+def test_every_card_has_a_name_for_those_who_cannot_see_it(booth: Booth) -> None:
+    booth.start_game()
+    label = booth.item("card-7").property("label")
+    assert label == "Closed card, row 2, column 2"
+    booth.click("card-7")
+    assert re.fullmatch(r"[a-z]+, row 2, column 2", booth.item("card-7").property("label"))
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (1920, 1080), (3840, 2160), (1024, 768), (1080, 1920)])
+def test_everything_that_can_be_clicked_lies_inside_a_window_of_any_size(
+    booth: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    window = booth.app.window
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
+    names = {
+        "attract": ["start"],
+        "introduction": ["continue"],
+        "game": [f"card-{location}" for location in range(24)],
+        "result": ["continue"],
+        "questions": ["continue", *(f"answer-{value}" for value in range(1, 6))],
+    }
+    booth.app.screens.board.deal(4, 6, 12)
+    booth.app.screens.question.ask("closing", "understood", 5, 3, 3)
+    for screen, items in names.items():
+        booth.app.screens.kiosk.show(screen)
+        for name in items:
+            item = booth.item(name)
+            corner = item.mapToScene(item.boundingRect().topLeft())
+            assert corner.x() >= 0, (screen, name)
+            assert corner.y() >= 0, (screen, name)
+            assert corner.x() + item.width() <= width, (screen, name)
+            assert corner.y() + item.height() <= height, (screen, name)
+
+
+def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=Settings.model_validate({"screen": {"text_size": 1.4}}))
+    start = booth.item("start")
+    plain = make_booth().item("start")
+    assert start.height() > plain.height()
+
+
+def test_every_card_of_every_deck_is_drawn(booth: Booth) -> None:
+    pictures = sorted((ASSETS / "cards").rglob("*.svg"))
+    assert len(pictures) >= 14
+    blank = [picture.name for picture in pictures if QImage(str(picture)).isNull()]
+    assert booth.app.window.isVisible()
+    assert blank == []
+
+
+def test_a_call_that_returns_nothing_costs_no_reference_to_none() -> None:
+    # PySide6 6.12.0 loses one each time and aborts after some 5,400 calls.
+    thing = QObject()
+    before = sys.getrefcount(None)
+    for _ in range(20_000):
+        thing.setObjectName("x")
+    assert abs(sys.getrefcount(None) - before) < 100
