@@ -13,7 +13,7 @@ from kiosk.assistant.explain import Explanation
 from kiosk.assistant.hint import Hint
 from kiosk.assistant.mdp import Action, Outcome
 from kiosk.cli import case, reasons
-from kiosk.cli.records import data_option, json_option
+from kiosk.cli.options import data_option, json_option
 from kiosk.game import Board
 from kiosk.store import moments
 from kiosk.store.reading import archive

@@ -9,15 +9,10 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk.cli.wiring import DATA
+from kiosk.cli.options import data_option, json_option
 from kiosk.store.reading import archive
 
 MS_PER_SECOND = 1000
-
-data_option = click.option(
-    "--data", type=click.Path(path_type=Path), default=DATA, show_default=True, help="The data folder."
-)
-json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
 
 
 @click.command()

@@ -13,7 +13,7 @@ from time import monotonic
 import click
 
 from kiosk import BadInput
-from kiosk.cli.records import json_option
+from kiosk.cli.options import json_option
 from kiosk.cli.wiring import read_settings
 from kiosk.robot.body import Place
 from kiosk.robot.device import Robot, RobotFailed, Saying

@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from kiosk import BadInput
-from kiosk.cli.records import data_option, json_option
+from kiosk.cli.options import data_option, json_option, study_option
 from kiosk.cli.wiring import code_commit, make_plan, read_settings
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
@@ -28,7 +28,6 @@ SETTLE_MS = 450
 
 robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
 robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), help="The robot's port.")
-study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")
 
 
 @click.command("open")

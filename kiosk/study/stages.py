@@ -70,3 +70,27 @@ def check_expected(stage: Stage, event: WorldEvent) -> None:
 def next_stage(stage: Stage, event: Event) -> Stage:
     """The stage after this event."""
     return TABLE[stage].get(type(event), stage)
+
+
+def diagram() -> str:
+    """The table as a Mermaid state diagram; what may come in every stage stands in a note."""
+    anywhere = frozenset.intersection(*(frozenset(row) for stage, row in TABLE.items() if stage not in _ENDS))
+    arrows = [
+        f"    {stage.value} --> {after.value}: {kind.__name__}"
+        for stage, row in TABLE.items()
+        for kind, after in row.items()
+        if kind not in anywhere
+    ]
+    leaving = sorted(kind.__name__ for kind in anywhere if TABLE[Stage.GAME][kind] is Stage.OVER)
+    staying = sorted(kind.__name__ for kind in anywhere if TABLE[Stage.GAME][kind] is not Stage.OVER)
+    notes = (
+        f"    note right of {Stage.GAME.value}",
+        f"        in every stage with a visitor: {', '.join(staying)};",
+        f"        and to {Stage.OVER.value}: {', '.join(leaving)}",
+        "    end note",
+    )
+    ends = (f"    [*] --> {Stage.ATTRACT.value}", *arrows, f"    {Stage.OVER.value} --> [*]")
+    return "\n".join(("stateDiagram-v2", *ends, *notes)) + "\n"
+
+
+_ENDS = (Stage.ATTRACT, Stage.OVER)

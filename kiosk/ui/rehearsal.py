@@ -96,7 +96,8 @@ class Rehearsal:
     def _watch(self, _: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
         self._visitor.see(self._app.screens.board.unmatched)
         if self._shots is not None:
-            self._shots.watch(commands)
+            with self.pulse.aside():
+                self._shots.watch(commands)
         if stage is Stage.OVER:
             self._over = True
             self._app.quit()

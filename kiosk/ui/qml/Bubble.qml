@@ -7,6 +7,7 @@ Item {
     id: bubble
 
     required property string sentence
+    required property bool hasSpeaker   // whether there is a face below it to point at
 
     opacity: sentence === "" ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
@@ -35,6 +36,7 @@ Item {
         }
     }
     Shape {
+        visible: bubble.hasSpeaker
         anchors { top: box.bottom; topMargin: -5 * Theme.unit; horizontalCenter: parent.horizontalCenter }
         width: 60 * Theme.unit
         height: 38 * Theme.unit

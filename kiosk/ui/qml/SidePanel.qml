@@ -11,6 +11,7 @@ Item {
     Bubble {
         anchors { left: parent.left; right: parent.right; bottom: face.top; bottomMargin: 4 * Theme.unit }
         sentence: panel.avatar.bubble
+        hasSpeaker: panel.avatar.present
     }
     Avatar {
         id: face

@@ -1,0 +1,15 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from kiosk.cli.wiring import DATA
+
+data_option = click.option(
+    "--data", type=click.Path(path_type=Path), default=DATA, show_default=True, help="The data folder."
+)
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
+study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")

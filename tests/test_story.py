@@ -1,0 +1,35 @@
+"""One whole sitting, from the command line to the database, is the same to the byte as it always was."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from tests.golden import story
+from tests.golden.story import recollect
+
+RESULT = {"sitting", "status", "condition", "body", "flips", "moves", "pairs", "hints"}
+
+
+def test_the_golden_story_is_told_again_to_the_byte() -> None:
+    assert story.told() == story.FILE.read_text("utf-8")
+
+
+def test_a_rehearsal_prints_one_object_and_the_list_of_sittings_has_the_same(tmp_path: Path) -> None:
+    arguments = ("--data", str(tmp_path), "--json")
+    played = json.loads(recollect("rehearse", "--headless", "--seed", "4", "--condition", "notom", *arguments))
+    (listed,) = json.loads(recollect("sittings", *arguments))
+    assert set(played) >= RESULT
+    assert played["status"] == "completed"
+    assert played["condition"] == "notom"
+    assert played["pairs"] == 12
+    assert {key: listed[key] for key in RESULT} == {key: played[key] for key in RESULT}
+
+
+def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
+    shots = tmp_path / "shots"
+    recollect("rehearse", "--headless", "--seed", "1", "--data", str(tmp_path / "data"), "--shots", str(shots))
+    taken = {picture.stem[3:] for picture in shots.glob("*.png")}
+    assert taken >= {"attract", "introduction", "board", "card", "turning-back", "speaking", "pair", "result"}
+    assert taken >= {"question-1", "question-2", "question-3", "answer"}
+    assert taken & {"mark-card", "mark-row", "mark-column"}
