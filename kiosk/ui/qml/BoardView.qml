@@ -12,7 +12,8 @@ FocusScope {
     required property url cardShadow
 
     readonly property real header: 84 * Theme.unit
-    readonly property real numbers: 64 * Theme.unit
+    // Beside the numbers there is room for a mark's arrow.
+    readonly property real numbers: 78 * Theme.unit
     readonly property real footer: 64 * Theme.unit
     readonly property real cell: Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
                                           (height - header - numbers - footer) / Math.max(1, board.rows))
@@ -56,7 +57,6 @@ FocusScope {
             row: view.board.markRow
             column: view.board.markColumn
             cell: view.cell
-            numbers: view.numbers
         }
         Repeater {
             model: view.board.columns
@@ -65,12 +65,10 @@ FocusScope {
                 x: index * view.cell
                 y: -view.numbers
                 width: view.cell
-                height: view.numbers
                 text: index + 1
                 font { pixelSize: Theme.body; bold: true }
                 color: view.board.markColumn === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
-                verticalAlignment: Text.AlignVCenter
             }
         }
         Repeater {
@@ -79,7 +77,7 @@ FocusScope {
                 required property int index
                 x: -view.numbers
                 y: index * view.cell
-                width: view.numbers
+                width: view.numbers - 30 * Theme.unit
                 height: view.cell
                 text: index + 1
                 font { pixelSize: Theme.body; bold: true }
@@ -113,6 +111,11 @@ FocusScope {
             required property bool up
             required property bool found
             required property string label
+            readonly property int row: Math.floor(index / view.board.columns)
+            readonly property int column: index % view.board.columns
+            readonly property bool marked: (view.board.markRow === row || view.board.markRow < 0)
+                                           && (view.board.markColumn === column || view.board.markColumn < 0)
+                                           && view.board.markRow + view.board.markColumn > -2
             objectName: "card-" + index
             width: cards.cellWidth
             height: cards.cellHeight
@@ -128,8 +131,8 @@ FocusScope {
                 shadow: view.cardShadow
                 picture: place.picture
                 up: place.up
-                // Closed cards step back while a tap would not count; found ones for good.
-                opacity: place.found ? 0.6 : view.board.speaking && !place.up ? 0.72 : 1
+                // Closed cards step back while a tap would not count, unless they are meant; found ones for good.
+                opacity: place.found ? 0.6 : view.board.speaking && !place.up && !place.marked ? 0.72 : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
                 scale: tap.pressed && view.board.open && !place.up ? 0.95 : 1
             }

@@ -10,7 +10,6 @@ Item {
     required property int row
     required property int column
     required property real cell
-    required property real numbers
 
     // Not named onRow and so on: QML would take such a name for a signal's handler.
     readonly property bool marksRow: row >= 0 && column < 0
@@ -18,16 +17,16 @@ Item {
     readonly property bool marksCard: row >= 0 && column >= 0
 
     component Arrow: Shape {
-        width: 34 * Theme.unit
-        height: 40 * Theme.unit
+        width: 24 * Theme.unit
+        height: 34 * Theme.unit
         ShapePath {
             fillColor: Theme.amber
             strokeColor: Theme.deepAmber
             strokeWidth: 3 * Theme.unit
             joinStyle: ShapePath.RoundJoin
             startX: 2 * Theme.unit; startY: 2 * Theme.unit
-            PathLine { x: 32 * Theme.unit; y: 20 * Theme.unit }
-            PathLine { x: 2 * Theme.unit; y: 38 * Theme.unit }
+            PathLine { x: 22 * Theme.unit; y: 17 * Theme.unit }
+            PathLine { x: 2 * Theme.unit; y: 32 * Theme.unit }
             PathLine { x: 2 * Theme.unit; y: 2 * Theme.unit }
         }
     }
@@ -40,7 +39,7 @@ Item {
         radius: Theme.radius
         color: Theme.amber
         border { color: Theme.deepAmber; width: 4 * Theme.unit }
-        Arrow { x: -width - 50 * Theme.unit; anchors.verticalCenter: parent.verticalCenter }
+        Arrow { x: -width - 5 * Theme.unit; anchors.verticalCenter: parent.verticalCenter }
     }
     Rectangle {
         visible: mark.marksColumn
@@ -50,7 +49,7 @@ Item {
         radius: Theme.radius
         color: Theme.amber
         border { color: Theme.deepAmber; width: 4 * Theme.unit }
-        Arrow { y: -height - 50 * Theme.unit; anchors.horizontalCenter: parent.horizontalCenter; rotation: 90 }
+        Arrow { y: -height; anchors.horizontalCenter: parent.horizontalCenter; rotation: 90 }
     }
     Rectangle {
         visible: mark.marksCard
