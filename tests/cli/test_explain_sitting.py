@@ -18,7 +18,7 @@ from kiosk.store.moments import explained
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.condition import Condition
-from kiosk.study.events import AssistanceDecided, CardFlipped, HintGiven
+from kiosk.study.events import AssistanceDecided, CardFlipped, HintGiven, TableAdapted
 from kiosk.study.session import Session
 from tests.samples import mixed, plan
 from tests.study.driver import Driver, at_random, notes
@@ -59,6 +59,27 @@ def test_the_other_target_rule_is_followed_too(tmp_path: Path) -> None:
     with archive(tmp_path) as sittings:
         for hint in driver.noted(HintGiven)[::5]:
             assert explained(sittings, 1, hint.flip).candidates == (hint.target,)
+
+
+def test_a_table_that_went_on_learning_is_explained_as_it_stood_at_that_flip(tmp_path: Path) -> None:
+    driver = stored(tmp_path, assistance={"step": 0.05})
+    decisions = driver.noted(AssistanceDecided)
+    with archive(tmp_path) as sittings:
+        first, last = (explained(sittings, 1, then.flip).decision for then in (decisions[0], decisions[-1]))
+        for then in decisions[::7]:
+            assert explained(sittings, 1, then.flip).decision.action is then.action
+    policy = driver.plan.policy
+    assert first.q == policy.row(first.state)
+    assert last.q != policy.row(last.state)
+
+
+def test_what_a_table_came_to_is_recorded_and_the_table_it_began_as_is_unchanged(tmp_path: Path) -> None:
+    before = plan(Condition.TOM, mixed(SEED, Gate())).policy.sha256
+    driver = stored(tmp_path, assistance={"step": 0.05})
+    (adapted,) = driver.noted(TableAdapted)
+    assert driver.plan.policy.sha256 == before
+    assert adapted.sha256 != before
+    assert not stored(tmp_path / "frozen").noted(TableAdapted)
 
 
 def test_the_plan_of_a_sitting_is_kept_whole(tmp_path: Path) -> None:
