@@ -12,8 +12,7 @@ import click
 
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, study_option
-from kiosk.cli.wiring import code_commit, make_plan, read_settings
-from kiosk.store.reading import archive
+from kiosk.cli.wiring import code_commit, log_into, make_plan, read_settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import Event
 from kiosk.study.utterances import body_changes, utterances
@@ -39,6 +38,7 @@ robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), 
 def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_port: int | None, *, window: bool) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
     plan = make_plan(read_settings(study, robot_host, robot_port))
+    log_into(data)
     chance = SystemRandom()
     commit = code_commit()
 
@@ -87,6 +87,8 @@ def rehearse(
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
         rehearsal = Rehearsal(app, seed, pictures)
         rehearsal.run()
+    from kiosk.store.reading import archive  # noqa: PLC0415 - a tenth of a second that opening need not pay
+
     with archive(data) as stored:
         played = stored.sittings()[-1].to_json()
         if plan.settings.robot.kind != "none":

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import subprocess
+from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
 from platformdirs import user_data_path
@@ -17,6 +19,10 @@ from kiosk.study.session import Plan
 
 DATA = user_data_path("recollect", appauthor=False)
 """Where a study's data are kept unless told otherwise."""
+
+LOG = "recollect.log"
+LOG_BYTES = 1_000_000
+LOGS_KEPT = 3
 
 _GIT_DEADLINE_S = 2
 
@@ -52,6 +58,21 @@ def deck(name: str) -> tuple[str, ...]:
         decks = ", ".join(sorted(path.name for path in (ASSETS / "cards").iterdir() if path.is_dir()))
         raise BadInput(f"there is no deck {name!r}; there are {decks}")
     return tuple(sorted(path.stem for path in folder.glob("*.svg")))
+
+
+def log_into(folder: Path) -> None:
+    """Keep a log in a data folder, in files that never grow large; it holds faults and failures, nothing personal.
+
+    Raises BadInput if it cannot be written there.
+    """
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        handler = RotatingFileHandler(folder / LOG, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8")
+    except OSError as error:
+        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+    logging.basicConfig(
+        handlers=[handler], level=logging.WARNING, format="%(asctime)s %(levelname)s %(name)s: %(message)s"
+    )
 
 
 def code_commit() -> str:
