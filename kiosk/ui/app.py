@@ -130,6 +130,8 @@ class App:
     def close(self) -> None:
         """End the sitting that is under way, and everything but the application object: Qt allows no second one."""
         self.conductor.close()
+        for ending, handler in self._signals_before.items():
+            signal.signal(ending, handler)
         self.bodies.close()
         self._landing.close()
         self._voice.close()
@@ -180,8 +182,9 @@ class App:
         heart = QTimer(self._owner)
         heart.timeout.connect(lambda: None)
         heart.start(HEARTBEAT_MS)
-        for ending in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(ending, lambda *_: self.quit())
+        self._signals_before = {
+            ending: signal.signal(ending, lambda *_: self.quit()) for ending in (signal.SIGINT, signal.SIGTERM)
+        }
 
     def fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
         """A fault of ours: into the log with it, and a calm screen for the visitor."""

@@ -197,7 +197,12 @@ def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, mon
         return Bar()
 
     monkeypatch.setattr("kiosk.cli.learning.progress_bar", interrupted)
-    result = run("train", "--episodes", "4000", "--out", str(out))
+    # Whoever runs the tests in the background has the signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        result = run("train", "--episodes", "4000", "--out", str(out))
+    finally:
+        signal.signal(signal.SIGINT, before)
     beside = tmp_path / "table.checkpoint.json"
     assert result.exit_code == 130
     assert f"a usable policy in {beside}" in result.stderr
