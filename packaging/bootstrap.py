@@ -84,7 +84,6 @@ def start(arguments: Sequence[str]) -> int:
         code = run([*rehearsal, *arguments], environment)
     if code:
         raise SetupFailed(f"The rehearsal ended with exit code {code}.")
-    say(f"The data are in {data}.\nThe pictures are in {shots}.")
     return 0
 
 
