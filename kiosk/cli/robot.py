@@ -17,7 +17,7 @@ from kiosk.cli.options import json_option
 from kiosk.cli.wiring import read_settings
 from kiosk.robot.body import Place
 from kiosk.robot.device import Robot, RobotFailed, Saying
-from kiosk.robot.furhat import Furhat, chosen_voice
+from kiosk.robot.furhat.remote import Furhat, chosen_voice
 from kiosk.robot.kinds import robot_of
 from kiosk.study.commands import Mood
 

@@ -6,13 +6,16 @@ taken back only there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from kiosk.robot.body import Body, Listener
+from kiosk.robot.body import Body, Health, Listener
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.events import BodyName
+
+_log = logging.getLogger(__name__)
 
 
 class Wait(Protocol):
@@ -48,6 +51,11 @@ class Bodies:
     def current(self) -> Body | None:
         """The body that helps now."""
         return self._current
+
+    @property
+    def health(self) -> Mapping[BodyName, Health]:
+        """How every body is, in words for the experimenter."""
+        return {body.name: body.health for body in (self._robot, self._avatar) if body is not None}
 
     @property
     def settled(self) -> bool:
@@ -116,6 +124,7 @@ class Bodies:
 
     def robot_lost(self, why: str) -> None:
         """The robot cannot be counted on; if it was helping somebody, that is an event of their sitting."""
+        _log.info("%s", why)
         self._unsettled = False
         if self._in_sitting and self._current is self._robot:
             self._listener.robot_lost(why)

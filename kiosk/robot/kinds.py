@@ -13,7 +13,7 @@ def robot_of(settings: RobotSettings, language: str) -> Robot | None:
         case "none":
             return None
         case "furhat":
-            from kiosk.robot.furhat import Furhat  # noqa: PLC0415
+            from kiosk.robot.furhat.remote import Furhat  # noqa: PLC0415
 
             return Furhat(settings, language)
         case "furhat-realtime":
@@ -22,7 +22,7 @@ def robot_of(settings: RobotSettings, language: str) -> Robot | None:
 
 def _realtime(settings: RobotSettings, language: str) -> Robot:
     try:
-        from kiosk.robot.realtime import FurhatRealtime  # noqa: PLC0415
+        from kiosk.robot.furhat.realtime import FurhatRealtime  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise BadInput("for furhat-realtime the package websockets is missing; install recollect[realtime]") from error
     return FurhatRealtime(settings, language)

@@ -30,6 +30,9 @@ import pyttsx3
 from kiosk.robot import LOUDNESS_MS
 
 _POLL_S = 0.01
+_RENDER_S = 3.0
+"""Rendering takes 10 to 60 ms; an engine that takes this long will never be done."""
+
 _FULL_LOUDNESS = 0.25
 """The root mean square, of full scale, at which the mouth is wide open: loud vowels of espeak-ng reach about this."""
 
@@ -63,6 +66,8 @@ class Engine:
     def __init__(self, language: str, rate: int, volume: float) -> None:
         """Take the first voice of the language; raises whatever the engine raises when it is missing."""
         self._engine = pyttsx3.init()
+        self._done = threading.Event()
+        self._engine.connect("finished-utterance", lambda **_: self._done.set())
         self._engine.setProperty("rate", rate)
         self._engine.setProperty("volume", volume)
         self.voice = _voice_of(language, self._engine.getProperty("voices"))
@@ -76,8 +81,14 @@ class Engine:
         """
         if self.voice is None:
             raise RuntimeError("no installed voice speaks the language")
+        # runAndWait comes back after 10 ms, done or not; what lies there until then is the sentence before.
+        file.unlink(missing_ok=True)
+        self._done.clear()
         self._engine.save_to_file(text, str(file))
         self._engine.runAndWait()
+        # On Windows it renders at once, and reports nothing.
+        if sys.platform != "win32" and not self._done.wait(_RENDER_S):
+            raise RuntimeError("the engine did not render the sentence in time")
         return Sound.of(file)
 
 

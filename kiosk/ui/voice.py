@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import logging
 import sys
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -123,6 +124,9 @@ class EngineVoice(Voice):
         self._health = Health(well=True, words="the voice is starting")
         self._ready = False
         self._saying: int | None = None
+        # Every sitting counts its sentences from 1; what comes late of the last one must not be taken for this one's.
+        self._requests = count(1)
+        self._request = 0
         self._failures = 0
         self._deadline = QTimer(self)
         self._deadline.setSingleShot(True)
@@ -141,7 +145,8 @@ class EngineVoice(Voice):
         self._saying = number
         most = READY_DEADLINE_MS if self._ready else self._start_deadline_ms
         self._deadline.start(min(most, self._start_deadline_ms))
-        self._send({"say": number, "text": sentence})
+        self._request = next(self._requests)
+        self._send({"say": self._request, "text": sentence})
 
     def stop(self) -> None:
         """Tell the engine to be silent."""
@@ -211,7 +216,7 @@ class EngineVoice(Voice):
             self._failures = MAX_FAILURES
             self._health = Health(well=False, words=f"sentences are only shown: {event.get('why')}")
             self._give_up(str(event.get("why")))
-        if event.get("id") != self._saying or self._saying is None:
+        if event.get("id") != self._request or self._saying is None:
             return
         match kind:
             case "started":

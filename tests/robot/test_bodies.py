@@ -75,6 +75,14 @@ def test_until_the_robot_is_found_the_avatar_helps(stage: Stage) -> None:
     assert stage.body.health.words == "the robot is there and speaks as Amy"
 
 
+def test_the_experimenter_is_told_how_every_body_is(stage: Stage) -> None:
+    stage.begin_to_look()
+    assert {name: health.words for name, health in stage.bodies.health.items()} == {
+        BodyName.FURHAT: "the robot is there and speaks as Amy",
+        BodyName.AVATAR: "it is a fake",
+    }
+
+
 def test_a_robot_that_is_not_there_leaves_it_to_the_avatar(stage: Stage) -> None:
     stage.robot.failure = GONE
     stage.begin_to_look()

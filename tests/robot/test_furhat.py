@@ -12,7 +12,7 @@ import pytest
 
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, RobotFailed, RobotVoice, Saying, speakable
-from kiosk.robot.furhat import Furhat, chosen_voice
+from kiosk.robot.furhat.remote import Furhat, chosen_voice
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode

@@ -9,7 +9,7 @@ import pytest
 
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, RobotFailed, Saying
-from kiosk.robot.realtime import FurhatRealtime
+from kiosk.robot.furhat.realtime import FurhatRealtime
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from tests.robot.realtime_fake import Mode, RealtimeFake

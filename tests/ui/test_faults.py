@@ -16,9 +16,12 @@ from kiosk.store.reading import archive
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
 from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode
+from tests.robot.realtime_fake import Mode as Broken
+from tests.robot.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
 
+BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
 QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 300)
 
 
@@ -84,6 +87,21 @@ def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: Furha
 def test_a_fault_in_any_stage_costs_nobody_anything(booth: Booth, fake: FurhatFake, moment: Moment) -> None:
     result = sabotaged(booth, fake, Mode.RESET, moment)
     assert result.body_changes == 1
+
+
+@pytest.mark.parametrize("mode", BROKEN, ids=lambda mode: mode.name.lower())
+def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: MakeBooth, mode: Broken) -> None:
+    with RealtimeFake() as fake:
+        robot = {"kind": "furhat-realtime", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
+        booth = make_booth(settings=Settings.model_validate({"robot": robot}))
+        rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
+        rehearsal.run()
+        with archive(booth.data) as stored:
+            result = outcome(stored, rehearsal)
+        booth.app.bodies.close()
+    assert result.faults() == []
+    assert result.body_changes == 1
+    assert fake.refusals == []
 
 
 def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake: FurhatFake) -> None:

@@ -205,3 +205,33 @@ def test_a_missing_engine_is_told_in_words(
     qtbot.waitUntil(lambda: voice.health.words == "sentences are only shown: no speech engine")
     assert not voice.health.well
     caplog.clear()
+
+
+SPEAKS_LATE = """
+import json, sys
+late = None
+for line in sys.stdin:
+    command = json.loads(line)
+    if "say" in command:
+        if late is not None:
+            print(json.dumps({"event": "started", "id": late, "duration_ms": 10, "loudness": [0.1]}), flush=True)
+            print(json.dumps({"event": "finished", "id": late, "audible": True}), flush=True)
+        late = command["say"]
+        print(json.dumps({"event": "started", "id": late, "duration_ms": 10, "loudness": [0.9]}), flush=True)
+"""
+
+
+def test_what_comes_late_of_the_last_sitting_is_not_taken_for_this_ones_sentence(
+    qtbot: QtBot, voices: list[EngineVoice]
+) -> None:
+    voice = engine(voices, SPEAKS_LATE)
+    heard: list[list[float]] = []
+    voice.started.connect(lambda _, loudness: heard.append(loudness))
+    voice.finished.connect(lambda _: heard.append([]))
+    voice.say(1, "Goodbye")
+    qtbot.waitUntil(lambda: len(heard) == 1)
+    voice.stop()
+    with qtbot.waitSignal(voice.started):
+        voice.say(1, "Hello")
+    assert heard == [[0.9], [0.9]]
+    voice.stop()

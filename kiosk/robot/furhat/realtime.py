@@ -20,8 +20,8 @@ from websockets.sync.client import ClientConnection, connect
 
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, Found, RobotFailed, Saying
-from kiosk.robot.gestures import WISHES
-from kiosk.robot.space import location
+from kiosk.robot.furhat.gestures import WISHES
+from kiosk.robot.furhat.space import location
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName

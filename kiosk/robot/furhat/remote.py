@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, Found, RobotFailed, RobotVoice, Saying
-from kiosk.robot.gestures import CONFUSED, gesture
-from kiosk.robot.space import location
-from kiosk.robot.wire import MS_PER_SECOND, Call, Http
+from kiosk.robot.furhat.gestures import CONFUSED, gesture
+from kiosk.robot.furhat.space import location
+from kiosk.robot.furhat.wire import MS_PER_SECOND, Call, Http
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName
