@@ -17,8 +17,11 @@ from typing import Any, Self
 from kiosk import BadInput
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import STATES, Action, State
+from kiosk.settings import policy_path
 
 FORMAT = "recollect-policy-1"
+NONE = "none"
+"""The name of no policy at all."""
 DECIMALS = 6
 """Values are frozen to this many decimals: readable, and the same to the last digit on every machine."""
 
@@ -62,6 +65,16 @@ class QTable:
     def sha256(self) -> str:
         """The hash over everything in the file but the hash itself."""
         return _hash(self._document())
+
+    @classmethod
+    def blank(cls) -> Self:
+        """The table that never helps, behind the usual gate."""
+        return cls.freeze(NONE, Gate(), [[0.0] * len(Action) for _ in STATES], {})
+
+    @classmethod
+    def named(cls, name: str) -> Self:
+        """A table by the name of a shipped one, by "none", or by its path; raises PolicyError with one sentence."""
+        return cls.blank() if name == NONE else cls.load(policy_path(name))
 
     @classmethod
     def load(cls, path: Path) -> Self:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import reprlib
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import ErrorDetails
@@ -16,7 +16,7 @@ from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable, said_once
 from kiosk.assistant.wording import Catalogue
 from kiosk.game import Board
-from kiosk.settings import ASSETS, Assistance, Game, policy_path
+from kiosk.settings import ASSETS, Assistance, Game
 from kiosk.study.condition import Condition
 from kiosk.study.moment import Moment
 
@@ -38,7 +38,7 @@ class Case(BaseModel):
     language: str
     action: str | None = None
     seed: int = 0
-    target_rule: str = Assistance().target_rule
+    target_rule: Literal["most_flipped", "most_recent"] = Assistance().target_rule
 
     def moment(self) -> Moment:
         """What the case describes; raises BadInput or ValueError for names that do not exist and impossible boards."""
@@ -48,8 +48,8 @@ class Case(BaseModel):
             flips=tuple(map(board.position, self.flips)),
             last=_action(self.last_action),
             condition=Condition.named(self.condition),
-            rule=_rule(self.target_rule),
-            policy=QTable.load(policy_path(self.policy)),
+            rule=TargetRule(self.target_rule),
+            policy=QTable.named(self.policy),
             catalogue=catalogue(self.language),
             override=None if self.action is None else _action(self.action),
             seed=self.seed,
@@ -86,15 +86,6 @@ def _action(name: str) -> Action:
         if action.label == name:
             return action
     raise BadInput(f"there is no action {name!r}; there are {', '.join(action.label for action in Action)}")
-
-
-def _rule(name: str) -> TargetRule:
-    try:
-        return TargetRule(name)
-    except ValueError as error:
-        raise BadInput(
-            f"there is no target rule {name!r}; there are {', '.join(r.value for r in TargetRule)}"
-        ) from error
 
 
 def _sentence(error: ErrorDetails) -> str:

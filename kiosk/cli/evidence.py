@@ -1,6 +1,7 @@
 """Every number that docs/learning.md and the policy cards give, made again, and whether each claim holds.
 
-Arms never share random numbers, so the interval of a difference is that of two independent samples.
+Two arms never share random numbers, so the interval of their difference is that of two independent samples. Tables of
+different training seeds play the same games, so that what differs between them is the table alone.
 """
 
 from __future__ import annotations
@@ -12,13 +13,20 @@ from dataclasses import dataclass, replace
 from kiosk.assistant.mdp import Action, Outcome
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
+from kiosk.study.condition import Condition, target_rule
 from kiosk.training import policies
 from kiosk.training.learning import RECIPES, Alpha, Averaging, Decisions, Learner, Recipe
 from kiosk.training.players import ChancePlayer, MemoryPlayer, Player, TextPlayer
 from kiosk.training.rewards import Reward
 from kiosk.training.simulation import T_CARD, Z95, Games, Progress, Spread, simulate
 
-TOM, NOTOM = TargetRule.MOST_FLIPPED, TargetRule.RANDOM
+
+def _rule(condition: Condition) -> TargetRule:
+    """Where first-card hints point in a condition that gives any."""
+    return target_rule(condition, TargetRule.MOST_FLIPPED) or TargetRule.RANDOM
+
+
+TOM, NOTOM = _rule(Condition.TOM), _rule(Condition.NOTOM)
 FOLLOWED = {TOM: 0.92, NOTOM: 0.86}
 """The share of hints that the study's people followed."""
 PAPER_UNAIDED, PAPER_ASSISTED, PAPER_PERFECT = (48.15, 7.55), (41.73, 8.83), (25.1, 3.7)
@@ -120,7 +128,7 @@ def listed(claims: Sequence[Claim]) -> str:
 
 def samples(games: int, seed: int) -> list[Sample]:
     """The three distributions of the paper's simulation figure."""
-    default, none = policies.find("default"), policies.blank()
+    default, none = QTable.named("default"), QTable.blank()
     return [
         Sample("no help, threshold .5", _moves(none, ChancePlayer(), games, seed), PAPER_UNAIDED),
         Sample("helped by the default table", _moves(default, ChancePlayer(), games, seed + 1), PAPER_ASSISTED),
@@ -142,7 +150,7 @@ def gather(games: int, seeds: int, seed: int, progress: Progress = lambda _: Non
 
 
 def _players(games: int, _seeds: int, seed: int) -> list[Claim]:
-    none = policies.blank()
+    none = QTable.blank()
     expected: list[tuple[str, Player, float, float | None, float, float]] = [
         ("chance .5", ChancePlayer(), 48.19, 7.57, 0.3, 0.2),
         ("chance .10", ChancePlayer(0.1), 25.18, 3.79, 0.3, 0.2),
@@ -209,11 +217,15 @@ def _settled(recipe: Recipe, games: int, seeds: int, seed: int) -> Claim:
 
 
 def _default(games: int, _seeds: int, seed: int) -> list[Claim]:
-    table = policies.find("default")
+    table = QTable.named("default")
     played = {arm.label: measure(table, arm, games, seed) for arm in ARMS}
     chance = played["chance .5, noToM"]
     claims = []
-    for label in ("chance .5, noToM", "memory 0.2, noToM", "memory 0.25, noToM"):
+    for label in (
+        "chance .5, noToM",
+        "chance .5, ToM",
+        *(f"memory {d}, {c}" for d in (0.2, 0.25) for c in ("noToM", "ToM")),
+    ):
         helped = played[label].assistance
         claims.append(
             Claim(f"(a) assistance per flip, {label}", ".20 to .36", _mean(helped, 3), _between(helped, ASSISTANCE))
@@ -280,7 +292,7 @@ def _seeds_agree(games: int, seeds: int, seed: int) -> list[Claim]:
 
 def _alike(what: str, tables: Sequence[QTable]) -> Claim:
     between = [policies.compare(one, other).agreement for i, one in enumerate(tables) for other in tables[:i]]
-    shipped = policies.find("default")
+    shipped = QTable.named("default")
     same = sum(not policies.compare(table, shipped).different for table in tables)
     text = f"{min(between):.2f} to {max(between):.2f}; {same} of {len(tables)} as the shipped table in every state"
     return Claim(what, "at least .90 of the visited states", text, min(between) >= AGREEMENT)

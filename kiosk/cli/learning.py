@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,6 +24,7 @@ from kiosk.assistant.mdp import STATES, Action, State
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
 from kiosk.cli import evidence
+from kiosk.study.condition import Condition, target_rule
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Alpha, Averaging, Decisions, Epsilon, Learner, Recipe
 from kiosk.training.players import ChancePlayer, Counting, MemoryPlayer, Player, TextPlayer
@@ -32,7 +34,6 @@ from kiosk.training.simulation import Progress
 STOPPED = 130
 """The exit code after Ctrl-C."""
 GATES = {"on": Gate(), "off": NO_GATE}
-CONDITIONS = {"tom": TargetRule.MOST_FLIPPED, "notom": TargetRule.RANDOM}
 _PLAYERS: dict[str, Player] = {player.name: player for player in (ChancePlayer(), MemoryPlayer(), TextPlayer())}
 
 
@@ -120,6 +121,17 @@ def progress_bar(what: str, total: int, *, hidden: bool) -> Iterator[Progress]:
         yield done
 
 
+@contextmanager
+def ctrl_c() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C was pressed, instead of being torn out of whatever is under way; heard in the background too."""
+    pressed: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: pressed.append(number))
+    try:
+        yield lambda: bool(pressed)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 @click.command()
 @click.option(
     "--reward", type=_choice(Reward), default="retrieval", show_default=True, help="What the robot is paid for."
@@ -143,11 +155,11 @@ def train(out: Path, name: str | None, reward: str, json_: bool, **options: Any)
     """Learn a table and freeze it. What is not said follows from the reward; see docs/learning.md."""
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
+    policies.check_writable(out)
     learner = Learner(recipe)
-    try:
-        with progress_bar("training", recipe.episodes, hidden=json_) as progress:
-            learner.study(progress)
-    except KeyboardInterrupt:
+    with progress_bar("training", recipe.episodes, hidden=json_) as progress, ctrl_c() as pressed:
+        learner.study(progress, pressed)
+    if learner.episodes < recipe.episodes:
         _leave_checkpoint(learner, name, out)
     table = learner.freeze(name, command(recipe, name))
     policies.write(out, table.to_json())
@@ -218,9 +230,7 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
 @click.option(
     "--policy", "name", default="default", show_default=True, help="A file, default, study-like, no-help or none."
 )
-@click.option(
-    "--condition", type=click.Choice(list(CONDITIONS)), default="tom", show_default=True, help="Where hints point."
-)
+@click.option("--condition", type=_choice(Condition), default="tom", show_default=True, help="Where hints point.")
 @click.option("--target", type=_choice(TargetRule), help="Another target rule than the condition's.")
 @click.option("--games", type=int, default=5000, show_default=True, help="How many games.")
 @click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
@@ -235,9 +245,10 @@ def simulate(
     **options: Any,
 ) -> None:
     """Play many games with a simulated player under a frozen table, and measure them as the study does."""
-    table = policies.find(name)
+    where = target_rule(Condition(condition), TargetRule.MOST_FLIPPED)
+    table = QTable.named(name) if where else QTable.blank()
     player = seat(ChancePlayer(), **options)
-    rule = TargetRule(target) if target else CONDITIONS[condition]
+    rule = TargetRule(target) if target else where or TargetRule.RANDOM
     with progress_bar("playing", games, hidden=json_) as progress:
         measures = simulation.simulate(table, player, rule, games, seed, progress).measures()
     asked = {"player": player.parameters(), "policy": table.name, "policy_sha256": table.sha256, "seed": seed}
@@ -246,6 +257,7 @@ def simulate(
 
 def _told(measures: dict[str, Any]) -> str:
     lines = [f"{'games':<28}{measures['games']:,}"]
+    measures |= measures["spreads"]
     for name in ("moves", "flips", "assistance_per_flip", "first_card_hints_per_game"):
         spread = measures[name]
         low, high = spread["ci95"]
@@ -255,7 +267,7 @@ def _told(measures: dict[str, Any]) -> str:
         "hint rate, first card": measures["hint_rate"]["first"],
         "hint rate, second card": measures["hint_rate"]["second"],
     }
-    rates |= {"followed, first card": measures["followed"]["first"], "followed, all": measures["followed"]["all"]}
+    rates |= {"followed, first card": measures["followed_first_card"], "followed, all": measures["followed"]}
     rates |= {"led to match": measures["led_to_match"]}
     lines += [f"{name:<28}{'no hints' if rate is None else f'{rate:.3f}'}" for name, rate in rates.items()]
     return "\n".join(lines)
@@ -272,7 +284,7 @@ def policy() -> None:
 @as_json
 def show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: FBT001 - click's flag
     """Print a table: what it does in each state, the values, and how often the state was met in training."""
-    table = policies.find(file)
+    table = QTable.named(file)
     if figure is not None:
         policies.write(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
     met = policies.visits(table)
@@ -315,7 +327,7 @@ def _drawn() -> Any:
 @as_json
 def compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click's flag
     """Say in which states two tables act differently, over the states that both have met in training."""
-    tables = policies.find(one), policies.find(other)
+    tables = QTable.named(one), QTable.named(other)
     found = policies.compare(*tables)
     differences = {state.label: [table.action(state).label for table in tables] for state in found.different}
     document = {"compared": len(found.compared), "agreement": found.agreement, "largest_difference": found.largest}
@@ -332,7 +344,7 @@ def compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click'
 @as_json
 def card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa: FBT001 - click's flag
     """Measure a table with the players of the policy card, as rows of Markdown."""
-    table = policies.find(file)
+    table = QTable.named(file)
     rows = []
     with progress_bar("playing", len(evidence.ARMS), hidden=json_) as progress:
         for number, arm in enumerate(evidence.ARMS, 1):
@@ -344,7 +356,9 @@ def card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa: FBT001
 
 @policy.command("evidence")
 @click.option("--games", type=int, default=20_000, show_default=True, help="How many games in each arm.")
-@click.option("--seeds", type=int, default=10, show_default=True, help="How many trainings of each reward.")
+@click.option(
+    "--seeds", type=click.IntRange(min=2), default=10, show_default=True, help="How many trainings of each reward."
+)
 @click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random in play.")
 @click.option(
     "--figures", type=click.Path(path_type=Path, file_okay=False), help="Also draw the figures of the docs here."
@@ -365,6 +379,6 @@ def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_
 
 def _draw_figures(folder: Path, games: int, seed: int) -> None:
     drawn = _drawn()
-    table = policies.find("default")
+    table = QTable.named("default")
     policies.write(folder / "policy.svg", drawn.heat_map(table, policies.visits(table), "svg"))
     policies.write(folder / "games.svg", drawn.distributions(evidence.samples(games, seed), "svg"))

@@ -51,7 +51,13 @@ def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_por
 
 
 @click.command()
-@click.option("--seed", type=int, default=1, show_default=True, help="The same seed plays the same sitting.")
+@click.option(
+    "--seed",
+    type=click.IntRange(0, 2**63 - 1),
+    default=1,
+    show_default=True,
+    help="The same seed plays the same sitting.",
+)
 @click.option("--headless", is_flag=True, help="Use no screen, and play as fast as the machine allows.")
 @click.option("--speed", type=click.FloatRange(min=0, min_open=True), help="How many times as fast as in real life.")
 @click.option("--condition", help="The help that the visitor gets: tom, notom, or another cell of the design.")

@@ -12,7 +12,7 @@ from platformdirs import user_data_path
 from kiosk import BadInput
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
-from kiosk.settings import ASSETS, Settings, policy_path
+from kiosk.settings import ASSETS, Settings
 from kiosk.study.condition import Condition
 from kiosk.study.questionnaire import Questionnaire
 from kiosk.study.session import Plan
@@ -44,7 +44,7 @@ def make_plan(settings: Settings, condition: str | None = None) -> Plan:
     return Plan(
         settings=settings,
         condition=Condition.named(condition or help_given.condition),
-        policy=QTable.load(policy_path(help_given.policy)),
+        policy=QTable.named(help_given.policy),
         catalogue=Catalogue(ASSETS / "sentences" / settings.language),
         questionnaire=Questionnaire.read(ASSETS / "questionnaires" / f"{settings.questionnaire}.toml"),
         deck=deck(settings.game.deck),

@@ -19,13 +19,17 @@ from kiosk.settings import Settings
 from kiosk.store.database import open_for_reading
 from kiosk.store.recorder import LOCK
 from kiosk.study.condition import Condition
-from kiosk.study.events import Event, Status, from_record
+from kiosk.study.events import Event, SittingEnded, Status, from_record
 from kiosk.study.measures import Measures, measure
 from kiosk.study.questionnaire import Questionnaire
 from kiosk.study.session import Plan
 
 _MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")
 _SUMMARISED = (*_MEASURED, "SittingEnded")
+
+
+LARGEST = 2**63 - 1
+"""The largest whole number that SQLite knows."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +110,8 @@ class Archive:
         raise BadInput(f"nothing is kept under the hash {sha256}")
 
     def _row(self, number: int) -> dict[str, Any]:
-        for row in self._database["sitting"].rows_where("id = ?", [number]):
+        rows = self._database["sitting"].rows_where("id = ?", [number]) if number <= LARGEST else ()
+        for row in rows:
             return row
         raise BadInput(f"there is no sitting {number}")
 
@@ -121,7 +126,7 @@ class Archive:
         )
 
     def _status(self, events: list[Event]) -> Status | None:
-        return next((event.status for event in events if hasattr(event, "status")), self._unended)
+        return next((event.status for event in events if isinstance(event, SittingEnded)), self._unended)
 
 
 @contextmanager

@@ -61,13 +61,19 @@ class Help:
 
 def help_in(condition: Condition, rule: TargetRule, wording: Wording, rng: Random) -> Help | None:
     """The help that a visitor in this condition gets; ``rule`` is the one that mentalised conditions follow."""
+    followed = target_rule(condition, rule)
+    if followed is None:
+        return None
+    _, explained = _CELLS[condition]
+    return Help(Mentaliser(followed, rng), ReasonedSentences(wording) if explained else PlainSentences(wording))
+
+
+def target_rule(condition: Condition, rule: TargetRule) -> TargetRule | None:
+    """The rule that hints for first cards follow, if ``rule`` is the mentalised one; None where nobody helps."""
     if condition is Condition.NO_ASSISTANCE:
         return None
-    mentalised, explained = _CELLS[condition]
-    return Help(
-        Mentaliser(rule if mentalised else TargetRule.RANDOM, rng),
-        ReasonedSentences(wording) if explained else PlainSentences(wording),
-    )
+    mentalised, _ = _CELLS[condition]
+    return rule if mentalised else TargetRule.RANDOM
 
 
 _CELLS = {

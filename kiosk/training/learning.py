@@ -6,6 +6,7 @@ flips at which the gate was shut.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, NamedTuple
@@ -89,6 +90,8 @@ class Decisions(Enum):
 
 
 FLOORED, LINEAR_EPSILON, HYPERBOLIC = range(3)
+MOST_EPISODES = 1_000_000_000
+"""More would take days; a number beyond what the kernel can count is a slip of the keyboard."""
 EPSILONS = (Epsilon.FLOORED, Epsilon.PAPER, Epsilon.RELEASED)
 VISITS, LINEAR_ALPHA, RISING, CONSTANT = range(4)
 ALPHAS = (Alpha.VISITS, Alpha.PAPER, Alpha.RELEASED, Alpha.CONSTANT)
@@ -120,8 +123,8 @@ class Recipe:
 
     def __post_init__(self) -> None:
         """Refuse impossible numbers with BadInput."""
-        if self.episodes < 0:
-            raise BadInput(f"the number of episodes must be 0 or more, not {self.episodes}")
+        if not 0 <= self.episodes <= MOST_EPISODES:
+            raise BadInput(f"the number of episodes must be 0 to {MOST_EPISODES:,}, not {self.episodes}")
         if self.seed < 0:
             raise BadInput(f"the seed must be 0 or more, not {self.seed}")
         if not 0 <= self.gamma <= 1:
@@ -274,9 +277,13 @@ class Learner:
         self._table = lay(recipe.player, plan(recipe.gate, recipe.target), recipe.seed)
         self._lesson = _lesson(recipe)
 
-    def study(self, progress: Progress = lambda _: None) -> None:
-        """Play the recipe's episodes that are still to come; raises BadInput if a game does not end."""
-        while self.episodes < self.recipe.episodes:
+    def study(self, progress: Progress = lambda _: None, stopped: Callable[[], bool] = lambda: False) -> None:
+        """Play the recipe's episodes that are still to come; raises BadInput if a game does not end.
+
+        ``stopped`` is asked between two batches, and never within one: what is known then is what the same recipe
+        knows after as many episodes.
+        """
+        while self.episodes < self.recipe.episodes and not stopped():
             stop = min(self.episodes + BATCH, self.recipe.episodes)
             study_all(self._table, self._lesson, self.episodes, stop)
             refuse_endless(int(self._table.tally[T_FLIPS]))

@@ -10,39 +10,25 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-import kiosk
 from kiosk import BadInput
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import STATES, Action, Outcome, Phase, State
 from kiosk.assistant.qtable import QTable
 
-SHIPPED = ("default", "study-like", "no-help")
-"""The names of the tables that come with the program."""
-NONE = "none"
-"""The name of no policy at all."""
 
-
-def shelf() -> Path:
-    """Where the shipped tables lie: inside the installed package, or beside it in a checkout."""
-    package = Path(kiosk.__file__).parent
-    inside = package / "policies"
-    return inside if inside.is_dir() else package.parent / "policies"
-
-
-def find(name: str) -> QTable:
-    """A table by the name of a shipped one, by ``none``, or by its path; raises PolicyError with one sentence."""
-    if name == NONE:
-        return blank()
-    return QTable.load(shelf() / f"{name}.json" if name in SHIPPED else Path(name))
-
-
-def blank() -> QTable:
-    """The table that never helps."""
-    return QTable.freeze(NONE, Gate(), [[0.0] * len(Action) for _ in STATES], {})
+def check_writable(path: Path) -> Path:
+    """Where a file is to be written, links followed; raises BadInput for what no file can take the place of."""
+    place = path.resolve()
+    if place.exists() and not place.is_file():
+        raise BadInput(f"{path} cannot be written: it is not a file")
+    if not place.parent.is_dir():
+        raise BadInput(f"{path} cannot be written: there is no folder {place.parent}")
+    return place
 
 
 def write(path: Path, content: str | bytes) -> None:
     """Put a file in its place whole, or raise BadInput and leave what was there untouched."""
+    path = check_writable(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.new")
     data = content.encode() if isinstance(content, str) else content
     try:
@@ -112,7 +98,8 @@ def sentences(policy: QTable, hint_rate_first: float, hint_rate_second: float) -
     falls = levels[Phase.BEGINNING] >= levels[Phase.MIDDLE] >= levels[Phase.END]
     return (
         Sentence(
-            "on the first card it does not step in while the player does well", policy.gate.patience > 0 or not well
+            "on the first card it does not step in while the player does well",
+            policy.gate.patience >= Gate().patience or not well,
         ),
         Sentence("on the first card it helps once mistakes have been made", wrong > 0),
         Sentence(

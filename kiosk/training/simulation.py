@@ -207,11 +207,16 @@ class Games:
             "games": len(self.tallies),
             "moves": _plain(self.moves),
             "flips": _plain(self.flips),
-            "assistance_per_flip": _plain(self.assistance),
-            "first_card_hints_per_game": _plain(self.first_card_hints),
+            "assistance_per_flip": self.assistance.mean,
+            "first_card_hints_per_game": self.first_card_hints.mean,
             "hint_rate": {"first": first / moves, "second": self.total(T_SECOND) / moves},
-            "followed": {"first": _share(followed[0], first), "all": _share(followed[1], both)},
+            "followed": _share(followed[1], both),
+            "followed_first_card": _share(followed[0], first),
             "led_to_match": _share(self.total(T_LED), first),
+            "spreads": {
+                "assistance_per_flip": _plain(self.assistance),
+                "first_card_hints_per_game": _plain(self.first_card_hints),
+            },
         }
 
 

@@ -16,7 +16,7 @@ from typing import Self
 
 # PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
 from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QObject, Qt, QTimer, QUrl
-from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication
+from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
@@ -204,6 +204,7 @@ def _application(display: Display) -> QGuiApplication:
     for font in FONTS:
         QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
     application.setFont(QFont("Noto Sans"))
+    application.setWindowIcon(QIcon(str(ASSETS / "icon.svg")))
     return application
 
 

@@ -1,12 +1,11 @@
 """A simulated visitor: looks at the screen, remembers some of it, and says which card it would turn next.
 
-It sees what anybody in front of the window sees, and plays as the memory player of the learning layer does: each card
-it saw is recalled with (1 - forgetting) ^ age, the age in flips, drawn anew for every move.
+It sees what anybody in front of the window sees. Much like the memory player of the learning layer, it recalls every
+card with (1 - forgetting) ^ age, drawn anew for every move, the age in flips since the card was last in sight.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from random import Random
 
@@ -42,6 +41,7 @@ class Visitor:
         """Remember nothing yet."""
         self._rng = rng
         self._seen: dict[Position, tuple[str, int]] = {}
+        self._recalled: dict[Position, str] = {}
         self._flips = 0
 
     def think(self) -> int:
@@ -54,8 +54,10 @@ class Visitor:
 
     def choose(self, view: View) -> Position:
         """The closed card that it turns next."""
+        if view.first is None:
+            self._recalled = self._recall()
         self._flips += 1
-        recalled = self._recall(view.closed)
+        recalled = {position: picture for position, picture in self._recalled.items() if position in view.closed}
         choice = view.marked if view.marked and self._rng.random() < FOLLOWING else view.closed
         wanted = _mates(view.first, recalled) if view.first else _pairs(recalled)
         return self._rng.choice(
@@ -67,12 +69,12 @@ class Visitor:
         for position, picture in shown.items():
             self._seen[position] = (picture, self._flips)
 
-    def _recall(self, closed: Collection[Position]) -> dict[Position, str]:
-        """The closed cards that it recalls just now."""
+    def _recall(self) -> dict[Position, str]:
+        """The cards that it recalls in this move."""
         return {
             position: picture
             for position, (picture, flip) in self._seen.items()
-            if position in closed and self._rng.random() < (1 - FORGETTING) ** (self._flips - flip)
+            if self._rng.random() < (1 - FORGETTING) ** (self._flips - flip)
         }
 
 

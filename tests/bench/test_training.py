@@ -18,7 +18,8 @@ from typing import Any
 import pytest
 
 from kiosk.assistant.mentaliser import TargetRule
-from kiosk.training import policies
+from kiosk.assistant.qtable import QTable
+from kiosk.settings import POLICIES
 from kiosk.training.kernel import COMPILED
 from kiosk.training.learning import RECIPES, Learner
 from kiosk.training.players import MemoryPlayer
@@ -41,7 +42,7 @@ def measured(benchmark: Benchmark, what: Callable[[], object], number: int, roun
 
 def games(number: int) -> None:
     """Games of the memory player under the default table."""
-    simulate(policies.find("default"), MemoryPlayer((0.2, 0.2)), TargetRule.MOST_FLIPPED, number, 1)
+    simulate(QTable.named("default"), MemoryPlayer((0.2, 0.2)), TargetRule.MOST_FLIPPED, number, 1)
 
 
 def episodes(number: int) -> None:
@@ -51,7 +52,7 @@ def episodes(number: int) -> None:
 
 def reference_games() -> None:
     """The same games, one by one on the real rooms."""
-    table, rng = policies.find("default"), Random(1)
+    table, rng = QTable.named("default"), Random(1)
     for _ in range(FEW):
         play(table, WithMemory(0.2, rng), TargetRule.MOST_FLIPPED, rng)
 
@@ -90,4 +91,4 @@ def test_from_nothing_to_the_default_table(benchmark: Benchmark, tmp_path: Path,
     if how == "compiled before":
         train()
     benchmark.pedantic(train, rounds=1)
-    assert out.read_bytes() == (policies.shelf() / "default.json").read_bytes()
+    assert out.read_bytes() == (POLICIES / "default.json").read_bytes()

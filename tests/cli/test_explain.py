@@ -243,7 +243,7 @@ def refused(
         ({"last_action": "row"}, "there is no action 'row'; there are no_help, sug_col, sug_row, sug_card"),
         ({"action": "SUG_ROW"}, "there is no action 'SUG_ROW'; there are no_help, sug_col, sug_row, sug_card"),
         ({"policy": "nowhere"}, "the policy file nowhere cannot be read: No such file or directory"),
-        ({"target_rule": "best"}, "there is no target rule 'best'; there are most_flipped, most_recent, random"),
+        ({"target_rule": "best"}, "target_rule should be 'most_flipped' or 'most_recent', but it is 'best'"),
         ({"seed": "x"}, "seed should be a valid integer, but it is 'x'"),
         ({"colour": "red"}, "there is no key 'colour'"),
         (

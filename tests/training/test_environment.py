@@ -13,7 +13,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402 - after the impo
 from kiosk.assistant.gate import NO_GATE  # noqa: E402
 from kiosk.assistant.mdp import STATES, Action, Outcome, Phase  # noqa: E402
 from kiosk.assistant.mentaliser import TargetRule  # noqa: E402
-from kiosk.training import policies  # noqa: E402
+from kiosk.assistant.qtable import QTable  # noqa: E402
 from kiosk.training.environment import ENVIRONMENT, Assistance  # noqa: E402
 from kiosk.training.players import MemoryPlayer  # noqa: E402
 from kiosk.training.rewards import Reward  # noqa: E402
@@ -70,7 +70,7 @@ def test_observations_are_the_rows_of_the_table() -> None:
 
 
 def test_the_default_table_plays_here_as_in_the_simulation() -> None:
-    table, player, games = policies.find("default"), MemoryPlayer((0.2, 0.2)), 400
+    table, player, games = QTable.named("default"), MemoryPlayer((0.2, 0.2)), 400
     environment = Assistance(player=player, target=TargetRule.RANDOM)
     flips: list[float] = []
     for number in range(games):

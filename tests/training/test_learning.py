@@ -202,7 +202,7 @@ def test_where_every_flip_is_a_decision_the_visits_still_count_those_with_a_choi
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda: replace(RETRIEVING, episodes=-1), "the number of episodes must be 0 or more, not -1"),
+        (lambda: replace(RETRIEVING, episodes=-1), "the number of episodes must be 0 to 1,000,000,000, not -1"),
         (lambda: replace(RETRIEVING, seed=-3), "the seed must be 0 or more, not -3"),
         (lambda: replace(RETRIEVING, gamma=1.5), "gamma must be a number from 0 to 1, not 1.5"),
     ],
@@ -220,17 +220,17 @@ def again(shipped: QTable, recipe: Recipe) -> None:
 
 
 def test_the_default_table_comes_out_again_to_the_last_digit() -> None:
-    again(policies.find("default"), RETRIEVING)
+    again(QTable.named("default"), RETRIEVING)
 
 
 def test_the_table_without_help_comes_out_again() -> None:
-    again(policies.find("no-help"), replace(RETRIEVING, episodes=0))
-    assert not policies.helped(policies.find("no-help"))
+    again(QTable.named("no-help"), replace(RETRIEVING, episodes=0))
+    assert not policies.helped(QTable.named("no-help"))
 
 
 @pytest.mark.skipif(not COMPILED, reason="100,000 episodes are for compiled rules")
 def test_the_study_like_table_comes_out_again() -> None:
-    again(policies.find("study-like"), replace(RECIPES[Reward.RELEASED], seed=4))
+    again(QTable.named("study-like"), replace(RECIPES[Reward.RELEASED], seed=4))
 
 
 def test_trained_with_random_targets_the_table_never_names_a_first_card() -> None:

@@ -19,8 +19,9 @@ from kiosk import BadInput
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import Action, Outcome, State
 from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import PolicyError
+from kiosk.assistant.qtable import PolicyError, QTable
 from kiosk.cli.evidence import difference
+from kiosk.settings import POLICIES
 from kiosk.training import policies, simulation
 from kiosk.training.players import ChancePlayer, MemoryPlayer
 from kiosk.training.simulation import T_CARD, T_COL, T_FIRST, T_FLIPS, T_ROW, T_SECOND, Games, Spread, simulate
@@ -38,7 +39,7 @@ def forgetting(d: float) -> MemoryPlayer:
 @cache
 def played(player: ChancePlayer | MemoryPlayer, target: TargetRule) -> Games:
     """Games under the default table."""
-    return simulate(policies.find("default"), player, target, GAMES, 17)
+    return simulate(QTable.named("default"), player, target, GAMES, 17)
 
 
 @pytest.mark.parametrize("player", [ChancePlayer(), forgetting(0.2), forgetting(0.25)])
@@ -76,13 +77,13 @@ def test_the_paper_s_four_sentences_hold_of_the_default_table(
     player: ChancePlayer | MemoryPlayer, target: TargetRule
 ) -> None:
     rates = played(player, target).measures()["hint_rate"]
-    said = policies.sentences(policies.find("default"), rates["first"], rates["second"])
+    said = policies.sentences(QTable.named("default"), rates["first"], rates["second"])
     assert [sentence.text for sentence in said if not sentence.holds] == []
     assert len(said) == 4
 
 
 def test_a_table_that_never_helps_fails_the_paper_s_sentences_about_helping() -> None:
-    holds = [sentence.holds for sentence in policies.sentences(policies.blank(), 0, 0)]
+    holds = [sentence.holds for sentence in policies.sentences(QTable.blank(), 0, 0)]
     assert holds == [True, False, False, False]
 
 
@@ -110,7 +111,7 @@ def test_led_to_match_counts_first_card_hints_that_were_followed_into_a_match() 
         return Action.SUG_CARD if state.outcome in (Outcome.S_CORRECT, Outcome.S_WRONG) else Action.SUG_ROW
 
     assert simulate(policy_that(second_cards), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] == 1.0
-    assert simulate(policies.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None
+    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40))
@@ -125,14 +126,14 @@ def test_a_spread_is_the_mean_the_sample_sd_and_a_normal_interval(values: list[f
 
 
 def test_games_follow_from_the_seed_whatever_the_batches() -> None:
-    few = simulate(policies.blank(), ChancePlayer(), NOTOM, 10, 3)
-    assert simulate(policies.blank(), ChancePlayer(), NOTOM, 600, 3).tallies[:10] == few.tallies
-    assert simulate(policies.blank(), ChancePlayer(), NOTOM, 10, 4) != few
+    few = simulate(QTable.blank(), ChancePlayer(), NOTOM, 10, 3)
+    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 600, 3).tallies[:10] == few.tallies
+    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 10, 4) != few
 
 
 def test_progress_is_told_how_many_games_are_through() -> None:
     told: list[int] = []
-    simulate(policies.blank(), forgetting(0), NOTOM, simulation.BATCH + 1, 1, told.append)
+    simulate(QTable.blank(), forgetting(0), NOTOM, simulation.BATCH + 1, 1, told.append)
     assert told == [simulation.BATCH, simulation.BATCH + 1]
 
 
@@ -141,7 +142,7 @@ def test_progress_is_told_how_many_games_are_through() -> None:
 )
 def test_impossible_numbers_are_refused_in_words(games: int, seed: int, sentence: str) -> None:
     with pytest.raises(BadInput, match=sentence):
-        simulate(policies.blank(), ChancePlayer(), NOTOM, games, seed)
+        simulate(QTable.blank(), ChancePlayer(), NOTOM, games, seed)
 
 
 def test_a_game_that_was_given_up_is_a_refusal_and_no_number() -> None:
@@ -150,25 +151,25 @@ def test_a_game_that_was_given_up_is_a_refusal_and_no_number() -> None:
 
 
 def test_comparing_counts_only_states_that_both_tables_know() -> None:
-    default = policies.find("default")
+    default = QTable.named("default")
     same = policies.compare(default, default)
     assert (same.agreement, same.largest) == (1.0, 0.0)
     assert set(same.compared) == set(policies.visits(default))
-    other = policies.compare(default, policies.blank())
+    other = policies.compare(default, QTable.blank())
     assert set(other.different) == set(policies.helped(default))
 
 
-@pytest.mark.parametrize("name", policies.SHIPPED)
+@pytest.mark.parametrize("name", ["default", "study-like", "no-help"])
 def test_every_shipped_table_is_found_by_its_name_and_has_a_card(name: str) -> None:
-    assert policies.find(name).name == name
-    card = (policies.shelf() / f"{name}.md").read_text("utf-8")
-    assert policies.find(name).sha256 in card
-    assert policies.find(name).training["command"] in card
+    assert QTable.named(name).name == name
+    card = (POLICIES / f"{name}.md").read_text("utf-8")
+    assert QTable.named(name).sha256 in card
+    assert QTable.named(name).training["command"] in card
 
 
 def test_a_policy_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(PolicyError, match="cannot be read: No such file or directory"):
-        policies.find(str(tmp_path / "nothing.json"))
+        QTable.named(str(tmp_path / "nothing.json"))
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
