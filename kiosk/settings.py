@@ -125,7 +125,7 @@ class Voice(Declared):
 class Screen(Declared):
     """The window."""
 
-    text_size: Annotated[PositiveFloat, Field(le=2, description="All texts, as a factor of their usual size.")] = 1.0
+    text_size: Annotated[PositiveFloat, Field(le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
 
 

@@ -11,5 +11,12 @@ from kiosk.cli.wiring import DATA
 data_option = click.option(
     "--data", type=click.Path(path_type=Path), default=DATA, show_default=True, help="The data folder."
 )
+rehearsal_data_option = click.option(
+    "--data",
+    type=click.Path(path_type=Path),
+    default=DATA / "rehearsals",
+    show_default=True,
+    help="The data folder; not the one of the study.",
+)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
 study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")

@@ -13,28 +13,33 @@ from kiosk.cli.options import data_option, json_option
 from kiosk.store.reading import archive
 
 MS_PER_SECOND = 1000
+WIDTH = 100
+"""Characters that a line of the list may need."""
+
+_COUNTS = ("pairs", "moves", "flips", "hints")
 
 
 @click.command()
 @data_option
 @json_option
 def sittings(data: Path, *, as_json: bool) -> None:
-    """List the stored sittings: who, in which condition, how they ended."""
+    """List the stored sittings: when, in which condition, how they ended."""
     with archive(data) as stored:
         rows = [sitting.to_json() | {"started_at": sitting.started_at} for sitting in stored.sittings()]
     if as_json:
         click.echo(json.dumps(rows))
         return
-    table = Table(*("sitting", "started (UTC)", "condition", "body", "status", "pairs", "moves", "flips", "hints"))
+    table = Table(box=None)
+    for heading in ("sitting", "started (UTC)", "condition", "body", "status", "visitor", *_COUNTS):
+        table.add_column(heading, no_wrap=True, justify="right" if heading in _COUNTS else "left")
     for row in rows:
-        started = row["started_at"][:19].replace("T", " ")
-        table.add_row(
-            str(row["sitting"]),
-            started,
-            *(str(row[key]) for key in ("condition", "body", "status")),
-            *(str(row[key]) for key in ("pairs", "moves", "flips", "hints")),
-        )
-    Console().print(table)
+        started = row["started_at"][:16].replace("T", " ")
+        visitor = "simulated" if row["simulated"] else "person"
+        words = (str(row[key]) for key in ("condition", "body", "status"))
+        table.add_row(str(row["sitting"]), started, *words, visitor, *(str(row[key]) for key in _COUNTS))
+    # Where nobody looks, or the window is narrow, lines may be long, but no word is cut.
+    console = Console()
+    console.print(table, width=max(console.width, WIDTH), soft_wrap=True)
 
 
 @click.command()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 from random import SystemRandom
 from typing import Any
@@ -11,15 +12,15 @@ from typing import Any
 import click
 
 from kiosk import BadInput
-from kiosk.cli.options import data_option, json_option, study_option
+from kiosk.cli.options import data_option, json_option, rehearsal_data_option, study_option
 from kiosk.cli.wiring import code_commit, log_into, make_plan, read_settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import Event
 from kiosk.study.utterances import body_changes, utterances
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App, Display, Mode, Pace, check_screen
 from kiosk.ui.avatar import AvatarBody
-from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.shots import Shots
+from kiosk.ui.rehearsal import Rehearsal, Stuck
+from kiosk.ui.shots import Shots, make_folder
 
 SEED_BITS = 32
 SETTLE_MS = 450
@@ -38,7 +39,6 @@ robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), 
 def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_port: int | None, *, window: bool) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
     plan = make_plan(read_settings(study, robot_host, robot_port))
-    log_into(data)
     chance = SystemRandom()
     commit = code_commit()
 
@@ -46,8 +46,11 @@ def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_por
         return Provenance(plan, chance.getrandbits(SEED_BITS), AvatarBody.name.value, commit, simulated=False)
 
     mode = Mode(Display.WINDOW if window else Display.FULL_SCREEN)
-    with Recorder(data) as recorder, App(plan, mode, recorder, next_sitting) as app:
-        app.run()
+    check_screen(mode.display)
+    with Recorder(data) as recorder:
+        log_into(data)
+        with App(plan, mode, recorder, next_sitting) as app:
+            app.run()
 
 
 @click.command()
@@ -59,10 +62,10 @@ def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_por
     help="The same seed plays the same sitting.",
 )
 @click.option("--headless", is_flag=True, help="Use no screen, and play as fast as the machine allows.")
-@click.option("--speed", type=click.FloatRange(min=0, min_open=True), help="How many times as fast as in real life.")
+@click.option("--speed", type=click.FloatRange(0.01, 1000), help="How many times as fast as in real life.")
 @click.option("--condition", help="The help that the visitor gets: tom, notom, or another cell of the design.")
 @click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
-@data_option
+@rehearsal_data_option
 @study_option
 @robot_host_option
 @robot_port_option
@@ -89,10 +92,16 @@ def rehearse(
         raise BadInput("a robot speaks at its own speed, so a rehearsal with one cannot have another")
     provenance = Provenance(plan, seed, AvatarBody.name.value, code_commit(), simulated=True)
     mode = _mode(speed, headless=headless)
+    check_screen(mode.display)
+    if shots is not None:
+        make_folder(shots)
     with Recorder(data) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
         rehearsal = Rehearsal(app, seed, pictures)
-        rehearsal.run()
+        try:
+            rehearsal.run()
+        except Stuck as stuck:
+            raise click.ClickException(f"the rehearsal cannot go on: {stuck}") from stuck
     from kiosk.store.reading import archive  # noqa: PLC0415 - a tenth of a second that opening need not pay
 
     with archive(data) as stored:
@@ -120,6 +129,8 @@ def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
 def _mode(speed: float | None, *, headless: bool) -> Mode:
     """Without a screen and without a wish for a speed, nothing is waited for."""
     display = Display.NOWHERE if headless else Display.FULL_SCREEN
+    if speed is not None and not isfinite(speed):
+        raise BadInput(f"--speed must be a number, not {speed}")
     if headless and speed is None:
         return Mode(display, Pace.VIRTUAL)
     return Mode(display, Pace.WALL, speed or 1.0)

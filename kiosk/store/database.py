@@ -35,6 +35,8 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
         except BaseException:
             connection.close()
             raise
+    except FileExistsError as error:
+        raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
     except sqlite3.Error as error:

@@ -41,6 +41,7 @@ class Sitting:
     condition: str
     body: str
     status: Status | None
+    simulated: bool
     measures: Measures
 
     def to_json(self) -> dict[str, Any]:
@@ -54,6 +55,7 @@ class Sitting:
             "moves": self.measures.moves,
             "pairs": self.measures.pairs,
             "hints": self.measures.hints,
+            "simulated": self.simulated,
         }
 
 
@@ -122,7 +124,13 @@ class Archive:
         )
         events = [_event({"at_ms": r["at_ms"], "type": r["type"]} | json.loads(r["body"])) for r in rows]
         return Sitting(
-            row["id"], row["started_at"], row["condition"], row["body"], self._status(events), measure(events)
+            row["id"],
+            row["started_at"],
+            row["condition"],
+            row["body"],
+            self._status(events),
+            bool(row["simulated"]),
+            measure(events),
         )
 
     def _status(self, events: list[Event]) -> Status | None:

@@ -29,6 +29,7 @@ class _Given:
     flip: int
     utterance: int
     sentence: str
+    at_ms: int
     holds: bool = True
     marked: bool = False
 
@@ -101,13 +102,14 @@ class Play:
             self._settle(script)
 
     def speech_failed(self, utterance: int, script: Script) -> None:
-        """The hint will not be heard: give the time to read it."""
+        """The hint will not be heard: give what is left of the time to read it, counted from when it was shown."""
         given = self._holding(utterance)
         if given is not None:
+            shown_ms = script.at_ms - given.at_ms
             script.do(
                 do.StopTimer(Timer.SPEECH_DEADLINE),
-                do.StartTimer(Timer.MARK, self._timing.mark_delay_silent),
-                do.StartTimer(Timer.READING, self._timing.reading_time(given.sentence)),
+                do.StartTimer(Timer.MARK, max(0, self._timing.mark_delay_silent - shown_ms)),
+                do.StartTimer(Timer.READING, max(0, self._timing.reading_time(given.sentence) - shown_ms)),
             )
 
     def _flipped(self, flip: Flip, script: Script) -> None:
@@ -178,7 +180,7 @@ class Play:
 
     def _give(self, hint: Hint, script: Script) -> None:
         sentence = self._sentences.sentence(hint) if self._sentences else ""
-        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence)
+        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, script.at_ms)
         self._given = given
         script.note(
             happened.HintGiven(

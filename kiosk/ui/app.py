@@ -20,6 +20,7 @@ from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
+from kiosk import BadInput
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
@@ -95,7 +96,8 @@ class App:
         if plan.settings.voice.sounds:
             self.conductor.play = lambda effect: self._voice.play(effect.file)
         if mode.pace is Pace.WALL and plan.settings.screen.motion:
-            IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
+            # Kept, for Qt alone does not keep alive whom it calls back.
+            self._life = IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
         self._engine = QQmlApplicationEngine()
         self.window = self._load(plan, mode)
         self.screens.kiosk.left.connect(self.quit)
@@ -190,6 +192,13 @@ class App:
         """A fault of ours: into the log with it, and a calm screen for the visitor."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.conductor.pause()
+
+
+def check_screen(display: Display) -> None:
+    """Raise BadInput where there is no screen to show anything on; Qt itself would end the process."""
+    needs = sys.platform.startswith("linux") and display is not Display.NOWHERE
+    if needs and not {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"} & os.environ.keys():
+        raise BadInput("there is no screen here; 'recollect rehearse --headless' needs none")
 
 
 def _application(display: Display) -> QGuiApplication:

@@ -16,6 +16,9 @@ from kiosk.ui.board import BoardScreen
 from kiosk.ui.clock import Clock, Wait
 from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
 
+SETTLE_MS = 400
+"""How long a new screen takes no input; the slowest double click that desktops accept by default."""
+
 
 @dataclass(frozen=True)
 class Screens:
@@ -40,6 +43,8 @@ class Performer:
         self._clock = clock
         self._wait_ended = wait_ended
         self._waits: dict[Timer, Wait] = {}
+        self._settling: Wait | None = None
+        screens.kiosk.unsettled.connect(self._let_settle)
 
     def reset(self, screen: str) -> None:
         """Leave nothing of a sitting: no wait, no sound, no bubble, no question; then show the screen of this name."""
@@ -169,6 +174,12 @@ class Performer:
     def _body(self) -> Body | None:
         """The body that helps now."""
         return None if self.bodies is None else self.bodies.current
+
+    def _let_settle(self) -> None:
+        """Take no input for a moment: the second half of a double click belongs to what was shown before."""
+        if self._settling is not None:
+            self._settling.cancel()
+        self._settling = self._clock.after(SETTLE_MS, self.screens.kiosk.settle)
 
     def _stop_wait(self, timer: Timer) -> None:
         wait = self._waits.pop(timer, None)

@@ -68,6 +68,10 @@ class Rehearsal:
         if self._app.clock.now_ms() > self._begun_ms + LONGEST_MS:
             raise Stuck(f"after two hours the sitting is still at the screen {self._app.screens.kiosk.shown}")
         match self._app.screens.kiosk.shown:
+            case "pause":
+                raise Stuck("the kiosk shows its calm screen, because of a failure of the disk or a fault of ours")
+            case _ if not self._app.screens.kiosk.takes_input:
+                return
             case "attract" if not self._began and self._app.bodies.settled:
                 self._began = True
                 self._click("start")
@@ -115,6 +119,8 @@ class Rehearsal:
         item = find(window.contentItem(), name)
         if item is None:
             raise Stuck(f"there is no {name!r} on the screen {self._app.screens.kiosk.shown}")
+        if not window.geometry().translated(-window.position()).contains(middle(item)):
+            raise Stuck(f"{name!r} lies outside the window on the screen {self._app.screens.kiosk.shown}")
         QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, middle(item))
 
 

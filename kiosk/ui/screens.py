@@ -23,22 +23,31 @@ class KioskScreen(QObject):
     """The visitor said that they are still there."""
     left = Signal()
     """The experimenter leaves the kiosk."""
+    unsettled = Signal()
+    """Something else is shown than a moment ago."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._screen = "attract"
         self._asks_still_there = False
         self._leaving = False
+        self._settled = True
 
     def show(self, screen: str) -> None:
-        """Show the screen of this name."""
+        """Show the screen of this name; it takes no input until ``settle``."""
         self._screen = screen
+        self._unsettle()
+
+    def settle(self) -> None:
+        """Take input: whoever clicked twice on the last screen has let go by now."""
+        self._settled = True
         self.changed.emit()
 
     def ask_still_there(self, *, asks: bool) -> None:
         """Ask over whatever is shown, or stop asking."""
-        self._asks_still_there = asks
-        self.changed.emit()
+        if asks != self._asks_still_there:
+            self._asks_still_there = asks
+            self._unsettle()
 
     @property
     def shown(self) -> str:
@@ -54,6 +63,21 @@ class KioskScreen(QObject):
     def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention
         """Whether the visitor is asked if they are still there."""
         return self._asks_still_there
+
+    def _unsettle(self) -> None:
+        self._settled = False
+        self.changed.emit()
+        self.unsettled.emit()
+
+    @property
+    def takes_input(self) -> bool:
+        """Whether what is shown can be tapped."""
+        return self._settled
+
+    @Property(bool, notify=changed)
+    def settled(self) -> bool:
+        """Whether what is shown can be tapped."""
+        return self._settled
 
     @Property(bool, notify=changed)
     def leaving(self) -> bool:

@@ -13,18 +13,19 @@ from kiosk.study.commands import Command
 from kiosk.ui.clock import Clock
 
 
+def make_folder(folder: Path) -> None:
+    """Make the folder for the pictures, if it is not there; raises BadInput if it cannot be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {error.strerror}") from error
+
+
 class Shots:
     """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
 
     def __init__(self, window: QQuickWindow, folder: Path, clock: Clock, settle_ms: int) -> None:
-        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more.
-
-        Raises BadInput if the folder cannot be made.
-        """
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {error.strerror}") from error
+        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more."""
         self._window = window
         self._folder = folder
         self._clock = clock

@@ -211,3 +211,27 @@ def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, mon
     assert f"a usable policy in {beside}" in result.stderr
     assert QTable.load(beside).training["stopped_after"] == 500
     assert out.read_text("utf-8") == "the old table"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a pipe in the file system is a Unix thing")
+def test_what_is_no_file_is_never_replaced(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with pytest.raises(BadInput, match="it is not a file"):
+        run("train", "--episodes", "5", "--out", str(pipe))
+    assert pipe.is_fifo()
+
+
+def test_a_link_stays_a_link_and_its_file_is_replaced(tmp_path: Path) -> None:
+    real, link = tmp_path / "real.json", tmp_path / "link.json"
+    real.write_text("the old table", "utf-8")
+    link.symlink_to(real)
+    told("train", "--episodes", "5", "--out", str(link))
+    assert link.is_symlink()
+    assert QTable.load(real).training["episodes"] == 5
+
+
+@pytest.mark.parametrize("condition", ["tom", "notom", "mentalised_unexplained", "random_explained", "no_assistance"])
+def test_every_condition_can_be_simulated(condition: str) -> None:
+    document = told("simulate", "--player", "memory", "--games", "20", "--condition", condition)
+    assert (document["assistance_per_flip"] == 0) == (condition == "no_assistance")

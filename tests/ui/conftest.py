@@ -54,12 +54,18 @@ class Booth:
         return find(self.app.window.contentItem(), name) is not None
 
     def click(self, name: str, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
-        """Click with the mouse in the middle of an item."""
+        """Click with the mouse in the middle of an item, once the screen takes input."""
+        self.settle()
         QTest.mouseClick(self.app.window, button, Qt.KeyboardModifier.NoModifier, middle(self.item(name)))
 
     def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
-        """Press and release a key."""
+        """Press and release a key, once the screen takes input."""
+        self.settle()
         QTest.keyClick(self.app.window, key, modifiers)
+
+    def settle(self) -> None:
+        """Let a screen that has just come take input."""
+        self.wait_until(lambda: self.app.screens.kiosk.takes_input)
 
     def jump(self) -> None:
         """Let time pass until the next wait ends."""

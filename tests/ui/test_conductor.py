@@ -73,7 +73,7 @@ def flip_until(booth: Booth, words: str) -> None:
             booth.jump()
 
 
-@pytest.mark.parametrize("words", ["One moment, I am speaking", "One moment, the cards turn back"])
+@pytest.mark.parametrize("words", ["One moment, I have a hint for you", "One moment, the cards turn back"])
 def test_a_tap_that_does_not_count_is_recorded_and_the_screen_says_why(booth: Booth, words: str) -> None:
     booth.start_game()
     flip_until(booth, words)

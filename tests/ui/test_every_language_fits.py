@@ -37,10 +37,13 @@ def catalogue(request: pytest.FixtureRequest, tmp_path: Path) -> Catalogue:
     return Catalogue(ASSETS / "sentences" / request.param)
 
 
-@pytest.fixture
-def app(catalogue: Catalogue, tmp_path: Path, qtbot: QtBot) -> Iterator[App]:
-    """A kiosk in that language, with its texts as large as they are usually."""
-    plan = replace(make_plan(Settings()), catalogue=catalogue)
+@pytest.fixture(params=[1.0, 1.3])
+def app(request: pytest.FixtureRequest, catalogue: Catalogue, tmp_path: Path, qtbot: QtBot) -> Iterator[App]:
+    """A kiosk in that language, with its texts as large as they are usually, and as large as they can be."""
+    if catalogue.language == pseudo.LANGUAGE and request.param > 1:
+        pytest.skip("a language that is 40 % longer is test enough at its usual size")
+    settings = Settings.model_validate({"screen": {"text_size": request.param}})
+    plan = replace(make_plan(settings), catalogue=catalogue)
     provenance = Provenance(plan, 1, "avatar", "a test", simulated=True)
     mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
     with Recorder(tmp_path / "data") as recorder, App(plan, mode, recorder, lambda: provenance) as app:

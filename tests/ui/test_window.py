@@ -130,7 +130,7 @@ def test_everything_that_can_be_clicked_lies_inside_a_window_of_any_size(
 
 
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
-    booth = make_booth(settings=Settings.model_validate({"screen": {"text_size": 1.4}}))
+    booth = make_booth(settings=Settings.model_validate({"screen": {"text_size": 1.3}}))
     start = booth.item("start")
     plain = make_booth().item("start")
     assert start.height() > plain.height()

@@ -52,7 +52,7 @@ reason-second-first-sight =
 reason-second-both-seen-once =
     .a = This { $card } card is new, but you have seen its partner once.
     .b = You have seen the other { $card } card once before.
-    .c = You have already met the partner of this { $card } card, one time.
+    .c = You have already met the partner of this { $card } card once.
 # The open card was turned up before; its partner never.
 reason-second-often-and-never =
     .a = You have seen this { $card } card before, but never its partner.
@@ -62,7 +62,7 @@ reason-second-often-and-never =
 reason-second-often-and-once =
     .a = You have seen this { $card } card before, and its partner once.
     .b = This { $card } card was up before, and its partner has been up once.
-    .c = You have met this { $card } card already, and its partner one time.
+    .c = You have met this { $card } card already, and its partner once.
 # The open card is up for the first time; its partner was turned up twice or more.
 reason-second-open-once-mate-often =
     .a = This { $card } card is new, but you have seen its partner more than once.

@@ -25,7 +25,7 @@ game-moves =
         [one] 1 move
        *[other] { $moves } moves
     }
-game-wait-speaking = One moment, I am speaking
+game-wait-speaking = One moment, I have a hint for you
 game-wait-turning-back = One moment, the cards turn back
 game-closed-card = Closed card, row { $row }, column { $column }
 game-open-card = { $card }, row { $row }, column { $column }

@@ -26,7 +26,7 @@ game-moves =
         [one] 1 jugada
        *[other] { $moves } jugadas
     }
-game-wait-speaking = Un momento, estoy hablando
+game-wait-speaking = Un momento, tengo una pista para ti
 game-wait-turning-back = Un momento, las cartas se vuelven a tapar
 game-closed-card = Carta tapada, fila { $row }, columna { $column }
 game-open-card = { $card }, fila { $row }, columna { $column }

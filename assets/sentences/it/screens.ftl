@@ -20,13 +20,17 @@ introduction-continue = Cominciamo
 
 ## Game
 
-game-pairs = { $found } coppie su { $all }
+game-pairs =
+    { $found ->
+        [one] 1 coppia su { $all }
+       *[other] { $found } coppie su { $all }
+    }
 game-moves =
     { $moves ->
         [one] 1 mossa
        *[other] { $moves } mosse
     }
-game-wait-speaking = Un momento, sto parlando
+game-wait-speaking = Un momento, ho un suggerimento per te
 game-wait-turning-back = Un momento, le carte si coprono di nuovo
 game-closed-card = Carta coperta, riga { $row }, colonna { $column }
 game-open-card = { $card }, riga { $row }, colonna { $column }

@@ -14,8 +14,9 @@ Button {
     font.pixelSize: Theme.body
     font.bold: true
     scale: down ? 0.96 : 1
-    Keys.onReturnPressed: clicked()
-    Keys.onEnterPressed: clicked()
+    // A key that is held down is one click.
+    Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+    Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Text {
         text: button.text

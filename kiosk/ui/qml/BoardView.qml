@@ -100,9 +100,10 @@ FocusScope {
         focus: true
         keyNavigationEnabled: true
         model: view.board
-        Keys.onReturnPressed: view.board.tap(currentIndex)
-        Keys.onEnterPressed: view.board.tap(currentIndex)
-        Keys.onSpacePressed: view.board.tap(currentIndex)
+        // A key that is held down is one tap.
+        Keys.onReturnPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
+        Keys.onEnterPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
+        Keys.onSpacePressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
 
         delegate: Item {
             id: place
@@ -147,6 +148,8 @@ FocusScope {
             TapHandler {
                 id: tap
                 gesturePolicy: TapHandler.ReleaseWithinBounds
+                // However long somebody presses, it is a tap: in seconds, longer than any visitor has.
+                longPressThreshold: 3600
                 onTapped: view.board.tap(place.index)
             }
             HoverHandler {

@@ -27,7 +27,8 @@ Item {
         Text {
             id: words
             anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap }
-            font.pixelSize: Theme.body
+            // What is longer than any hint is set smaller, or large text would not fit above the face.
+            font.pixelSize: text.length > 130 ? Theme.small : Theme.body
             lineHeight: 1.12
             color: Theme.ink
             wrapMode: Text.WordWrap

@@ -49,6 +49,8 @@ Window {
         id: stage
         width: root.wide ? root.width * 0.715 : root.width
         height: root.wide ? root.height : root.height * 0.64
+        // A screen that has only just come takes no input: a double click belongs to the one before.
+        enabled: root.kiosk.settled
 
         AttractView {
             anchors.fill: parent
@@ -103,6 +105,7 @@ Window {
         anchors.fill: parent
         visible: root.kiosk.asksStillThere
         focus: visible
+        enabled: root.kiosk.settled
         title: root.words["still-there-title"]
         line: root.words["still-there-line"]
         button: root.words["still-there-yes"]

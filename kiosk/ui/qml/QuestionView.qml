@@ -53,8 +53,8 @@ FocusScope {
                         onClicked: view.question.choose(value)
                         Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
                         Keys.onRightPressed: nextItemInFocusChain().forceActiveFocus(Qt.TabFocusReason)
-                        Keys.onReturnPressed: clicked()
-                        Keys.onEnterPressed: clicked()
+                        Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+                        Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
                         contentItem: Text {
                             text: answer.text
                             font: answer.font
