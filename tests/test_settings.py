@@ -74,7 +74,7 @@ def test_a_file_that_is_not_toml_is_refused(tmp_path: Path, content: str | bytes
         ("[voice]\nvolume = 1.1", "voice.volume: Input should be less than or equal to 1"),
         ("[voice]\nvolume = nan", "voice.volume: Input should be "),
         ("[voice]\nrate = 79", "voice.rate: Input should be greater than or equal to 80"),
-        ("[screen]\ntext_size = inf", "screen.text_size: Input should be less than or equal to 2"),
+        ("[screen]\ntext_size = inf", "screen.text_size: Input should be less than or equal to 1.3"),
         ("[screen]\ntext_size = 0", "screen.text_size: Input should be greater than 0"),
     ],
 )

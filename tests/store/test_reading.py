@@ -40,6 +40,7 @@ def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Dri
         "moves": measures.moves,
         "pairs": 12,
         "hints": measures.hints,
+        "simulated": True,
     }
 
 
