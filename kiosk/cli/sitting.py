@@ -18,9 +18,9 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import Event
 from kiosk.study.utterances import body_changes, utterances
 from kiosk.ui.app import App, Display, Mode, Pace, check_screen
-from kiosk.ui.avatar import AvatarBody
-from kiosk.ui.rehearsal import Rehearsal, Stuck
-from kiosk.ui.shots import Shots, make_folder
+from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
+from kiosk.ui.rehearsing.shots import Shots, make_folder
+from kiosk.ui.screens.avatar import AvatarBody
 
 SEED_BITS = 32
 SETTLE_MS = 450

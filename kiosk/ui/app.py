@@ -27,15 +27,15 @@ from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.session import Plan
-from kiosk.ui.avatar import AvatarBody, AvatarScreen
-from kiosk.ui.board import BoardScreen
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
-from kiosk.ui.life import IdleLife
 from kiosk.ui.performer import Screens
-from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
+from kiosk.ui.screens.board import BoardScreen
+from kiosk.ui.screens.life import IdleLife
+from kiosk.ui.screens.plain import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+from kiosk.ui.screens.words import words
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
-from kiosk.ui.words import words
 from kiosk.ui.work import Landing
 
 QML = Path(__file__).parent / "qml" / "Main.qml"

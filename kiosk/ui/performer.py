@@ -11,10 +11,10 @@ from kiosk.robot.body import Body
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
 from kiosk.study.events import Timer
-from kiosk.ui.avatar import AvatarScreen
-from kiosk.ui.board import BoardScreen
 from kiosk.ui.clock import Clock, Wait
-from kiosk.ui.screens import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+from kiosk.ui.screens.avatar import AvatarScreen
+from kiosk.ui.screens.board import BoardScreen
+from kiosk.ui.screens.plain import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
 
 SETTLE_MS = 400
 """How long a new screen takes no input; the slowest double click that desktops accept by default."""

@@ -22,7 +22,7 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
 from kiosk.ui.app import App, Display, Mode, Pace
-from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.robot.furhat_fake import FurhatFake
 from tests.robot.furhat_fake import Mode as Fault
 

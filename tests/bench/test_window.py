@@ -19,7 +19,7 @@ from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.app import App, Display, Mode, Pace
-from kiosk.ui.rehearsal import find, lay_out, middle
+from kiosk.ui.rehearsing.rehearsal import find, lay_out, middle
 from tests.bench.percentiles import tell_percentiles
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}

@@ -26,7 +26,7 @@ from kiosk.store.reading import Archive, archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.app import App, Display, Mode, Pace
 from kiosk.ui.clock import VirtualClock
-from kiosk.ui.rehearsal import Rehearsal, find, lay_out, middle
+from kiosk.ui.rehearsing.rehearsal import Rehearsal, find, lay_out, middle
 
 
 @pytest.fixture(scope="session")

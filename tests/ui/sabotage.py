@@ -14,7 +14,7 @@ from kiosk.study.events import Event, Stage, Status, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.utterances import Utterances, body_changes, utterances
 from kiosk.ui.app import App
-from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
 
 
 class Moment(Enum):

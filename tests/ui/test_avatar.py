@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.robot.body import Health, Place
 from kiosk.study.commands import Mood
-from kiosk.ui.avatar import AvatarBody, AvatarScreen
+from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
 from kiosk.ui.voice import Voice
 from tests.robot.recording import Reports
 

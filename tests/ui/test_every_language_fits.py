@@ -20,7 +20,7 @@ from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.commands import Wait
 from kiosk.ui.app import App, Display, Mode, Pace
-from kiosk.ui.rehearsal import lay_out
+from kiosk.ui.rehearsing.rehearsal import lay_out
 from tests import pseudo
 
 SIZES = [(1280, 720), (1920, 1080), (1080, 1920)]

@@ -13,7 +13,7 @@ from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.app import App, Display, Mode
-from kiosk.ui.rehearsal import middle
+from kiosk.ui.rehearsing.rehearsal import middle
 from tests.ui.conftest import Booth
 
 NO_KEY = Qt.KeyboardModifier.NoModifier

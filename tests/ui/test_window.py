@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.settings import ASSETS, Settings
 from kiosk.ui.app import QML
-from kiosk.ui.words import FIXED
+from kiosk.ui.screens.words import FIXED
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
 

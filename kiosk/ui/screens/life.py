@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from random import Random
 
-from kiosk.ui.avatar import AvatarScreen
 from kiosk.ui.clock import Clock
-from kiosk.ui.screens import AttractScreen
+from kiosk.ui.screens.avatar import AvatarScreen
+from kiosk.ui.screens.plain import AttractScreen
 
 BLINK_MS = 120
 BLINK_EVERY_MS = (2_500, 6_000)

@@ -14,9 +14,9 @@ from PySide6.QtTest import QTest
 from kiosk.study.commands import Command
 from kiosk.study.events import Stage, WorldEvent
 from kiosk.ui.app import App
-from kiosk.ui.pulse import Pulse
-from kiosk.ui.shots import Shots
-from kiosk.ui.visitor import View, Visitor
+from kiosk.ui.rehearsing.pulse import Pulse
+from kiosk.ui.rehearsing.shots import Shots
+from kiosk.ui.rehearsing.visitor import View, Visitor
 
 LONGEST_MS = 2 * 60 * 60 * 1000
 """A sitting that takes longer than two hours has got stuck."""
