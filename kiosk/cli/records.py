@@ -38,8 +38,7 @@ def sittings(data: Path, *, as_json: bool) -> None:
         words = (str(row[key]) for key in ("condition", "body", "status"))
         table.add_row(str(row["sitting"]), started, *words, visitor, *(str(row[key]) for key in _COUNTS))
     # Where nobody looks, or the window is narrow, lines may be long, but no word is cut.
-    console = Console()
-    console.print(table, width=max(console.width, WIDTH), soft_wrap=True)
+    Console(width=max(Console().width, WIDTH)).print(table)
 
 
 @click.command()

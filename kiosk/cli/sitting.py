@@ -36,7 +36,16 @@ robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), 
 @robot_host_option
 @robot_port_option
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
-def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_port: int | None, *, window: bool) -> None:
+@json_option
+def open_kiosk(
+    data: Path,
+    study: Path | None,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    window: bool,
+    as_json: bool,
+) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
     plan = make_plan(read_settings(study, robot_host, robot_port))
     chance = SystemRandom()
@@ -51,6 +60,8 @@ def open_kiosk(data: Path, study: Path | None, robot_host: str | None, robot_por
         log_into(data)
         with App(plan, mode, recorder, next_sitting) as app:
             app.run()
+    told = {"data": str(data), "sittings": recorder.begun, "interrupted_before": list(recorder.recovered)}
+    click.echo(json.dumps(told) if as_json else f"{recorder.begun} sittings were recorded in {data}.")
 
 
 @click.command()

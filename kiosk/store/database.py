@@ -14,6 +14,8 @@ FILE = "recollect.db"
 APPLICATION_ID = int.from_bytes(b"Rclt")
 """Stands in the file's header, so that a database of another program is never touched."""
 
+CACHE_KIB = 256
+
 _MAGIC = b"SQLite format 3\0"
 _USER_VERSION_AT, _APPLICATION_ID_AT, _HEADER = 60, 68, 100
 """Where the SQLite file format keeps these numbers (sqlite.org/fileformat2.html, 1.3)."""
@@ -73,6 +75,8 @@ def _prepare(connection: sqlite3.Connection) -> None:
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = FULL")
     connection.execute("PRAGMA foreign_keys = ON")
+    # It only ever adds rows: the usual cache of 2 MB would fill over a day and look like a leak.
+    connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
 
 
 def _refuse_foreign_or_newer(path: Path) -> None:

@@ -54,6 +54,8 @@ class Recorder:
             raise BadInput(f"another Recollect is writing in {folder}") from error
         self._sitting = 0
         self._next_seq = 1
+        self.begun = 0
+        """How many sittings were begun with this recorder."""
         try:
             with self._transaction():
                 self.recovered = self._mark_interrupted()
@@ -79,6 +81,7 @@ class Recorder:
             self._sitting = self._insert_sitting(provenance)
             self._insert_events(self._sitting, 1, events)
         self._next_seq = 1 + len(events)
+        self.begun += 1
         return self._sitting
 
     def append(self, events: Sequence[Event]) -> None:
