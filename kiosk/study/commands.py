@@ -7,13 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from functools import partial
-from typing import Any
-
-from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk.game import Position
-from kiosk.study.events import BodyName, SessionEvent, Status, Timer, json_converter
+from kiosk.study.events import BodyName, SessionEvent, Status, Timer
 
 
 class Mood(Enum):
@@ -227,14 +223,3 @@ class Script:
     def commands(self) -> tuple[Command, ...]:
         """All of it, the records first."""
         return (*map(Record, self.notes), *self.deeds)
-
-
-_CONVERTER = json_converter()
-for _family in (SessionEvent, Command):
-    include_subclasses(_family, _CONVERTER, union_strategy=partial(configure_tagged_union, tag_name="type"))
-
-
-def command_record(command: Command) -> dict[str, Any]:
-    """A command as JSON values: its class under ``type``, its fields under their names."""
-    record: dict[str, Any] = _CONVERTER.unstructure(command, unstructure_as=Command)
-    return record

@@ -284,7 +284,7 @@ class SittingEnded(SessionEvent):
     status: Status
 
 
-def json_converter() -> Converter:
+def _converter() -> Converter:
     """A converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
     for closed_set in (Action, Phase, Outcome, Verdict):
@@ -294,7 +294,7 @@ def json_converter() -> Converter:
     return converter
 
 
-_CONVERTER = json_converter()
+_CONVERTER = _converter()
 include_subclasses(Event, _CONVERTER, union_strategy=partial(configure_tagged_union, tag_name="type"))
 
 

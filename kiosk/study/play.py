@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kiosk.assistant.assistant import Assistant, Decision
+from kiosk.assistant.assistant import Assistant
 from kiosk.assistant.hint import Hint
 from kiosk.assistant.mdp import Card
 from kiosk.game import Board, Concentration, Flip, IllegalFlip, Position
@@ -19,6 +19,14 @@ from kiosk.study import events as happened
 from kiosk.study.commands import Mood, Script, Wait
 from kiosk.study.condition import Sentences
 from kiosk.study.events import Timer
+
+
+@dataclass(frozen=True)
+class Guide:
+    """Who decides the help, and what is said with it."""
+
+    assistant: Assistant
+    sentences: Sentences
 
 
 @dataclass
@@ -40,15 +48,13 @@ class Play:
     def __init__(
         self,
         board: Board,
-        assistant: Assistant | None,
-        sentences: Sentences | None,
+        guide: Guide | None,
         timing: Timing,
         utterances: Iterator[int],
     ) -> None:
-        """Without an assistant nobody helps; ``utterances`` numbers the sentences of the whole sitting."""
+        """Without a guide nobody helps; ``utterances`` numbers the sentences of the whole sitting."""
         self.game = Concentration(board)
-        self._assistant = assistant
-        self._sentences = sentences
+        self._guide = guide
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
@@ -147,23 +153,21 @@ class Play:
 
     def _finish(self, script: Script) -> None:
         """Let the last pair be looked at; what was learnt from this game, if anything, is put on record."""
-        learnt = self._assistant.finish(self.game) if self._assistant else None
+        learnt = self._guide.assistant.finish(self.game) if self._guide else None
         if learnt is not None:
             script.note(happened.TableAdapted(at_ms=script.at_ms, sha256=learnt))
         script.do(do.StartTimer(Timer.FINISH, self._timing.finish))
 
     def _help_or_open(self, script: Script) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
-        decision = self._decide(script)
-        if decision is None or decision.hint is None:
+        hint = self._decide(self._guide, script) if self._guide else None
+        if self._guide is None or hint is None:
             script.do(do.OpenBoard())
         else:
-            self._give(decision.hint, script)
+            self._give(hint, self._guide.sentences.sentence(hint), script)
 
-    def _decide(self, script: Script) -> Decision | None:
-        if self._assistant is None:
-            return None
-        decision = self._assistant.decide(self.game)
+    def _decide(self, guide: Guide, script: Script) -> Hint | None:
+        decision = guide.assistant.decide(self.game)
         script.note(
             happened.AssistanceDecided(
                 at_ms=script.at_ms,
@@ -176,10 +180,9 @@ class Play:
                 action=decision.action,
             )
         )
-        return decision
+        return decision.hint
 
-    def _give(self, hint: Hint, script: Script) -> None:
-        sentence = self._sentences.sentence(hint) if self._sentences else ""
+    def _give(self, hint: Hint, sentence: str, script: Script) -> None:
         given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, script.at_ms)
         self._given = given
         script.note(

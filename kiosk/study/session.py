@@ -23,7 +23,7 @@ from kiosk.study.commands import Command, Mood, Script
 from kiosk.study.condition import Condition, help_in
 from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
 from kiosk.study.measures import Measures, measure
-from kiosk.study.play import Play
+from kiosk.study.play import Guide, Play
 from kiosk.study.questionnaire import Questionnaire
 from kiosk.study.stages import UnexpectedEvent, check_expected, next_stage
 
@@ -93,8 +93,8 @@ class Session:
         rule = TargetRule(plan.settings.assistance.target_rule)
         given = help_in(plan.condition, rule, self._wording, targets)
         step = plan.settings.assistance.step
-        assistant = assistant_with(plan.policy, given.mentaliser, step) if given else None
-        return Play(board, assistant, given.sentences if given else None, self._timing, self._utterances)
+        guide = Guide(assistant_with(plan.policy, given.mentaliser, step), given.sentences) if given else None
+        return Play(board, guide, self._timing, self._utterances)
 
     def _check(self, event: WorldEvent) -> None:
         check_expected(self.stage, event)

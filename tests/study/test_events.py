@@ -14,9 +14,7 @@ from kiosk.assistant.gate import Verdict
 from kiosk.assistant.hint import Reason
 from kiosk.assistant.mdp import Action, Card, Outcome, Phase
 from kiosk.game import Position, Refusal
-from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import command_record
 from kiosk.study.events import Event, SessionEvent, Stage, Status, Timer, WorldEvent, from_record, to_record
 from tests.samples import plan
 from tests.study.driver import Driver, with_memory
@@ -141,22 +139,3 @@ def test_a_whole_sitting_comes_back_from_its_records() -> None:
     driver.whole_sitting(with_memory(1))
     text = json.dumps([to_record(event) for event in driver.events])
     assert [from_record(record) for record in json.loads(text)] == driver.events
-
-
-@pytest.mark.parametrize("kind", list(kinds(do.Command)), ids=lambda kind: str(kind.__name__))
-@given(st.data())
-def test_any_command_can_be_written_as_json(kind: type[do.Command], data: st.DataObject) -> None:
-    command = data.draw(
-        st.builds(kind, event=st.builds(happened.BoardOpened)) if kind is do.Record else st.builds(kind)
-    )
-    record = json.loads(json.dumps(command_record(command)))
-    assert record.pop("type") == kind.__name__
-    assert set(record) == set(vars(command))
-
-
-def test_a_written_command_tells_all_of_it() -> None:
-    assert command_record(do.StartTimer(Timer.MARK, 600)) == {"type": "StartTimer", "timer": "mark", "after_ms": 600}
-    assert command_record(do.Record(happened.HintMarked(at_ms=4, flip=7))) == {
-        "type": "Record",
-        "event": {"type": "HintMarked", "at_ms": 4, "flip": 7},
-    }
