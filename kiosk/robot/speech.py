@@ -1,10 +1,10 @@
 """The voice, in a process of its own: whatever a speech engine does, it can be ended and started again.
 
-Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines: a sentence to say,
-``{"stop": true}``, or the file of a short sound to play; the end of input ends it. It writes events as JSON lines:
-``ready`` with what it found, or ``unavailable``; then for each sentence ``started`` with the duration in ms and the
-loudness (0-1) of every LOUDNESS_MS, and ``finished``, or ``failed`` and why. Without a sound card it keeps the time of
-the sentence in silence and says so.
+Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines: ``say`` a sentence (its
+number, and its ``text``), ``play`` the file of a short sound, ``stop``, ``voices``, ``quit``; the end of input ends it.
+It writes events as JSON lines: ``ready`` with what it found, or ``unavailable``; then for each sentence ``started``,
+with the duration in ms and the loudness (0-1) of every LOUDNESS_MS, and ``finished``, or ``failed`` and why. Without a
+sound card it keeps the time of the sentence in silence and says so.
 """
 
 from __future__ import annotations
@@ -70,7 +70,9 @@ class Engine:
         self._engine.connect("finished-utterance", lambda **_: self._done.set())
         self._engine.setProperty("rate", rate)
         self._engine.setProperty("volume", volume)
-        self.voice = _voice_of(language, self._engine.getProperty("voices"))
+        found = self._engine.getProperty("voices")
+        self.voice = _voice_of(language, found)
+        self.voices = [{"id": str(voice.id), "name": str(voice.name), "languages": _codes(voice)} for voice in found]
         if self.voice is not None:
             self._engine.setProperty("voice", self.voice)
 
@@ -100,8 +102,13 @@ def _voice_of(language: str, voices: Any) -> str | None:
 
 
 def _speaks(voice: Any, language: str) -> bool:
-    codes = [code.decode(errors="ignore") if isinstance(code, bytes) else str(code) for code in voice.languages]
-    return any(code.strip("\x05\x02").lower().startswith(language) for code in codes)
+    return any(code.lower().startswith(language) for code in _codes(voice))
+
+
+def _codes(voice: Any) -> list[str]:
+    """The languages of a voice as codes; espeak gives them as bytes that begin with a priority."""
+    codes = (code.decode(errors="ignore") if isinstance(code, bytes) else str(code) for code in voice.languages)
+    return [code.strip("\x05\x02") for code in codes]
 
 
 class Player:
@@ -168,13 +175,18 @@ class Worker:
         for command in self._next_commands():
             if "play" in command:
                 self._play(Path(command["play"]))
-                continue
-            # A sound card may take only one at a time, and a sentence never waits for a sound.
-            self._sounds.stop()
-            self._player.stop()
-            self._saying = None
-            if "say" in command:
-                self._say(int(command["say"]), str(command["text"]))
+            elif "voices" in command:
+                self._report("voices", voices=self._engine.voices)
+            else:
+                self._stop()
+                if "say" in command:
+                    self._say(int(command["say"]), str(command["text"]))
+
+    def _stop(self) -> None:
+        """Be silent: a sound card may take only one at a time, and a sentence never waits for a sound."""
+        self._sounds.stop()
+        self._player.stop()
+        self._saying = None
 
     def _play(self, file: Path) -> None:
         """Play a short sound in place of any other, but not while a sentence is under way."""
@@ -192,8 +204,7 @@ class Worker:
                 self._look_after_sentence()
                 continue
             if command is None:
-                self._sounds.stop()
-                self._player.stop()
+                self._stop()
                 return
             yield command
 
@@ -230,7 +241,10 @@ class Report:
 def _read_into(commands: queue.Queue[dict[str, Any] | None]) -> None:
     try:
         for line in sys.stdin:
-            commands.put(json.loads(line))
+            command = json.loads(line)
+            if "quit" in command:
+                return
+            commands.put(command)
     finally:
         # Whatever ends the input, a line that is no command too, ends the work: nobody is left to speak to.
         commands.put(None)

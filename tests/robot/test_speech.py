@@ -127,3 +127,19 @@ def test_a_sentence_that_is_stopped_is_not_reported_and_the_next_one_is(process:
     process.send({"stop": True})
     process.send({"say": 2, "text": "Hi."})
     assert [process.hear()["id"], process.hear()["event"]] == [2, "finished"]
+
+
+def test_the_installed_voices_are_told_while_a_sentence_goes_on(process: Process) -> None:
+    if process.hear()["event"] == "unavailable":
+        pytest.skip("there is no speech engine")
+    process.send({"say": 1, "text": "Hi."})
+    process.send({"voices": True})
+    started, told, finished = process.hear(), process.hear(), process.hear()
+    assert [started["event"], told["event"], finished["event"]] == ["started", "voices", "finished"]
+    assert any(code.startswith("en") for voice in told["voices"] for code in voice["languages"])
+
+
+def test_a_voice_that_is_told_to_quit_ends(process: Process) -> None:
+    process.hear()
+    process.send({"quit": True})
+    assert process.child.wait(timeout=10) == 0
