@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import signal
@@ -119,9 +120,13 @@ class App:
             # Whenever the interface has nothing else to do.
             ticking.timeout.connect(self.clock.jump)
             ticking.start(0)
+        # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
+        gc.collect()
+        gc.freeze()
         try:
             self._loop.exec()
         finally:
+            gc.unfreeze()
             ticking.stop()
             sys.excepthook = before
 
