@@ -197,16 +197,6 @@ class BoardScreen(QAbstractListModel):
         """Columns of the board."""
         return self._columns
 
-    @Property(int, notify=changed)
-    def pairs(self) -> int:
-        """Pairs on the board."""
-        return self._pairs
-
-    @Property(int, notify=changed)
-    def pairsFound(self) -> int:  # noqa: N802 - QML's convention
-        """Pairs found."""
-        return self._pairs_found
-
     @Property(str, notify=changed)
     def progress(self) -> str:
         """How many pairs are found, in words."""
