@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
+from collections import Counter
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -17,11 +18,29 @@ from pydantic import (
     NonNegativeInt,
     PositiveFloat,
     PositiveInt,
+    PrivateAttr,
     ValidationError,
     field_validator,
+    model_validator,
 )
 
 from kiosk import BadInput
+
+
+STAGES = (
+    "about",
+    "consent",
+    "age",
+    "about_you",
+    "introduction",
+    "practice",
+    "game",
+    "result",
+    "questions",
+    "debrief",
+    "thanks",
+)
+"""Every stage that a sitting can have between attract and its end, in the study's order."""
 
 
 class Declared(BaseModel):
@@ -45,11 +64,21 @@ class Declared(BaseModel):
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise BadInput(f"the {cls.file_kind} {path} is not TOML: {error}") from error
         except ValidationError as error:
-            first = error.errors()[0]
-            key = ".".join(str(part) for part in first["loc"])
-            raise BadInput(
-                f"the {cls.file_kind} {path}: {key}: {first['msg']}, but it is {first['input']!r}"
-            ) from error
+            raise BadInput(f"the {cls.file_kind} {path}: {refusal(error)}") from error
+
+
+def refusal(error: ValidationError) -> str:
+    """The first thing that is wrong, in words: where it stands, what is wrong with it, and what it is."""
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"])
+    what = first["msg"].removeprefix("Value error, ")
+    if first["type"] == "missing":
+        return f"{place}: this key is missing"
+    if first["type"] == "extra_forbidden":
+        return f"{place}: there is no such key"
+    given = first["input"]
+    said = f", but it is {given!r}" if isinstance(given, str | int | float | bool | list | tuple) else ""
+    return f"{place}: {what}{said}" if place else f"{what}"
 
 
 class Timing(Declared):
@@ -70,9 +99,7 @@ class Timing(Declared):
     speech_deadline_least: Annotated[PositiveInt, Field(description="The same, whatever its length.")] = 4000
     mood: Annotated[PositiveInt, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
     finish: Annotated[PositiveInt, Field(description="From the last pair to the result.")] = 1800
-    idle: Annotated[PositiveInt, Field(description="Without a tap, until the visitor is asked: still there?")] = 45_000
-    idle_game: Annotated[PositiveInt, Field(description="The same during the game.")] = 120_000
-    still_there: Annotated[PositiveInt, Field(description="From that question to the end of the sitting.")] = 20_000
+    thanks: Annotated[PositiveInt, Field(description="How long the thanks stay, if nobody taps them away.")] = 12_000
 
     def reading_time(self, sentence: str) -> int:
         """How long a sentence is shown for reading, in ms."""
@@ -81,6 +108,63 @@ class Timing(Declared):
     def speech_time(self, sentence: str) -> int:
         """How long a spoken sentence may hold up the game, in ms."""
         return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+
+
+class Idle(Declared):
+    """Without a tap for so long, the visitor of a stage is asked: still there? All times in milliseconds."""
+
+    about: Annotated[PositiveInt, Field(description="While the study is described.")] = 60_000
+    consent: Annotated[PositiveInt, Field(description="While consent is asked for.")] = 90_000
+    age: Annotated[PositiveInt, Field(description="While the age is asked for.")] = 45_000
+    about_you: Annotated[PositiveInt, Field(description="During the questions about the visitor.")] = 60_000
+    introduction: Annotated[PositiveInt, Field(description="During the introduction.")] = 45_000
+    practice: Annotated[PositiveInt, Field(description="During the practice.")] = 60_000
+    game: Annotated[PositiveInt, Field(description="During the game.")] = 120_000
+    result: Annotated[PositiveInt, Field(description="While the result is shown.")] = 45_000
+    questions: Annotated[PositiveInt, Field(description="During the questionnaires.")] = 60_000
+    debrief: Annotated[PositiveInt, Field(description="While the study is explained.")] = 90_000
+    thanks: Annotated[PositiveInt, Field(description="While thanks are shown.")] = 45_000
+    still_there: Annotated[PositiveInt, Field(description="From that question to the end of the sitting.")] = 20_000
+
+    def of(self, stage: str) -> int:
+        """The time of the stage of this name, in ms."""
+        after: int = getattr(self, stage)
+        return after
+
+
+class Practice(Declared):
+    """The game before the game: nobody helps, nothing is measured, and it may be left at any time."""
+
+    rows: Annotated[PositiveInt, Field(description="Rows of its board.")] = 3
+    columns: Annotated[PositiveInt, Field(description="Columns of its board.")] = 4
+    deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
+    longest: Annotated[PositiveInt, Field(description="After so many milliseconds it ends by itself.")] = 300_000
+
+
+class Allocation(Declared):
+    """Who gets which condition: permuted blocks, from a list that is fixed before the first visitor."""
+
+    quotas: Annotated[
+        dict[str, PositiveInt],
+        Field(description="How many completed games each condition shall have, per site; empty: no allocation."),
+    ] = {"tom": 28, "notom": 28}
+    block: Annotated[
+        PositiveInt, Field(description="How many visitors make a block, in which every condition has its share.")
+    ] = 4
+    seed: Annotated[
+        NonNegativeInt | None,
+        Field(description="From which the list is drawn; by default a secret one, drawn and stored once."),
+    ] = None
+
+
+class Consent(Declared):
+    """What visitors are told, what they agree to, and how old they must be."""
+
+    text: Annotated[str, Field(description="The folder of assets/consent, or a path: one file per language.")] = "study"
+    adult: Annotated[PositiveInt, Field(description="From this age on a visitor's sitting may be stored.")] = 18
+    contact: Annotated[
+        str, Field(description="Whom to write to for withdrawing, best a mail address; shown with the code.")
+    ] = ""
 
 
 class Game(Declared):
@@ -197,21 +281,65 @@ class Settings(Declared):
 
     file_kind = "study file"
 
-    language: Annotated[str, Field(description="The folder of assets/sentences.")] = "en"
-    questionnaire: Annotated[str, Field(description="The file of assets/questionnaires, without its ending.")] = (
-        "closing"
+    title: Annotated[str, Field(min_length=1, description="What the study is called, in the data set.")] = (
+        "A memory game with a helping robot"
     )
+    languages: Annotated[
+        tuple[str, ...],
+        Field(min_length=1, strict=False, description="The languages to choose from; the first is shown at rest."),
+    ] = ("en", "it", "es")
+    stages: Annotated[
+        tuple[str, ...], Field(min_length=1, strict=False, description="The stages of a sitting, in their order.")
+    ] = STAGES
+    about_you: Annotated[
+        str, Field(description="The questionnaire about the visitor: a name in assets/questionnaires, or a path.")
+    ] = "about-you"
+    questionnaires: Annotated[
+        tuple[str, ...],
+        Field(min_length=1, strict=False, description="The questionnaires after the game: names, or paths."),
+    ] = ("social-intelligence", "trust")
     game: Game = Game()
+    practice: Practice = Practice()
     assistance: Assistance = Assistance()
+    allocation: Allocation = Allocation()
+    consent: Consent = Consent()
     timing: Timing = Timing()
+    idle: Idle = Idle()
     voice: Voice = Voice()
     robot: Robot = Robot()
     screen: Screen = Screen()
+
+    _beside: Path = PrivateAttr(default_factory=Path)
+    """The study file's folder: what it names by a path lies there. It is no setting, and is not recorded."""
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """Read a study file; the paths in it start from its own folder."""
+        settings = super().read(path)
+        settings._beside = path.parent  # noqa: SLF001 - its own
+        return settings
+
+    @model_validator(mode="after")
+    def _name_things_once(self) -> Self:
+        for key, names in (
+            ("languages", self.languages),
+            ("stages", self.stages),
+            ("questionnaires", (self.about_you, *self.questionnaires)),
+        ):
+            twice = [name for name, count in Counter(names).items() if count > 1]
+            if twice:
+                raise ValueError(f"{key}: {twice[0]!r} stands twice")
+        return self
 
     @property
     def sha256(self) -> str:
         """The hash of every setting, given or default, so that a sitting's settings can be told apart later."""
         return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    def find(self, kind: str, name: str) -> Path:
+        """What a study file calls by name: the shipped one in this folder of assets, or else a path from the file."""
+        shipped = ASSETS / kind / name
+        return shipped if shipped.exists() else self._beside / name
 
 
 def _beside_or_inside(name: str) -> Path:

@@ -13,7 +13,7 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.game import Board
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.condition import Condition
-from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.declared.questionnaire import Questionnaire
 from kiosk.study.session import Plan
 
 CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}

@@ -18,7 +18,7 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.game import Board
 from kiosk.settings import ASSETS, Assistance, Game
 from kiosk.study.condition import Condition
-from kiosk.study.moment import Moment
+from kiosk.study.after.moment import Moment
 
 SHAPE = Game()
 """The board of a case is the study's."""

@@ -16,7 +16,7 @@ from kiosk.cli.options import data_option, json_option, rehearsal_data_option, s
 from kiosk.cli.wiring import code_commit, log_into, make_plan, read_settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import Event
-from kiosk.study.utterances import body_changes, utterances
+from kiosk.study.after.utterances import body_changes, utterances
 from kiosk.ui.app import App, Display, Mode, Pace, check_screen
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
 from kiosk.ui.rehearsing.shots import Shots, make_folder

@@ -14,7 +14,7 @@ from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.condition import Condition
-from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.declared.questionnaire import Questionnaire
 from kiosk.study.session import Plan
 
 DATA = user_data_path("recollect", appauthor=False)

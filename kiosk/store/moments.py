@@ -14,7 +14,7 @@ from kiosk.game import Board, Concentration, Position
 from kiosk.store.reading import Archive
 from kiosk.study.condition import Condition
 from kiosk.study.events import AssistanceDecided, BoardDealt, CardFlipped, Event, HintGiven
-from kiosk.study.moment import Moment
+from kiosk.study.after.moment import Moment
 
 
 def explained(archive: Archive, number: int, flip: int) -> Explanation:

@@ -20,8 +20,8 @@ from kiosk.store.database import open_for_reading
 from kiosk.store.recorder import LOCK
 from kiosk.study.condition import Condition
 from kiosk.study.events import Event, SittingEnded, Status, from_record
-from kiosk.study.measures import Measures, measure
-from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.after.measures import Measures, measure
+from kiosk.study.declared.questionnaire import Questionnaire
 from kiosk.study.session import Plan
 
 _MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")

@@ -22,9 +22,9 @@ from kiosk.study import events as happened
 from kiosk.study.commands import Command, Mood, Script
 from kiosk.study.condition import Condition, help_in
 from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
-from kiosk.study.measures import Measures, measure
+from kiosk.study.after.measures import Measures, measure
 from kiosk.study.play import Guide, Play
-from kiosk.study.questionnaire import Questionnaire
+from kiosk.study.declared.questionnaire import Questionnaire
 from kiosk.study.stages import UnexpectedEvent, check_expected, next_stage
 
 FEW_MOVES = 25

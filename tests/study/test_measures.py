@@ -9,7 +9,7 @@ from kiosk.assistant.mdp import Action, Card
 from kiosk.game import Position
 from kiosk.study import events as happened
 from kiosk.study.events import Event, Stage
-from kiosk.study.measures import Measures, followed, measure
+from kiosk.study.after.measures import Measures, followed, measure
 from tests.samples import plan
 from tests.study.driver import Driver, Voice, at_random
 

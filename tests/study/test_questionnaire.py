@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from kiosk import BadInput
 from kiosk.settings import ASSETS
-from kiosk.study.questionnaire import Item, Questionnaire
+from kiosk.study.declared.questionnaire import Item, Questionnaire
 
 FINE = 'id = "q"\nversion = "2"\n[[items]]\nid = "one"\npoints = 5\n[[items]]\nid = "two"\npoints = 7\n'
 

@@ -12,7 +12,7 @@ from kiosk.study import events as happened
 from kiosk.study.commands import Command
 from kiosk.study.events import Event, Stage, Status, WorldEvent
 from kiosk.study.session import Session
-from kiosk.study.utterances import Utterances, body_changes, utterances
+from kiosk.study.after.utterances import Utterances, body_changes, utterances
 from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 

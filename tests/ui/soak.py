@@ -20,7 +20,7 @@ import click
 
 from kiosk.store.reading import archive
 from kiosk.study.events import Status
-from kiosk.study.utterances import body_changes
+from kiosk.study.after.utterances import body_changes
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.ui.fault_matrix import Robot, kiosk
 

@@ -1,0 +1,83 @@
+"""What a study tells its visitors: what it is about, what they agree to, and what it was about. One file per language.
+
+These are the texts that an ethics board approves, so they stand apart from all others and go by a version.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Annotated, Self
+
+from pydantic import Field, field_validator
+
+from kiosk import BadInput
+from kiosk.settings import Declared
+from kiosk.study.declared.questionnaire import Name
+from kiosk.study.declared.words import Text
+
+Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
+
+
+class Page(Declared):
+    """A title and a few paragraphs."""
+
+    title: Text
+    paragraphs: Paragraphs
+
+
+class Purpose(Declared):
+    """Something that a visitor may agree to by a tick; without a required one there is no consent."""
+
+    id: Name
+    text: Text
+    required: bool = True
+
+
+class ConsentPage(Page):
+    """What is agreed to."""
+
+    purposes: Annotated[tuple[Purpose, ...], Field(min_length=1, max_length=5, strict=False)]
+
+    @field_validator("purposes")
+    @classmethod
+    def _name_every_purpose_once(cls, purposes: tuple[Purpose, ...]) -> tuple[Purpose, ...]:
+        if len({purpose.id for purpose in purposes}) < len(purposes):
+            raise ValueError("two purposes have the same id")
+        return purposes
+
+    @property
+    def required(self) -> frozenset[str]:
+        """The purposes without which there is no consent."""
+        return frozenset(purpose.id for purpose in self.purposes if purpose.required)
+
+
+class Information(Declared):
+    """All of it, in one language; the same ``version`` says the same in every language."""
+
+    file_kind = "information sheet"
+
+    version: Text
+    about: Page
+    consent: ConsentPage
+    debrief: Page
+
+    @property
+    def sha256(self) -> str:
+        """The hash of all of it, stored with every consent."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    @classmethod
+    def of(cls, folder: Path, language: str) -> Self:
+        """The sheet of a language; raises BadInput if there is none."""
+        file = folder / f"{language}.toml"
+        if not file.is_file():
+            raise BadInput(f"there is no information sheet for the language {language!r} in {folder}")
+        return cls.read(file)
+
+
+def check_alike(sheets: dict[str, Information], folder: Path) -> None:
+    """Raise BadInput unless every language has the same version and asks for the same."""
+    by_content = {(sheet.version, tuple((p.id, p.required) for p in sheet.consent.purposes)) for sheet in sheets.values()}
+    if len(by_content) > 1:
+        raise BadInput(f"the information sheets in {folder} differ between languages in version or purposes")

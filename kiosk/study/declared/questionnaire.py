@@ -1,0 +1,297 @@
+"""Questionnaires as data: which items there are, what may be answered, and how they are worded in every language."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from enum import Enum
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, PositiveInt, field_validator, model_validator
+
+from kiosk.settings import Declared
+from kiosk.study.declared.words import Text, Words
+
+Answer = int | str | tuple[str, ...]
+"""A point on a scale or a number; an option's id or a text; the ids of several options."""
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+"""Names go into records, columns and messages."""
+
+Points = Annotated[int, Field(ge=2, le=11)]
+
+
+class _Item(Declared):
+    """What all items have: a name within the questionnaire, and a text."""
+
+    id: Name
+    text: Words
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """Everything of it that is worded."""
+        yield self.text
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether this can be an answer to it."""
+        raise NotImplementedError
+
+
+class _Question(_Item):
+    """An item that is answered; ``scale`` names what it belongs to, if it is summed with others."""
+
+    required: bool = False
+    scale: Name | None = None
+
+
+class _Rating(_Question):
+    """A question answered by a whole number between two ends; ``reverse`` turns it round before it is summed."""
+
+    reverse: bool = False
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """The lowest and the highest answer."""
+        raise NotImplementedError
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether it is a number between the ends."""
+        lowest, highest = self.ends
+        return isinstance(answer, int) and not isinstance(answer, bool) and lowest <= answer <= highest
+
+    def scored(self, answer: int) -> int:
+        """The answer as it counts: turned round if the item is reversed."""
+        return sum(self.ends) - answer if self.reverse else answer
+
+
+class _Pointed(_Rating):
+    """A rating from 1 to ``points``."""
+
+    points: Points = 5
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """1 and the number of points."""
+        return 1, self.points
+
+
+class Likert(_Pointed):
+    """Points between two worded ends; every point may have a word of its own."""
+
+    kind: Literal["likert"]
+    lowest: Words
+    highest: Words
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """The question and the ends."""
+        yield from (self.text, self.lowest, self.highest)
+
+
+class Differential(_Pointed):
+    """A semantic differential: points between two opposite words."""
+
+    kind: Literal["differential"]
+    left: Words
+    right: Words
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """The question and the opposites."""
+        yield from (self.text, self.left, self.right)
+
+
+class Pictures(_Pointed):
+    """Points shown as pictures: 1.svg and so on, in a folder of assets/scales or beside the study file."""
+
+    kind: Literal["pictures"]
+    pictures: str = "faces"
+    lowest: Words
+    highest: Words
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """The question and, for those who do not see the pictures, the ends."""
+        yield from (self.text, self.lowest, self.highest)
+
+
+class Slider(_Rating):
+    """A line between two words on which nothing is chosen beforehand."""
+
+    kind: Literal["slider"]
+    lowest: int = 0
+    highest: int = 100
+    left: Words
+    right: Words
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """As declared."""
+        return self.lowest, self.highest
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """The question and the ends."""
+        yield from (self.text, self.left, self.right)
+
+    @model_validator(mode="after")
+    def _have_a_length(self) -> Self:
+        if self.lowest >= self.highest:
+            raise ValueError(f"its lowest {self.lowest} must be below its highest {self.highest}")
+        return self
+
+
+class Integer(_Question):
+    """A whole number, typed or stepped to."""
+
+    kind: Literal["integer"]
+    lowest: int = 0
+    highest: int = 120
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether it is a number between lowest and highest."""
+        return isinstance(answer, int) and not isinstance(answer, bool) and self.lowest <= answer <= self.highest
+
+    @model_validator(mode="after")
+    def _have_a_length(self) -> Self:
+        if self.lowest >= self.highest:
+            raise ValueError(f"its lowest {self.lowest} must be below its highest {self.highest}")
+        return self
+
+
+class Option(Declared):
+    """One of the answers to choose from."""
+
+    id: Name
+    text: Words
+
+
+class _Choice(_Question):
+    options: Annotated[tuple[Option, ...], Field(min_length=2, max_length=12, strict=False)]
+
+    def texts(self) -> Iterator[Mapping[str, str]]:
+        """The question and its options."""
+        yield self.text
+        yield from (option.text for option in self.options)
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """The names of the options."""
+        return tuple(option.id for option in self.options)
+
+    @field_validator("options")
+    @classmethod
+    def _name_every_option_once(cls, options: tuple[Option, ...]) -> tuple[Option, ...]:
+        _refuse_twice("option", (option.id for option in options))
+        return options
+
+
+class Single(_Choice):
+    """One of several options."""
+
+    kind: Literal["single"]
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether it is one of the options."""
+        return isinstance(answer, str) and answer in self.ids
+
+
+class Multiple(_Choice):
+    """Any number of several options."""
+
+    kind: Literal["multiple"]
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether all of it are options, none twice."""
+        return isinstance(answer, tuple) and set(answer) <= set(self.ids) and len(set(answer)) == len(answer)
+
+
+class ShortText(_Question):
+    """A few words, typed."""
+
+    kind: Literal["text"]
+    longest: Annotated[PositiveInt, Field(le=500)] = 120
+
+    def accepts(self, answer: Answer) -> bool:
+        """Whether it is a text that is not too long, in one line."""
+        return isinstance(answer, str) and len(answer) <= self.longest and answer.isprintable()
+
+
+class Page(_Item):
+    """A text to read; nothing is answered, and it stands alone."""
+
+    kind: Literal["page"]
+
+    def accepts(self, answer: Answer) -> bool:  # noqa: ARG002 - whatever it is
+        """Nothing can be."""
+        return False
+
+
+Item = Annotated[
+    Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | Page,
+    Field(discriminator="kind"),
+]
+Rating = Likert | Differential | Slider | Pictures
+Choice = Single | Multiple
+
+
+class Order(Enum):
+    """In which order the items come."""
+
+    FIXED = "fixed"
+    SHUFFLED = "shuffled"
+    """Anew for every sitting; text pages keep their places."""
+
+
+class Questionnaire(Declared):
+    """Items in their order; ``version`` changes whenever one of them does, and ``note`` says where the wording is from."""
+
+    file_kind = "questionnaire"
+
+    id: Name
+    version: Text
+    note: Text
+    per_page: Annotated[int, Field(ge=1, le=8)] = 1
+    order: Annotated[Order, Field(strict=False)] = Order.FIXED
+    items: Annotated[tuple[Item, ...], Field(min_length=1, strict=False)]
+
+    @property
+    def sha256(self) -> str:
+        """The hash of all of it, wording included."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    @property
+    def questions(self) -> tuple[_Question, ...]:
+        """The items that are answered."""
+        return tuple(item for item in self.items if isinstance(item, _Question))
+
+    @property
+    def scales(self) -> dict[str, tuple[Rating, ...]]:
+        """The ratings of every scale, by its name, in the order in which they stand."""
+        scales: dict[str, list[Rating]] = {}
+        for item in self.items:
+            if isinstance(item, Rating) and item.scale is not None:
+                scales.setdefault(item.scale, []).append(item)
+        return {name: tuple(items) for name, items in scales.items()}
+
+    def unworded(self, language: str) -> tuple[str, ...]:
+        """The items that lack a text in this language."""
+        return tuple(item.id for item in self.items if any(language not in words for words in item.texts()))
+
+    @field_validator("items")
+    @classmethod
+    def _name_every_item_once(cls, items: tuple[Item, ...]) -> tuple[Item, ...]:
+        _refuse_twice("item", (item.id for item in items))
+        return items
+
+    @model_validator(mode="after")
+    def _sum_only_what_can_be_summed(self) -> Self:
+        for item in self.items:
+            if isinstance(item, _Question) and item.scale is not None and not isinstance(item, Rating):
+                raise ValueError(f"items: {item.id!r} is no rating, so it cannot belong to the scale {item.scale!r}")
+        for scale, items in self.scales.items():
+            if len({item.ends for item in items}) > 1:
+                raise ValueError(f"items: those of the scale {scale!r} have different ends, so they cannot be summed")
+        return self
+
+
+def _refuse_twice(what: str, names: Iterator[str]) -> None:
+    twice = [name for name, count in Counter(names).items() if count > 1]
+    if twice:
+        raise ValueError(f"the {what} {twice[0]!r} stands twice")
