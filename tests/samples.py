@@ -14,7 +14,7 @@ from kiosk.game import Board
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.condition import Condition
 from kiosk.study.declared.questionnaire import Questionnaire
-from kiosk.study.session import Plan
+from kiosk.study.plan import Plan
 
 CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
 ENGLISH = CATALOGUES["en"]

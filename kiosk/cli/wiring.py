@@ -15,7 +15,7 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.condition import Condition
 from kiosk.study.declared.questionnaire import Questionnaire
-from kiosk.study.session import Plan
+from kiosk.study.plan import Plan
 
 DATA = user_data_path("recollect", appauthor=False)
 """Where a study's data are kept unless told otherwise."""

@@ -22,7 +22,7 @@ from kiosk.study.condition import Condition
 from kiosk.study.events import Event, SittingEnded, Status, from_record
 from kiosk.study.after.measures import Measures, measure
 from kiosk.study.declared.questionnaire import Questionnaire
-from kiosk.study.session import Plan
+from kiosk.study.plan import Plan
 
 _MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")
 _SUMMARISED = (*_MEASURED, "SittingEnded")

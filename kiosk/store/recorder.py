@@ -18,7 +18,7 @@ from filelock import FileLock, Timeout
 from kiosk import BadInput, __version__
 from kiosk.store.database import open_for_writing
 from kiosk.study.events import Event, SittingEnded, Status, WorldEvent, to_record
-from kiosk.study.session import Plan
+from kiosk.study.plan import Plan
 
 LOCK = "recollect.lock"
 LOCK_WAIT_S = 1.0

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from kiosk.game import Position
-from kiosk.study.events import BodyName, SessionEvent, Status, Timer
+from kiosk.study.declared.information import ConsentPage, Page
+from kiosk.study.declared.questionnaire import Answer, Item
+from kiosk.study.events import BodyName, SessionEvent, Status, Timer, Unstored
 
 
 class Mood(Enum):
@@ -43,17 +45,59 @@ class Record(Command):
 
 
 @dataclass(frozen=True)
+class KeepSitting(Command):
+    """Write everything from here on; what was held back so far is written first."""
+
+
+@dataclass(frozen=True)
+class ForgetSitting(Command):
+    """Write nothing of this sitting, now or later, but that there was one; and why."""
+
+    why: Unstored
+
+
+@dataclass(frozen=True)
+class ShowAbout(Command):
+    """Show what the study is about."""
+
+    page: Page
+
+
+@dataclass(frozen=True)
+class ShowConsent(Command):
+    """Show what can be agreed to; nothing is ticked."""
+
+    page: ConsentPage
+
+
+@dataclass(frozen=True)
+class ShowTicks(Command):
+    """Show which purposes are ticked."""
+
+    purposes: frozenset[str]
+
+
+@dataclass(frozen=True)
+class ShowAgeQuestion(Command):
+    """Ask whether the visitor is at least so old."""
+
+    adult: int
+
+
+@dataclass(frozen=True)
 class ShowIntroduction(Command):
     """Show what the game is about."""
 
 
 @dataclass(frozen=True)
 class ShowBoard(Command):
-    """Show a board of closed cards; which card lies where is not told."""
+    """Show a board of closed cards from a deck; which card lies where is not told. A practice can be left."""
 
     rows: int
     columns: int
     pairs: int
+    deck: str
+    practice: bool = False
 
 
 @dataclass(frozen=True)
@@ -153,21 +197,49 @@ class ShowResult(Command):
 
 
 @dataclass(frozen=True)
-class ShowQuestion(Command):
-    """Ask one item; ``number`` counts from 1, answers go from 1 to ``points``."""
+class ShowItems(Command):
+    """Show a page of items, none of them answered; ``number`` ``of`` so many pages, from 1."""
 
-    questionnaire: str
-    item: str
-    points: int
+    items: tuple[Item, ...]
     number: int
     of: int
 
 
 @dataclass(frozen=True)
 class ShowAnswer(Command):
-    """Show which answer is chosen."""
+    """Show which answer is chosen for an item, None for none."""
 
-    value: int
+    item: str
+    value: Answer | None
+
+
+@dataclass(frozen=True)
+class ShowMissing(Command):
+    """Show what has to be done before the visitor can go on: these purposes or items."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ShowDebrief(Command):
+    """Show what the study was about, and the code to withdraw with."""
+
+    page: Page
+
+
+@dataclass(frozen=True)
+class ShowThanks(Command):
+    """Thank the visitor, and see them off."""
+
+
+@dataclass(frozen=True)
+class ShowPause(Command):
+    """Cover everything with a calm word until the experimenter lets it go on."""
+
+
+@dataclass(frozen=True)
+class HidePause(Command):
+    """Take that cover away."""
 
 
 @dataclass(frozen=True)

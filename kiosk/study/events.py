@@ -19,16 +19,24 @@ from kiosk.assistant.gate import Verdict
 from kiosk.assistant.hint import Reason
 from kiosk.assistant.mdp import Action, Card, Outcome, Phase
 from kiosk.game import Position, Refusal
+from kiosk.study.declared.questionnaire import Answer
 
 
 class Stage(Enum):
     """A part of the sitting."""
 
     ATTRACT = "attract"
+    ABOUT = "about"
+    CONSENT = "consent"
+    AGE = "age"
+    ABOUT_YOU = "about_you"
     INTRODUCTION = "introduction"
+    PRACTICE = "practice"
     GAME = "game"
     RESULT = "result"
     QUESTIONS = "questions"
+    DEBRIEF = "debrief"
+    THANKS = "thanks"
     OVER = "over"
 
 
@@ -41,6 +49,8 @@ class Timer(Enum):
     SPEECH_DEADLINE = "speech_deadline"
     MOOD = "mood"
     FINISH = "finish"
+    PRACTICE = "practice"
+    THANKS = "thanks"
     IDLE = "idle"
     STILL_THERE = "still_there"
 
@@ -50,7 +60,26 @@ class Status(Enum):
 
     COMPLETED = "completed"
     ABANDONED = "abandoned"
+    STOPPED = "stopped"
+    """The experimenter ended it, with a reason."""
     INTERRUPTED = "interrupted"
+
+
+class Unstored(Enum):
+    """Why nothing of a sitting is kept but that it was."""
+
+    DECLINED = "declined"
+    UNDER_AGE = "under_age"
+    LEFT = "left"
+    """Whoever it was left before they had decided."""
+
+
+class PracticeEnd(Enum):
+    """How the practice came to its end."""
+
+    FOUND = "found"
+    LEFT = "left"
+    TIME = "time"
 
 
 class BodyName(Enum):
@@ -91,6 +120,44 @@ class ContinueTapped(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class PurposeTicked(WorldEvent):
+    """The visitor set or took away the tick of one purpose of the consent."""
+
+    by_visitor = True
+    purpose: str
+    ticked: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class AgreeTapped(WorldEvent):
+    """The visitor agrees to what is ticked; it counts once every purpose that is required is."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeclineTapped(WorldEvent):
+    """The visitor wants to play without anything being stored."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class AgeTapped(WorldEvent):
+    """The visitor said whether they are old enough for the study."""
+
+    by_visitor = True
+    adult: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class SkipTapped(WorldEvent):
+    """The visitor leaves the practice early."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
 class CardTapped(WorldEvent):
     """The visitor tapped a card, whether or not it could be turned."""
 
@@ -100,11 +167,11 @@ class CardTapped(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class AnswerGiven(WorldEvent):
-    """The visitor chose an answer, from 1; the last one given to an item counts."""
+    """The visitor chose an answer to an item that is shown; the last one given counts, and None takes it back."""
 
     by_visitor = True
     item: str
-    value: int
+    value: Answer | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +218,35 @@ class RobotLost(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class RepeatAsked(WorldEvent):
+    """The experimenter wants the last sentence said again."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PauseAsked(WorldEvent):
+    """The experimenter stops the sitting for a while; no clock of the game counts that time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PauseEnded(WorldEvent):
+    """The experimenter lets the sitting go on."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndAsked(WorldEvent):
+    """The experimenter ends the sitting."""
+
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SittingResumed(WorldEvent):
+    """A sitting that was cut off goes on, from the start of the stage it was in; ``body`` helps from here on."""
+
+    body: BodyName
+
+
+@dataclass(frozen=True, kw_only=True)
 class KioskClosed(WorldEvent):
     """The program is being closed in the middle of a sitting."""
 
@@ -165,6 +261,24 @@ class StageEntered(SessionEvent):
     """The sitting went on to another stage."""
 
     stage: Stage
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsentGiven(SessionEvent):
+    """The visitor agreed: to this text, by its version and hash, in this language, for these purposes."""
+
+    version: str
+    sha256: str
+    language: str
+    purposes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ItemsShown(SessionEvent):
+    """A page of a questionnaire came; response times count from here."""
+
+    questionnaire: str
+    items: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -263,13 +377,33 @@ class TableAdapted(SessionEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class SentenceRepeated(SessionEvent):
+    """The body was asked to say this sentence once more, under a new number."""
+
+    of: int
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PracticeFinished(SessionEvent):
+    """The practice is over."""
+
+    how: PracticeEnd
+
+
+@dataclass(frozen=True, kw_only=True)
 class GameFinished(SessionEvent):
     """Every pair was found and has been looked at."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class QuestionsFinished(SessionEvent):
-    """The visitor went past the last question."""
+    """The visitor went past the last page of this stage's questionnaires."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Thanked(SessionEvent):
+    """The thanks have been up long enough."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -284,9 +418,22 @@ class SittingEnded(SessionEvent):
     status: Status
 
 
+def _answer(value: object, _: object) -> Answer | None:
+    """An answer as it was written: a number, a text, a list of options, or none."""
+    match value:
+        case bool():
+            raise ValueError(f"{value} is no answer")
+        case None | int() | str():
+            return value
+        case list() | tuple() if all(isinstance(option, str) for option in value):
+            return tuple(value)
+    raise ValueError(f"{value!r} is no answer")
+
+
 def _converter() -> Converter:
     """A converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
+    converter.register_structure_hook(Answer | None, _answer)
     for closed_set in (Action, Phase, Outcome, Verdict):
         # Their values count rows and columns of a table, or explain; in the records they go by name.
         converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())

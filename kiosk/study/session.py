@@ -1,47 +1,32 @@
 """One sitting: ``handle(event) -> commands``, and nothing else.
 
 It validates, then changes; what it concluded stands first among its commands, to be written before anything is shown.
+What a stage does is its scene's; here is what holds in every stage: which comes next, whether anything is kept, who
+is there, and who speaks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from itertools import count
-from random import Random
+from collections.abc import Sequence
+from enum import Enum
 
-from kiosk import BadInput
-from kiosk.assistant.adaptation import assistant_with
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
-from kiosk.assistant.wording import Catalogue, Wording
-from kiosk.game import Board
-from kiosk.settings import Settings
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Command, Mood, Script
-from kiosk.study.condition import Condition, help_in
-from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
 from kiosk.study.after.measures import Measures, measure
-from kiosk.study.play import Guide, Play
-from kiosk.study.declared.questionnaire import Questionnaire
-from kiosk.study.stages import UnexpectedEvent, check_expected, next_stage
-
-FEW_MOVES = 25
-SOME_MOVES = 30
-"""Below FEW_MOVES and below SOME_MOVES the assistant praises; the study's two limits."""
+from kiosk.study.commands import Command, Mood, Script
+from kiosk.study.events import BodyName, Event, Stage, Status, Timer, Unstored, WorldEvent
+from kiosk.study.plan import Plan
+from kiosk.study.scenery import Scenery
+from kiosk.study.stages import BEFORE_DECIDING, Turn, UnexpectedEvent, check_expected, turn
 
 
-@dataclass(frozen=True)
-class Plan:
-    """Everything that a sitting follows, except chance and what happens in it."""
+class Keeping(Enum):
+    """Whether the sitting is written down."""
 
-    settings: Settings
-    condition: Condition
-    policy: QTable
-    catalogue: Catalogue
-    questionnaire: Questionnaire
-    deck: tuple[str, ...]
+    UNDECIDED = "undecided"
+    """What happens is held back until the visitor has decided."""
+    KEPT = "kept"
+    FORGOTTEN = "forgotten"
 
 
 class Session:
@@ -50,22 +35,18 @@ class Session:
     def __init__(self, plan: Plan, seed: int) -> None:
         """Follow ``plan``; the same seed and the same events give the same commands.
 
-        Raises BadInput if the deck has too few cards for the board.
+        Raises BadInput if a deck has too few cards for its board, or the stages cannot come in their order.
         """
         self.stage = Stage.ATTRACT
-        self._plan = plan
-        self._timing = plan.settings.timing
-        self._log: list[happened.SessionEvent] = []
+        self.keeping = Keeping.UNDECIDED
+        self._course = plan.course
+        self._settings = plan.settings
+        self._log: list[Event] = []
         self._waiting: set[Timer] = set()
-        self._asked_still_there = False
-        self._robot_lost = False
+        self._asked_still_there = self._robot_lost = self._paused = False
+        self._said: do.Speak | None = None
         self._unsaid: do.Speak | None = None
-        self._item = 0
-        self._utterances = count(1)
-        # One stream of chance for each purpose: two conditions with the same seed play the same board.
-        deal, targets, words = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets", "words"))
-        self._wording = Wording(plan.catalogue, words)
-        self._play = self._prepare_play(deal, targets)
+        self._scenery = Scenery(plan, seed, lambda script: [*self._log, *script.notes])
 
     def handle(self, event: WorldEvent) -> tuple[Command, ...]:
         """What one event leads to: records first; raises UnexpectedEvent, and changes nothing, if it has no place."""
@@ -75,7 +56,7 @@ class Session:
         self._react(event, script)
         for step in (event, *script.notes):
             self._go_on_after(step, script)
-        self._log.extend(script.notes)
+        self._log += [event, *script.notes]
         self._keep_track(script)
         return script.commands
 
@@ -84,60 +65,62 @@ class Session:
         """The measures of the game so far."""
         return measure(self._log)
 
-    def _prepare_play(self, deal: Random, targets: Random) -> Play:
-        plan, game = self._plan, self._plan.settings.game
-        try:
-            board = Board.deal(game.rows, game.columns, plan.deck, deal)
-        except ValueError as error:
-            raise BadInput(f"no game can be dealt from the deck {game.deck!r}: {error}") from error
-        rule = TargetRule(plan.settings.assistance.target_rule)
-        given = help_in(plan.condition, rule, self._wording, targets)
-        step = plan.settings.assistance.step
-        guide = Guide(assistant_with(plan.policy, given.mentaliser, step), given.sentences) if given else None
-        return Play(board, guide, self._timing, self._utterances)
-
     def _check(self, event: WorldEvent) -> None:
         check_expected(self.stage, event)
+        if not self._makes_sense(event) or not self._scenery.of(self.stage).accepts(event):
+            raise UnexpectedEvent(self.stage, event)
+
+    def _makes_sense(self, event: WorldEvent) -> bool:
+        """Whether this event can happen now, whatever the stage."""
+        if self._paused and event.by_visitor:
+            return False
         match event:
-            case happened.TimerEnded(timer=timer) if timer not in self._waiting:
-                raise UnexpectedEvent(self.stage, event)
-            case happened.StillHereTapped() if not self._asked_still_there:
-                raise UnexpectedEvent(self.stage, event)
-            case happened.RobotLost() if self._robot_lost:
-                raise UnexpectedEvent(self.stage, event)
-            case happened.AnswerGiven(item=item, value=value):
-                asked = self._plan.questionnaire.items[self._item]
-                if item != asked.id or not 1 <= value <= asked.points:
-                    raise UnexpectedEvent(self.stage, event)
+            case happened.TimerEnded(timer=timer):
+                return timer in self._waiting
+            case happened.StillHereTapped():
+                return self._asked_still_there
+            case happened.RobotLost():
+                return not self._robot_lost
+            case happened.PauseAsked():
+                return not self._paused
+            case happened.PauseEnded():
+                return self._paused
+            case happened.RepeatAsked():
+                return self._said is not None and self._unsaid is None
+            case happened.SittingResumed():
+                return self.keeping is Keeping.KEPT and self.stage is not Stage.GAME
+        return True
 
     def _react(self, event: WorldEvent, script: Script) -> None:
         """What the event leads to within its stage."""
+        self._waiting -= {event.timer} if isinstance(event, happened.TimerEnded) else set()
         match event:
-            case happened.CardTapped(position=position):
-                self._play.card_tapped(position, script)
-            case happened.AnswerGiven(value=value):
-                script.do(do.ShowAnswer(value))
-            case happened.ContinueTapped() if self.stage is Stage.QUESTIONS:
-                self._next_question(script)
-            case happened.TimerEnded(timer=timer):
-                self._waiting.discard(timer)
-                self._wait_ended(timer, script)
+            case happened.TimerEnded(timer=Timer.IDLE):
+                self._asked_still_there = True
+                script.do(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._settings.idle.still_there))
+            case happened.TimerEnded(timer=Timer.STILL_THERE):
+                script.note(happened.VisitorLeft(at_ms=script.at_ms))
             case happened.RobotLost(why=why):
                 self._go_on_without_robot(why, script)
-            case happened.SpeechStarted() | happened.SpeechFinished() | happened.SpeechFailed():
-                self._hear(event, script)
+            case happened.PauseAsked() | happened.PauseEnded():
+                self._pause(event, script)
+            case happened.RepeatAsked() if self._said is not None:
+                self._scenery.speaker.repeat(self._said, script)
+            case happened.SittingResumed():
+                self._robot_lost = self._paused = False
+                self._leave_scene(script)
+                self._enter(self.stage, script)
+            case happened.DeclineTapped():
+                self._forget(Unstored.DECLINED, script)
+            case happened.AgeTapped(adult=False):
+                self._forget(Unstored.UNDER_AGE, script)
+            case happened.SpeechFinished(utterance=utterance) | happened.SpeechFailed(utterance=utterance):
+                self._hear_no_more_of(utterance)
+        self._scenery.of(self.stage).react(event, script)
 
-    def _hear(self, event: WorldEvent, script: Script) -> None:
-        """What a body reports of a sentence."""
-        match event:
-            case happened.SpeechStarted(utterance=utterance):
-                self._play.speech_started(utterance, script)
-            case happened.SpeechFinished(utterance=utterance):
-                self._said(utterance)
-                self._play.speech_finished(utterance, script)
-            case happened.SpeechFailed(utterance=utterance):
-                self._said(utterance)
-                self._play.speech_failed(utterance, script)
+    def _hear_no_more_of(self, utterance: int) -> None:
+        if self._unsaid is not None and self._unsaid.utterance == utterance:
+            self._unsaid = None
 
     def _go_on_without_robot(self, why: str, script: Script) -> None:
         """Have the avatar help; it says at once what the robot had not said to its end."""
@@ -147,26 +130,22 @@ class Session:
         if self._unsaid is not None:
             script.do(self._unsaid)
 
-    def _said(self, utterance: int) -> None:
-        if self._unsaid is not None and self._unsaid.utterance == utterance:
-            self._unsaid = None
-
-    def _wait_ended(self, timer: Timer, script: Script) -> None:
-        match timer:
-            case Timer.IDLE:
-                self._asked_still_there = True
-                script.do(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._timing.still_there))
-            case Timer.STILL_THERE:
-                script.note(happened.VisitorLeft(at_ms=script.at_ms))
-            case _:
-                self._play.timer_ended(timer, script)
+    def _pause(self, event: WorldEvent, script: Script) -> None:
+        """Cover everything, and ask nobody whether they are there; or go on."""
+        self._paused = isinstance(event, happened.PauseAsked)
+        if self._paused:
+            self._stop_asking(script)
+            script.do(do.StopTimer(Timer.IDLE), do.ShowPause())
+        else:
+            script.do(do.HidePause())
+            self._start_idle(self.stage, script)
 
     def _notice_presence(self, event: WorldEvent, script: Script) -> None:
         """Start the idle time anew whenever somebody shows that they are there."""
-        if not event.by_visitor:
-            return
-        self._stop_asking(script)
-        self._start_idle(self.stage, script)
+        if event.by_visitor:
+            self._stop_asking(script)
+            if self.stage is not Stage.ATTRACT:
+                self._start_idle(self.stage, script)
 
     def _stop_asking(self, script: Script) -> None:
         """Ask no longer whether somebody is there."""
@@ -175,94 +154,74 @@ class Session:
             script.do(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
 
     def _start_idle(self, stage: Stage, script: Script) -> None:
-        after = self._timing.idle_game if stage is Stage.GAME else self._timing.idle
-        script.do(do.StartTimer(Timer.IDLE, after))
+        if not self._paused:
+            script.do(do.StartTimer(Timer.IDLE, self._settings.idle.of(stage.value)))
 
-    def _go_on_after(self, event: happened.Event, script: Script) -> None:
+    def _go_on_after(self, event: Event, script: Script) -> None:
         """Enter the next stage, if this event leads to one."""
-        stage = next_stage(self.stage, event)
-        if stage is self.stage:
-            return
+        match turn(self.stage, event):
+            case Turn.ON:
+                after = self._course.after(self.stage, kept=self.keeping is not Keeping.FORGOTTEN)
+                self._change_stage(after, Status.COMPLETED, script)
+            case Turn.OVER:
+                self._change_stage(Stage.OVER, _ENDINGS[type(event)], script)
+
+    def _change_stage(self, stage: Stage, ending: Status, script: Script) -> None:
+        self._leave_scene(script)
+        self.stage = stage
+        if stage is Stage.OVER:
+            script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
+            self._end(ending, script)
+        else:
+            self._keep_from(stage, script)
+            self._enter(stage, script)
+
+    def _leave_scene(self, script: Script) -> None:
+        """Stop all that belongs to the stage: its waits, its words, and the question over it."""
         running = {*self._waiting, *(c.timer for c in script.deeds if isinstance(c, do.StartTimer))}
         script.do(do.StopSpeaking(), do.ClearBubble())
         script.do(*(do.StopTimer(timer) for timer in Timer if timer in running))
         self._stop_asking(script)
-        self.stage = stage
+
+    def _enter(self, stage: Stage, script: Script) -> None:
         script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
-        if stage is Stage.OVER:
-            self._end(_ENDINGS[type(event)], script)
-        else:
-            self._start_idle(stage, script)
-            self._entrances[stage](script)
+        self._start_idle(stage, script)
+        self._scenery.of(stage).enter(script)
 
-    @property
-    def _entrances(self) -> dict[Stage, Callable[[Script], None]]:
-        return {
-            Stage.INTRODUCTION: self._introduce,
-            Stage.GAME: self._play.begin,
-            Stage.RESULT: self._show_result,
-            Stage.QUESTIONS: self._first_question,
-        }
+    def _keep_from(self, stage: Stage, script: Script) -> None:
+        """Whoever is past all that is decided beforehand has agreed to be recorded."""
+        if self.keeping is Keeping.UNDECIDED and stage not in BEFORE_DECIDING:
+            self.keeping = Keeping.KEPT
+            script.do(do.KeepSitting())
 
-    def _introduce(self, script: Script) -> None:
-        script.do(do.ShowIntroduction())
-        self._speak(self._wording.say("introduction-speech"), script)
-
-    def _show_result(self, script: Script) -> None:
-        measures = measure([*self._log, *script.notes])
-        script.do(
-            do.ShowResult(measures.pairs, measures.moves, measures.completion_ms),
-            do.Express(Mood.HAPPY),
-        )
-        self._speak(self._wording.say(_remark(measures.moves), moves=measures.moves), script)
-
-    def _first_question(self, script: Script) -> None:
-        script.do(do.Express(Mood.LISTENING))
-        self._ask(script)
-
-    def _next_question(self, script: Script) -> None:
-        self._item += 1
-        if self._item < len(self._plan.questionnaire.items):
-            self._ask(script)
-        else:
-            script.note(happened.QuestionsFinished(at_ms=script.at_ms))
-
-    def _ask(self, script: Script) -> None:
-        questionnaire = self._plan.questionnaire
-        item = questionnaire.items[self._item]
-        script.do(do.ShowQuestion(questionnaire.id, item.id, item.points, self._item + 1, len(questionnaire.items)))
-
-    def _speak(self, sentence: str, script: Script) -> None:
-        number = next(self._utterances)
-        script.note(happened.SentenceRequested(at_ms=script.at_ms, utterance=number, sentence=sentence))
-        script.do(do.Speak(number, sentence))
+    def _forget(self, why: Unstored, script: Script) -> None:
+        if self.keeping is Keeping.UNDECIDED:
+            self.keeping = Keeping.FORGOTTEN
+            script.do(do.ForgetSitting(why))
 
     def _end(self, status: Status, script: Script) -> None:
+        self._forget(Unstored.LEFT, script)
         script.note(happened.SittingEnded(at_ms=script.at_ms, status=status))
         script.do(do.Express(Mood.IDLE), do.EndSitting(status))
 
     def _keep_track(self, script: Script) -> None:
         """Remember which waits are running, so that the end of any other can be refused, and what is being said."""
         for command in script.deeds:
-            if isinstance(command, do.StartTimer):
-                self._waiting.add(command.timer)
-            elif isinstance(command, do.StopTimer):
-                self._waiting.discard(command.timer)
-            elif isinstance(command, do.Speak):
-                self._unsaid = command
-            elif isinstance(command, do.StopSpeaking):
-                self._unsaid = None
+            match command:
+                case do.StartTimer(timer=timer):
+                    self._waiting.add(timer)
+                case do.StopTimer(timer=timer):
+                    self._waiting.discard(timer)
+                case do.Speak():
+                    self._said = self._unsaid = command
+                case do.StopSpeaking():
+                    self._unsaid = None
+                case do.ClearBubble():
+                    self._said = None
 
 
 _ENDINGS = {
-    happened.QuestionsFinished: Status.COMPLETED,
     happened.VisitorLeft: Status.ABANDONED,
+    happened.EndAsked: Status.STOPPED,
     happened.KioskClosed: Status.INTERRUPTED,
 }
-
-
-def _remark(moves: int) -> str:
-    """The message for the end of a game of so many moves."""
-    if moves < FEW_MOVES:
-        return "result-speech-few"
-    return "result-speech-some" if moves < SOME_MOVES else "result-speech-many"

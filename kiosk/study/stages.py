@@ -1,28 +1,46 @@
-"""The course of a sitting as one table, stage x event -> stage; there is no other way from one stage to the next.
+"""The course of a sitting as one table, stage x event -> what becomes of the stage; there is no other way on.
 
-World events that a stage does not list are refused. Session events that it does not list change no stage.
+Which stages there are, and in which order, is the study's; ``Course`` knows what comes after each. World events that a
+stage does not list are refused. Session events that it does not list change no stage.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
 from types import MappingProxyType
 
+from kiosk import BadInput
+from kiosk.settings import STAGES
 from kiosk.study.events import (
+    AgeTapped,
+    AgreeTapped,
     AnswerGiven,
     CardTapped,
+    ConsentGiven,
     ContinueTapped,
+    DeclineTapped,
+    EndAsked,
     Event,
     GameFinished,
     KioskClosed,
+    PauseAsked,
+    PauseEnded,
+    PracticeFinished,
+    PurposeTicked,
     QuestionsFinished,
+    RepeatAsked,
     RobotLost,
+    SittingResumed,
+    SkipTapped,
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
     Stage,
     StartTapped,
     StillHereTapped,
+    Thanked,
     TimerEnded,
     VisitorLeft,
     WorldEvent,
@@ -39,26 +57,104 @@ class UnexpectedEvent(Exception):
         self.event = event
 
 
-def _underway(stage: Stage, own: Mapping[type[Event], Stage]) -> Mapping[type[Event], Stage]:
+class Turn(Enum):
+    """What an event makes of the stage."""
+
+    STAY = "stay"
+    ON = "on"
+    """To the next stage of the study."""
+    OVER = "over"
+    """To the end of the sitting."""
+
+
+_ANYWHERE = (
+    TimerEnded,
+    SpeechStarted,
+    SpeechFinished,
+    SpeechFailed,
+    RobotLost,
+    StillHereTapped,
+    RepeatAsked,
+    PauseAsked,
+    PauseEnded,
+    SittingResumed,
+)
+_LEAVING = (VisitorLeft, EndAsked, KioskClosed)
+
+
+def _underway(own: Mapping[type[Event], Turn]) -> Mapping[type[Event], Turn]:
     """A stage's own events, and those that may come in any stage that a visitor is in."""
-    anywhere = (TimerEnded, SpeechStarted, SpeechFinished, SpeechFailed, RobotLost, StillHereTapped)
-    leaving = (VisitorLeft, KioskClosed)
-    return MappingProxyType(dict.fromkeys(anywhere, stage) | dict.fromkeys(leaving, Stage.OVER) | dict(own))
+    return MappingProxyType(dict.fromkeys(_ANYWHERE, Turn.STAY) | dict.fromkeys(_LEAVING, Turn.OVER) | dict(own))
 
 
-TABLE: Mapping[Stage, Mapping[type[Event], Stage]] = MappingProxyType(
+_READ: Mapping[type[Event], Turn] = {ContinueTapped: Turn.ON}
+_ASK: Mapping[type[Event], Turn] = {AnswerGiven: Turn.STAY, ContinueTapped: Turn.STAY, QuestionsFinished: Turn.ON}
+
+TABLE: Mapping[Stage, Mapping[type[Event], Turn]] = MappingProxyType(
     {
-        Stage.ATTRACT: MappingProxyType({StartTapped: Stage.INTRODUCTION}),
-        Stage.INTRODUCTION: _underway(Stage.INTRODUCTION, {ContinueTapped: Stage.GAME}),
-        Stage.GAME: _underway(Stage.GAME, {CardTapped: Stage.GAME, GameFinished: Stage.RESULT}),
-        Stage.RESULT: _underway(Stage.RESULT, {ContinueTapped: Stage.QUESTIONS}),
-        Stage.QUESTIONS: _underway(
-            Stage.QUESTIONS,
-            {AnswerGiven: Stage.QUESTIONS, ContinueTapped: Stage.QUESTIONS, QuestionsFinished: Stage.OVER},
+        Stage.ATTRACT: MappingProxyType({StartTapped: Turn.ON}),
+        Stage.ABOUT: _underway(_READ),
+        Stage.CONSENT: _underway(
+            {PurposeTicked: Turn.STAY, AgreeTapped: Turn.STAY, ConsentGiven: Turn.ON, DeclineTapped: Turn.ON}
         ),
+        Stage.AGE: _underway({AgeTapped: Turn.ON}),
+        Stage.ABOUT_YOU: _underway(_ASK),
+        Stage.INTRODUCTION: _underway(_READ),
+        Stage.PRACTICE: _underway({CardTapped: Turn.STAY, SkipTapped: Turn.STAY, PracticeFinished: Turn.ON}),
+        Stage.GAME: _underway({CardTapped: Turn.STAY, GameFinished: Turn.ON}),
+        Stage.RESULT: _underway(_READ),
+        Stage.QUESTIONS: _underway(_ASK),
+        Stage.DEBRIEF: _underway(_READ),
+        Stage.THANKS: _underway({ContinueTapped: Turn.ON, Thanked: Turn.ON}),
         Stage.OVER: MappingProxyType({}),
     }
 )
+
+BEFORE_DECIDING = frozenset({Stage.ABOUT, Stage.CONSENT, Stage.AGE})
+"""Until a visitor is past these, nothing of the sitting is written."""
+
+_ONLY_WHEN_KEPT = frozenset({Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF})
+"""Stages that would ask, or tell, somebody about a record that there is not."""
+
+_BEFORE: Mapping[Stage, tuple[Stage, ...]] = {
+    Stage.CONSENT: (Stage.ABOUT_YOU, Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS),
+    Stage.AGE: (Stage.ABOUT_YOU, Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS),
+    Stage.ABOUT: (Stage.CONSENT, Stage.AGE, Stage.GAME),
+    Stage.PRACTICE: (Stage.GAME,),
+    Stage.INTRODUCTION: (Stage.PRACTICE, Stage.GAME),
+    Stage.GAME: (Stage.RESULT, Stage.DEBRIEF, Stage.THANKS),
+    Stage.QUESTIONS: (Stage.DEBRIEF, Stage.THANKS),
+    Stage.DEBRIEF: (Stage.THANKS,),
+    Stage.RESULT: (Stage.DEBRIEF, Stage.THANKS),
+}
+"""What a stage has to come before, wherever both are there."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """The stages of a study, in their order."""
+
+    stages: tuple[Stage, ...]
+
+    @classmethod
+    def of(cls, names: Sequence[str]) -> Course:
+        """The course of these stages; raises BadInput if one is unknown, or comes where it cannot."""
+        unknown = [name for name in names if name not in STAGES]
+        if unknown:
+            raise BadInput(f"stages: there is no stage {unknown[0]!r}; there are {', '.join(STAGES)}")
+        stages = tuple(Stage(name) for name in names)
+        if Stage.GAME not in stages:
+            raise BadInput("stages: without the stage 'game' there is nothing to study")
+        for index, stage in enumerate(stages):
+            late = next((before for before in stages[:index] if before in _BEFORE.get(stage, ())), None)
+            if late is not None:
+                raise BadInput(f"stages: {stage.value!r} must come before {late.value!r}")
+        return cls(stages)
+
+    def after(self, stage: Stage, *, kept: bool) -> Stage:
+        """The stage after this one; a sitting that is not ``kept`` leaves out what only makes sense with a record."""
+        ahead = self.stages[0 if stage is Stage.ATTRACT else self.stages.index(stage) + 1 :]
+        return next((coming for coming in ahead if kept or coming not in _ONLY_WHEN_KEPT), Stage.OVER)
 
 
 def check_expected(stage: Stage, event: WorldEvent) -> None:
@@ -67,30 +163,29 @@ def check_expected(stage: Stage, event: WorldEvent) -> None:
         raise UnexpectedEvent(stage, event)
 
 
-def next_stage(stage: Stage, event: Event) -> Stage:
-    """The stage after this event."""
-    return TABLE[stage].get(type(event), stage)
+def turn(stage: Stage, event: Event) -> Turn:
+    """What this event makes of the stage."""
+    return TABLE[stage].get(type(event), Turn.STAY)
 
 
 def diagram() -> str:
-    """The table as a Mermaid state diagram; what may come in every stage stands in a note."""
-    anywhere = frozenset.intersection(*(frozenset(row) for stage, row in TABLE.items() if stage not in _ENDS))
+    """The table as a Mermaid state diagram of the whole course; what may come in every stage stands in a note."""
+    course = Course.of(STAGES)
     arrows = [
-        f"    {stage.value} --> {after.value}: {kind.__name__}"
+        f"    {stage.value} --> {(course.after(stage, kept=True) if step is Turn.ON else stage).value}: {kind.__name__}"
         for stage, row in TABLE.items()
-        for kind, after in row.items()
-        if kind not in anywhere
+        for kind, step in row.items()
+        if kind not in (*_ANYWHERE, *_LEAVING)
     ]
-    leaving = sorted(kind.__name__ for kind in anywhere if TABLE[Stage.GAME][kind] is Stage.OVER)
-    staying = sorted(kind.__name__ for kind in anywhere if TABLE[Stage.GAME][kind] is not Stage.OVER)
     notes = (
         f"    note right of {Stage.GAME.value}",
-        f"        in every stage with a visitor: {', '.join(staying)};",
-        f"        and to {Stage.OVER.value}: {', '.join(leaving)}",
+        f"        in every stage with a visitor: {_names(_ANYWHERE)};",
+        f"        and to {Stage.OVER.value}: {_names(_LEAVING)}",
         "    end note",
     )
     ends = (f"    [*] --> {Stage.ATTRACT.value}", *arrows, f"    {Stage.OVER.value} --> [*]")
     return "\n".join(("stateDiagram-v2", *ends, *notes)) + "\n"
 
 
-_ENDS = (Stage.ATTRACT, Stage.OVER)
+def _names(kinds: Sequence[type[Event]]) -> str:
+    return ", ".join(sorted(kind.__name__ for kind in kinds))

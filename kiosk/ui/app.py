@@ -27,7 +27,7 @@ from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.session import Plan
+from kiosk.study.plan import Plan
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
 from kiosk.ui.performer import Screens

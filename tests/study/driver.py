@@ -17,7 +17,8 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Mood, Record, Wait
 from kiosk.study.events import Event, SessionEvent, Stage, Status, Timer, WorldEvent
-from kiosk.study.session import Plan, Session
+from kiosk.study.plan import Plan
+from kiosk.study.session import Session
 
 ONE_TAP = 700
 """How long the visitor thinks before a tap, in ms."""

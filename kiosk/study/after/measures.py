@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from kiosk.assistant.mdp import Action, Card
-from kiosk.study.events import BoardOpened, CardFlipped, Event, HintGiven
+from kiosk.study.events import (
+    BoardOpened,
+    CardFlipped,
+    Event,
+    HintGiven,
+    PauseAsked,
+    PauseEnded,
+    Stage,
+    StageEntered,
+)
 
 CARDS_IN_A_MOVE = 2
 
@@ -16,8 +25,8 @@ class Measures:
     """Times in ms, shares from 0 to 1; None where there is nothing to divide by.
 
     ``flips`` and ``moves`` (two flips) are both kept and never compared with each other: the paper's simulations
-    count moves, its results with people count flips. ``completion_ms`` runs from the first flip to the last match;
-    the clock without speech stands still from a hint until the board opens again. ``followed``: the flip after the
+    count moves, its results with people count flips. ``completion_ms`` runs from the first flip to the last match, but
+    for pauses; the clock without speech stands still from a hint until the board opens again. ``followed``: the flip after the
     hint is the hinted card, or lies in the hinted row or column, per hint. ``first_led_to_match``: first-card hints
     that were followed and whose move matched, per first-card hint.
     """
@@ -39,22 +48,34 @@ class Measures:
         return self.completion_ms / self.pairs if self.pairs else None
 
 
+def of_the_game(events: Iterable[Event]) -> Iterator[Event]:
+    """The events of the game itself; a practice has cards and flips as well, and does not count."""
+    in_game = False
+    for event in events:
+        if isinstance(event, StageEntered):
+            in_game = event.stage is Stage.GAME
+        if in_game:
+            yield event
+
+
 def measure(events: Iterable[Event]) -> Measures:
-    """The measures of one game, finished or not; events of other stages do not matter."""
-    events = tuple(events)
+    """The measures of a sitting's game, finished or not; events of other stages do not matter."""
+    events = tuple(of_the_game(events))
     flips = [event for event in events if isinstance(event, CardFlipped)]
     hints = [_Hinted.of(event, flips) for event in events if isinstance(event, HintGiven)]
     firsts = [hint for hint in hints if hint.given.card is Card.FIRST]
     matches = [flip for flip in flips if flip.matched]
     begin = flips[0].at_ms if flips else 0
     end = matches[-1].at_ms if matches else begin
+    paused = tuple(_spans(events, PauseAsked, PauseEnded, end))
+    held = tuple(_spans(events, HintGiven, BoardOpened, end))
     return Measures(
         flips=len(flips),
         moves=len(flips) // CARDS_IN_A_MOVE,
         pairs=len(matches),
         hints=len(hints),
-        completion_ms=end - begin,
-        completion_without_speech_ms=end - begin - _held(events, begin, end),
+        completion_ms=end - begin - _length(paused, begin, end),
+        completion_without_speech_ms=end - begin - _length((*paused, *held), begin, end),
         assistance_per_flip=_share(sum(hint.given.action.level for hint in hints), len(flips)),
         followed=_share(sum(hint.followed for hint in hints), len(hints)),
         first_followed=_share(sum(hint.followed for hint in firsts), len(firsts)),
@@ -89,16 +110,26 @@ def followed(hint: HintGiven, flip: CardFlipped) -> bool:
     return hint.row in (None, flip.position.row) and hint.column in (None, flip.position.column)
 
 
-def _held(events: tuple[Event, ...], begin: int, end: int) -> int:
-    """How long hints held the board between two times, in ms."""
-    held, since = 0, None
+def _spans(events: Iterable[Event], starts: type[Event], ends: type[Event], last: int) -> Iterator[tuple[int, int]]:
+    """From when to when it was between events of these two kinds, in ms; what never ends goes on to the last moment."""
+    since = None
     for event in events:
-        if isinstance(event, HintGiven):
+        if isinstance(event, starts) and since is None:
             since = event.at_ms
-        elif isinstance(event, BoardOpened) and since is not None:
-            held += max(0, min(event.at_ms, end) - max(since, begin))
+        elif isinstance(event, ends) and since is not None:
+            yield since, event.at_ms
             since = None
-    return held
+    if since is not None:
+        yield since, last
+
+
+def _length(spans: Iterable[tuple[int, int]], begin: int, end: int) -> int:
+    """How long some spans are together between two times, what they share counted once, in ms."""
+    total, reached = 0, begin
+    for since, until in sorted(spans):
+        total += max(0, min(until, end) - max(since, reached))
+        reached = max(reached, until)
+    return total
 
 
 def _share(part: float, whole: int) -> float | None:

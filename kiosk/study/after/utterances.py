@@ -10,6 +10,7 @@ from kiosk.study.events import (
     Event,
     HintGiven,
     RobotLost,
+    SentenceRepeated,
     SentenceRequested,
     SpeechFailed,
     SpeechFinished,
@@ -39,7 +40,7 @@ def utterances(events: Iterable[Event]) -> Utterances:
     under_way: int | None = None
     for event in events:
         match event:
-            case HintGiven(utterance=number) | SentenceRequested(utterance=number):
+            case HintGiven(utterance=number) | SentenceRequested(utterance=number) | SentenceRepeated(utterance=number):
                 requested.add(number)
                 under_way = number
             case SpeechFinished(utterance=number):

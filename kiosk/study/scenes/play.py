@@ -18,7 +18,8 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Mood, Script, Wait
 from kiosk.study.condition import Sentences
-from kiosk.study.events import Timer
+from kiosk.study.events import PracticeEnd, Timer, WorldEvent
+from kiosk.study.scenes.scene import Scene, Speaker
 
 
 @dataclass(frozen=True)
@@ -42,29 +43,47 @@ class _Given:
     marked: bool = False
 
 
-class Play:
+@dataclass(frozen=True)
+class Table:
+    """A dealt board, and the deck that its cards are from."""
+
+    board: Board
+    deck: str
+    practice: bool = False
+
+
+class Play(Scene):
     """A game on one board, helped or not."""
 
-    def __init__(
-        self,
-        board: Board,
-        guide: Guide | None,
-        timing: Timing,
-        utterances: Iterator[int],
-    ) -> None:
+    def __init__(self, table: Table, guide: Guide | None, timing: Timing, utterances: Iterator[int]) -> None:
         """Without a guide nobody helps; ``utterances`` numbers the sentences of the whole sitting."""
-        self.game = Concentration(board)
+        self.game = Concentration(table.board)
+        self._table = table
         self._guide = guide
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
 
-    def begin(self, script: Script) -> None:
-        """Deal and open the board."""
-        board = self.game.board
+    def enter(self, script: Script) -> None:
+        """Show and open the board."""
+        board, table = self.game.board, self._table
         script.note(happened.BoardDealt(at_ms=script.at_ms, rows=board.rows, columns=board.columns, cards=board.cards))
-        script.do(do.ShowBoard(board.rows, board.columns, board.pairs))
+        script.do(do.ShowBoard(board.rows, board.columns, board.pairs, table.deck, table.practice))
         self._help_or_open(script)
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """What a tap, the end of a wait, or a word of the body's leads to."""
+        match event:
+            case happened.CardTapped(position=position):
+                self.card_tapped(position, script)
+            case happened.TimerEnded(timer=timer):
+                self.timer_ended(timer, script)
+            case happened.SpeechStarted(utterance=utterance):
+                self.speech_started(utterance, script)
+            case happened.SpeechFinished(utterance=utterance):
+                self.speech_finished(utterance, script)
+            case happened.SpeechFailed(utterance=utterance):
+                self.speech_failed(utterance, script)
 
     def card_tapped(self, position: Position, script: Script) -> None:
         """Flip the card if that is possible now; if not, say why and change nothing."""
@@ -95,7 +114,11 @@ class Play:
             case Timer.MOOD:
                 script.do(do.Express(Mood.IDLE))
             case Timer.FINISH:
-                script.note(happened.GameFinished(at_ms=script.at_ms))
+                self.finish(script)
+
+    def finish(self, script: Script) -> None:
+        """Every pair was found, and has been looked at."""
+        script.note(happened.GameFinished(at_ms=script.at_ms))
 
     def speech_started(self, utterance: int, script: Script) -> None:
         """Let the mark follow the voice."""
@@ -147,11 +170,11 @@ class Play:
             return
         script.do(do.ShowPair((flip.position, self.game.board.mate(flip.position))))
         if self.game.over:
-            self._finish(script)
+            self._let_be_looked_at(script)
         else:
             self._help_or_open(script)
 
-    def _finish(self, script: Script) -> None:
+    def _let_be_looked_at(self, script: Script) -> None:
         """Let the last pair be looked at; what was learnt from this game, if anything, is put on record."""
         learnt = self._guide.assistant.finish(self.game) if self._guide else None
         if learnt is not None:
@@ -229,6 +252,40 @@ class Play:
             given.marked = True
             script.note(happened.HintMarked(at_ms=script.at_ms, flip=given.flip))
             script.do(do.ShowMark(given.hint.row, given.hint.column))
+
+
+class PracticePlay(Play):
+    """The game before the game: nobody helps, and it ends when it is done, when it is left, or after its time."""
+
+    def __init__(self, table: Table, timing: Timing, speaker: Speaker, longest_ms: int) -> None:
+        """End by itself after so long."""
+        super().__init__(table, None, timing, iter(()))
+        self._speaker = speaker
+        self._longest_ms = longest_ms
+
+    def enter(self, script: Script) -> None:
+        """Deal as before, also when it begins anew."""
+        self.game = Concentration(self.game.board)
+        super().enter(script)
+        script.do(do.StartTimer(Timer.PRACTICE, self._longest_ms))
+        self._speaker.say("practice-speech", script)
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """End early, or play."""
+        match event:
+            case happened.SkipTapped():
+                self._end(PracticeEnd.LEFT, script)
+            case happened.TimerEnded(timer=Timer.PRACTICE):
+                self._end(PracticeEnd.TIME, script)
+            case _:
+                super().react(event, script)
+
+    def finish(self, script: Script) -> None:
+        """Every pair was found."""
+        self._end(PracticeEnd.FOUND, script)
+
+    def _end(self, how: PracticeEnd, script: Script) -> None:
+        script.note(happened.PracticeFinished(at_ms=script.at_ms, how=how))
 
 
 def _reaction(hint: Hint, flip: Flip) -> Mood:

@@ -1,0 +1,78 @@
+"""Builds the scenes of one sitting from its plan and its seed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import count
+from random import Random
+
+from kiosk import BadInput
+from kiosk.assistant.adaptation import assistant_with
+from kiosk.assistant.mentaliser import TargetRule
+from kiosk.assistant.wording import Wording
+from kiosk.game import Board
+from kiosk.settings import Game, Practice
+from kiosk.study.commands import Script
+from kiosk.study.condition import help_in
+from kiosk.study.events import Event, Stage
+from kiosk.study.plan import Plan
+from kiosk.study.scenes.asking import Asking
+from kiosk.study.scenes.deciding import AgeGate, Consent
+from kiosk.study.scenes.play import Guide, Play, PracticePlay, Table
+from kiosk.study.scenes.reading import About, Debrief, Introduction, Result, Thanks
+from kiosk.study.scenes.scene import Scene, Speaker
+
+
+class Scenery:
+    """The scenes of a sitting, all of them made before it begins, so that what cannot be made is refused at once."""
+
+    def __init__(self, plan: Plan, seed: int, log: Callable[[Script], Sequence[Event]]) -> None:
+        """One stream of chance for each purpose: two conditions with the same seed play the same board."""
+        chance = {name: Random(f"{seed}/{name}") for name in ("deal", "targets", "words", "practice", "items")}
+        wording, numbers = Wording(plan.catalogue, chance["words"]), count(1)
+        self.speaker = Speaker(wording, numbers)
+        game = _game(plan, chance, wording, numbers)
+        settings = plan.settings
+        self._scenes: dict[Stage, Scene] = {
+            Stage.ABOUT: About(plan.information.about),
+            Stage.CONSENT: Consent(plan.information, plan.language),
+            Stage.AGE: AgeGate(settings.consent.adult),
+            Stage.ABOUT_YOU: Asking((plan.about_you,), chance["items"]),
+            Stage.INTRODUCTION: Introduction(self.speaker, game.game.board.pairs),
+            Stage.PRACTICE: self._practice(plan, chance["practice"]),
+            Stage.GAME: game,
+            Stage.RESULT: Result(self.speaker, log),
+            Stage.QUESTIONS: Asking(plan.questionnaires, chance["items"]),
+            Stage.DEBRIEF: Debrief(plan.information.debrief),
+            Stage.THANKS: Thanks(self.speaker, settings.timing.thanks),
+        }
+
+    def of(self, stage: Stage) -> Scene:
+        """The scene of a stage; before the first and after the last one nothing is to be seen of a sitting."""
+        return self._scenes.get(stage, _NOTHING)
+
+    def _practice(self, plan: Plan, chance: Random) -> PracticePlay:
+        practice = plan.settings.practice
+        table = Table(_deal(practice, plan.practice_deck, chance), practice.deck, practice=True)
+        return PracticePlay(table, plan.settings.timing, self.speaker, practice.longest)
+
+
+_NOTHING = Scene()
+
+
+def _game(plan: Plan, chance: dict[str, Random], wording: Wording, numbers: Iterator[int]) -> Play:
+    settings = plan.settings
+    rule = TargetRule(settings.assistance.target_rule)
+    given = help_in(plan.condition, rule, wording, chance["targets"])
+    assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance.step) if given else None
+    guide = Guide(assistant, given.sentences) if given and assistant else None
+    return Play(
+        Table(_deal(settings.game, plan.deck, chance["deal"]), settings.game.deck), guide, settings.timing, numbers
+    )
+
+
+def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Board:
+    try:
+        return Board.deal(game.rows, game.columns, cards, chance)
+    except ValueError as error:
+        raise BadInput(f"no game can be dealt from the deck {game.deck!r}: {error}") from error
