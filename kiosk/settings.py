@@ -26,7 +26,6 @@ from pydantic import (
 
 from kiosk import BadInput
 
-
 STAGES = (
     "about",
     "consent",
@@ -316,7 +315,7 @@ class Settings(Declared):
     def read(cls, path: Path) -> Self:
         """Read a study file; the paths in it start from its own folder."""
         settings = super().read(path)
-        settings._beside = path.parent  # noqa: SLF001 - its own
+        settings._beside = path.parent
         return settings
 
     @model_validator(mode="after")

@@ -26,9 +26,9 @@ class Measures:
 
     ``flips`` and ``moves`` (two flips) are both kept and never compared with each other: the paper's simulations
     count moves, its results with people count flips. ``completion_ms`` runs from the first flip to the last match, but
-    for pauses; the clock without speech stands still from a hint until the board opens again. ``followed``: the flip after the
-    hint is the hinted card, or lies in the hinted row or column, per hint. ``first_led_to_match``: first-card hints
-    that were followed and whose move matched, per first-card hint.
+    for pauses; the clock without speech stands still from a hint until the board opens again. ``followed``: the flip
+    after the hint is the hinted card, or lies in the hinted row or column, per hint. ``first_led_to_match``: first-card
+    hints that were followed and whose move matched, per first-card hint.
     """
 
     flips: int = 0
@@ -111,7 +111,7 @@ def followed(hint: HintGiven, flip: CardFlipped) -> bool:
 
 
 def _spans(events: Iterable[Event], starts: type[Event], ends: type[Event], last: int) -> Iterator[tuple[int, int]]:
-    """From when to when it was between events of these two kinds, in ms; what never ends goes on to the last moment."""
+    """From when to when it was between events of these two kinds, in ms; what never ends goes on to ``last``."""
     since = None
     for event in events:
         if isinstance(event, starts) and since is None:

@@ -240,7 +240,7 @@ class Order(Enum):
 
 
 class Questionnaire(Declared):
-    """Items in their order; ``version`` changes whenever one of them does, and ``note`` says where the wording is from."""
+    """Items in their order; ``version`` changes whenever one does, and ``note`` says where the wording is from."""
 
     file_kind = "questionnaire"
 

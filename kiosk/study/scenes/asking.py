@@ -1,4 +1,4 @@
-"""The scene of a stage's questionnaires: page by page, nothing chosen beforehand, nobody has to answer but what is required."""
+"""The scene of questionnaires: page by page, nothing chosen beforehand, no answer needed but what is required."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from kiosk.study import events as happened
 from kiosk.study.after.measures import Measures, measure
 from kiosk.study.commands import Mood, Script
 from kiosk.study.declared.information import Page
-from kiosk.study.events import SessionEvent, Timer, WorldEvent
+from kiosk.study.events import Event, Timer, WorldEvent
 from kiosk.study.scenes.scene import Scene, Speaker
 
 FEW_MOVES = 25
@@ -48,7 +48,7 @@ class Introduction(Scene):
 class Result(Scene):
     """What the visitor achieved."""
 
-    def __init__(self, speaker: Speaker, log: Callable[[Script], Sequence[SessionEvent]]) -> None:
+    def __init__(self, speaker: Speaker, log: Callable[[Script], Sequence[Event]]) -> None:
         """``log`` tells everything that was concluded, with what the script at hand adds."""
         self._speaker = speaker
         self._log = log
