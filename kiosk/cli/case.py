@@ -17,8 +17,8 @@ from kiosk.assistant.qtable import QTable, said_once
 from kiosk.assistant.wording import Catalogue
 from kiosk.game import Board
 from kiosk.settings import ASSETS, Assistance, Game
-from kiosk.study.condition import Condition
 from kiosk.study.after.moment import Moment
+from kiosk.study.condition import Condition
 
 SHAPE = Game()
 """The board of a case is the study's."""

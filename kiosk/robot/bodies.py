@@ -77,9 +77,12 @@ class Bodies:
         self._unsettled = True
         robot.look_for()
 
-    def begin(self) -> None:
-        """A sitting begins: the body stays as it is, unless the robot is lost."""
+    def begin(self, language: str) -> None:
+        """A sitting begins in this language: the body stays as it is, unless the robot is lost."""
         self._in_sitting = True
+        for body in (self._avatar, self._robot):
+            if body is not None:
+                body.speak(language)
 
     def rest(self) -> None:
         """No sitting is under way: nothing of the last one is kept, and the robot may be taken back."""

@@ -61,6 +61,10 @@ class Body(Protocol):
         """How it is."""
         ...
 
+    def speak(self, language: str) -> None:
+        """Speak this language, a code of two letters, from the next sentence on."""
+        ...
+
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other; the listener hears the rest."""
         ...

@@ -102,6 +102,10 @@ class Robot(Protocol):
         """Look for it and get it ready to speak the study's language; needed again after every failure."""
         ...
 
+    def speak(self, language: str) -> None:
+        """Speak this language from now on; where nothing is connected, once it is."""
+        ...
+
     def say(self, saying: Saying) -> None:
         """Say a sentence to its end, in place of any other. Never tried twice."""
         ...

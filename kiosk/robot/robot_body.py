@@ -67,6 +67,10 @@ class RobotBody:
         """See whether it is still well; ``robot_lost`` follows if not."""
         self._post(self._motion, "probe", self._robot.probe)
 
+    def speak(self, language: str) -> None:
+        """Speak this language; a robot without a voice for it is lost to the sitting."""
+        self._post(self._motion, "speak", partial(self._robot.speak, language))
+
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""
         self._drop_sentence()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
@@ -36,3 +36,25 @@ class Plan:
     def course(self) -> Course:
         """Its stages in their order; raises BadInput if there can be no such course."""
         return Course.of(self.settings.stages)
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study, ready to be run: a plan for each of its languages, alike in all but words."""
+
+    plans: tuple[Plan, ...]
+
+    @property
+    def settings(self) -> Settings:
+        """The study file."""
+        return self.plans[0].settings
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """What a visitor may choose from; the first one is shown at rest."""
+        return tuple(plan.language for plan in self.plans)
+
+    def plan(self, language: str, condition: Condition | None = None) -> Plan:
+        """The plan of a language, in the study file's condition or another one."""
+        plan = next(plan for plan in self.plans if plan.language == language)
+        return plan if condition is None else replace(plan, condition=condition)

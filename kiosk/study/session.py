@@ -48,7 +48,7 @@ class Session:
 
     def handle(self, event: WorldEvent) -> tuple[Command, ...]:
         """What one event leads to: records first; raises UnexpectedEvent, and changes nothing, if it has no place."""
-        self._check(event)
+        self.check(event)
         script = Script(event.at_ms)
         self._react(event, script)
         for step in (event, *script.notes):
@@ -62,7 +62,8 @@ class Session:
         """The measures of the game so far."""
         return measure(self._log)
 
-    def _check(self, event: WorldEvent) -> None:
+    def check(self, event: WorldEvent) -> None:
+        """Raise UnexpectedEvent if this event has no place now."""
         check_expected(self.stage, event)
         keepers = (self._presence, self._talk, self._scenery.of(self.stage))
         if not self._can_come(event) or not all(keeper.accepts(event) for keeper in keepers):

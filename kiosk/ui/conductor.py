@@ -9,18 +9,17 @@ import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 from kiosk.robot.bodies import Bodies
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
-from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command
-from kiosk.study.events import Event, Stage, WorldEvent
+from kiosk.study.events import Stage, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
 from kiosk.ui.clock import Clock
 from kiosk.ui.performer import Performer, Screens
+from kiosk.ui.record import Record
 from kiosk.ui.sounds import Effect, effect
 
 PAUSE_MS = 15_000
@@ -31,16 +30,19 @@ _log = logging.getLogger(__name__)
 Witness = Callable[[WorldEvent, tuple[Command, ...], Stage], None]
 """Is told of every event once its commands were carried out, and of the stage that the sitting is in."""
 
+NextSitting = Callable[[str], Provenance]
+"""What the next sitting is to follow, in the language that its visitor chose; may raise StoreFailed."""
+
 
 class Conductor:
     """Runs one sitting after another; it is also the body's listener."""
 
-    def __init__(
-        self, screens: Screens, recorder: Recorder, clock: Clock, next_sitting: Callable[[], Provenance]
-    ) -> None:
-        """``next_sitting`` is asked once for each sitting what it is to follow."""
+    def __init__(self, screens: Screens, recorder: Recorder, clock: Clock, next_sitting: NextSitting) -> None:
+        """``next_sitting`` is asked once for each sitting, when it begins."""
         self.witness: Witness | None = None
         self.play: Callable[[Effect], None] = lambda _: None
+        self.trouble: Callable[[str], None] = lambda _: None
+        """Is told, in words for the experimenter, of what the disk did not take."""
         self._recorder = recorder
         self._clock = clock
         self._next_sitting = next_sitting
@@ -48,17 +50,52 @@ class Conductor:
         self._queue: deque[WorldEvent] = deque()
         self._working = False
         self._begun_at = 0
-        self._listen(screens)
-        self._prepare()
+        self._session: Session | None = None
+        self._record: Record | None = None
+        screens.listen(self.start, self.tell)
+        self._performer.reset("attract")
+
+    @property
+    def stage(self) -> Stage:
+        """The stage of the sitting that is under way; attract if there is none."""
+        return Stage.ATTRACT if self._session is None else self._session.stage
 
     def take(self, bodies: Bodies) -> None:
         """Let these bodies speak; bodies report to the conductor, so it is there before them."""
         self._performer.bodies = bodies
 
+    def start(self, language: str) -> None:
+        """A visitor begins, in this language; nothing happens while somebody else is at it."""
+        if self._session is not None or self._performer.screens.kiosk.shown != "attract":
+            return
+        try:
+            sitting = self._next_sitting(language)
+        except StoreFailed as failure:
+            self._give_way(failure)
+            return
+        self._begin(self._with_body(sitting), Record(self._recorder, self._with_body(sitting)), self._clock.now_ms())
+        self.tell(happened.StartTapped)
+
+    def resume(self, sitting: Provenance, number: int, past: tuple[WorldEvent, ...]) -> None:
+        """Go on with a sitting that was cut off after these events, from the start of the stage it was in.
+
+        Raises UnexpectedEvent, and leaves everything as it is, if that stage cannot begin anew.
+        """
+        session = Session(sitting.plan, sitting.seed)
+        for event in past:
+            session.handle(event)
+        body = self._performer.body_name
+        resumed = happened.SittingResumed(at_ms=past[-1].at_ms, body=body or happened.BodyName.AVATAR)
+        session.check(resumed)
+        self._begin(
+            sitting, Record.resumed(self._recorder, sitting, number), self._clock.now_ms() - past[-1].at_ms, session
+        )
+        self.tell(happened.SittingResumed, body=resumed.body)
+
     def tell(self, kind: type[WorldEvent], **what: object) -> None:
-        """Something happened just now."""
-        if self._session.stage is Stage.ATTRACT:
-            self._begun_at = self._clock.now_ms()
+        """Something happened just now; without a sitting it does not matter."""
+        if self._session is None:
+            return
         self._queue.append(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
         if not self._working:
@@ -82,72 +119,68 @@ class Conductor:
 
     def close(self) -> None:
         """End the sitting that is under way, if there is one, because the program is being closed."""
-        if self._session.stage is not Stage.ATTRACT:
-            self.tell(happened.KioskClosed)
+        self.tell(happened.KioskClosed)
 
     def pause(self) -> None:
         """Something failed that the visitor can do nothing about: drop the sitting behind a calm screen, then go on."""
-        self._prepare("pause")
-        self._clock.after(PAUSE_MS, self._prepare)
+        self._rest("pause")
+        self._clock.after(PAUSE_MS, self._return)
 
-    def _listen(self, screens: Screens) -> None:
-        screens.kiosk.confirmed.connect(partial(self.tell, happened.StillHereTapped))
-        screens.attract.started.connect(partial(self.tell, happened.StartTapped))
-        screens.board.tapped.connect(lambda position: self.tell(happened.CardTapped, position=position))
-        screens.question.answered.connect(lambda item, value: self.tell(happened.AnswerGiven, item=item, value=value))
-        for screen in (screens.introduction, screens.result, screens.question):
-            screen.continued.connect(partial(self.tell, happened.ContinueTapped))
+    def _return(self) -> None:
+        if self._session is None:
+            self._rest("attract")
 
-    def _prepare(self, screen: str = "attract") -> None:
+    def _begin(self, sitting: Provenance, record: Record, begun_at: int, session: Session | None = None) -> None:
+        self._session = session or Session(sitting.plan, sitting.seed)
+        self._record = record
+        self._begun_at = begun_at
+        self._performer.begin(sitting.plan)
+
+    def _with_body(self, sitting: Provenance) -> Provenance:
+        """The sitting with the body that it begins with, whichever was meant."""
+        body = self._performer.body_name
+        return sitting if body is None else replace(sitting, body=body.value)
+
+    def _rest(self, screen: str) -> None:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""
         self._queue.clear()
-        self._sitting = self._next_sitting()
-        self._session = Session(self._sitting.plan, self._sitting.seed)
+        self._session = self._record = None
         self._performer.reset(screen)
 
     def _work(self) -> None:
         self._working = True
         try:
-            while self._queue:
-                self._handle(self._queue.popleft())
+            while self._queue and self._session is not None and self._record is not None:
+                self._handle(self._queue.popleft(), self._session, self._record)
         finally:
             self._working = False
 
-    def _handle(self, event: WorldEvent) -> None:
-        first = self._session.stage is Stage.ATTRACT
+    def _handle(self, event: WorldEvent, session: Session, record: Record) -> None:
         try:
-            commands = self._session.handle(event)
+            commands = session.handle(event)
         except UnexpectedEvent as refusal:
             _log.info("%s", refusal)
             return
         try:
-            self._record(event, commands, first=first)
+            record.write(event, commands)
         except StoreFailed as failure:
-            _log.error("%s", failure)
-            self.pause()
+            self._give_way(failure)
             return
+        self._perform(commands, record)
+        if self.witness is not None:
+            self.witness(event, commands, session.stage)
+        if session.stage is Stage.OVER:
+            self._rest("attract")
+
+    def _perform(self, commands: tuple[Command, ...], record: Record) -> None:
+        self._performer.screens.debrief.give_code(record.code)
         for command in commands:
             self._performer.perform(command)
         sound = effect(commands)
         if sound is not None:
             self.play(sound)
-        if self.witness is not None:
-            self.witness(event, commands, self._session.stage)
-        if self._session.stage is Stage.OVER:
-            self._prepare()
 
-    def _record(self, event: WorldEvent, commands: tuple[Command, ...], *, first: bool) -> None:
-        events = (event, *(command.event for command in commands if isinstance(command, do.Record)))
-        if first:
-            self._begin(events)
-        else:
-            self._recorder.append(events)
-
-    def _begin(self, events: tuple[Event, ...]) -> None:
-        """Write the sitting with the body that it begins with, whichever was meant."""
-        bodies = self._performer.bodies
-        if bodies is not None and bodies.current is not None:
-            self._sitting = replace(self._sitting, body=bodies.current.name.value)
-        self._recorder.begin(self._sitting, events)
-        if bodies is not None:
-            bodies.begin()
+    def _give_way(self, failure: StoreFailed) -> None:
+        _log.error("%s", failure)
+        self.trouble(str(failure))
+        self.pause()

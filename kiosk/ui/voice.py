@@ -44,6 +44,9 @@ class Voice(QObject):
     finished = Signal(int)
     failed = Signal(int, str)
 
+    def speak(self, language: str) -> None:
+        """Speak this language from the next sentence on."""
+
     def say(self, number: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""
         raise NotImplementedError
@@ -116,8 +119,8 @@ class EngineVoice(Voice):
     ) -> None:
         """Start the process; ``command`` and other deadlines stand in for its own in tests."""
         super().__init__(parent)
-        worker = (sys.executable, "-m", "kiosk.robot.speech", language, str(settings.rate), str(settings.volume))
-        self._command = command or worker
+        self._settings = settings
+        self._other = command
         self._start_deadline_ms = start_deadline_ms
         self._end_grace_ms = end_grace_ms
         self._language = language
@@ -132,6 +135,19 @@ class EngineVoice(Voice):
         self._deadline.setSingleShot(True)
         self._deadline.timeout.connect(self._overdue)
         self._process: QProcess | None = None
+        self._start()
+
+    def speak(self, language: str) -> None:
+        """End the process that speaks another language, and start one that speaks this one."""
+        if language == self._language:
+            return
+        self._language = language
+        self._failures = 0
+        process = self._let_go_of_process()
+        if process is not None:
+            # It puts its own things away when nobody is left to speak to.
+            process.closeWriteChannel()
+            QTimer.singleShot(QUIT_MS, process, process.kill)
         self._start()
 
     def say(self, number: int, sentence: str) -> None:
@@ -188,7 +204,14 @@ class EngineVoice(Voice):
         process.finished.connect(self._lost)
         process.errorOccurred.connect(self._lost)
         self._process = process
-        process.start(self._command[0], list(self._command[1:]))
+        command = self._other or self._worker
+        process.start(command[0], list(command[1:]))
+
+    @property
+    def _worker(self) -> tuple[str, ...]:
+        """The command that starts the engine for the language at hand."""
+        settings = self._settings
+        return (sys.executable, "-m", "kiosk.robot.speech", self._language, str(settings.rate), str(settings.volume))
 
     def _send(self, command: dict[str, Any]) -> None:
         if self._process is not None:
@@ -247,14 +270,19 @@ class EngineVoice(Voice):
         self._drop_process()
         self._give_up("the voice is gone")
 
-    def _drop_process(self) -> None:
+    def _let_go_of_process(self) -> QProcess | None:
+        """Hear no more of it; it is reaped a little later, and until then stays a child of this object."""
         process, self._process = self._process, None
+        self._ready = False
         if process is not None:
             process.blockSignals(True)  # noqa: FBT003 - Qt's signature
+            QTimer.singleShot(2 * QUIT_MS, process, process.deleteLater)
+        return process
+
+    def _drop_process(self) -> None:
+        process = self._let_go_of_process()
+        if process is not None:
             process.kill()
-            # It is reaped when its last word comes; until then it stays a child of this object.
-            QTimer.singleShot(QUIT_MS, process, process.deleteLater)
-        self._ready = False
         self._failures += 1
         if self._failures < MAX_FAILURES:
             self._start()

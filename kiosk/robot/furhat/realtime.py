@@ -89,10 +89,17 @@ class FurhatRealtime:
         self._open()
         if self._settings.key:
             self._sign_in()
-        voice = {"name": self._settings.voice} if self._settings.voice else {}
-        self._send("request.voice.config", language=_REGIONS.get(self._language, self._language), **voice)
+        self._choose_voice()
         self.probe()
         return Found((), (), None)
+
+    def speak(self, language: str) -> None:
+        """Have it choose a voice of another language; raises RobotFailed."""
+        if language == self._language:
+            return
+        self._language = language
+        if self._socket is not None:
+            self._choose_voice()
 
     def probe(self) -> None:
         """See whether it answers; raises RobotFailed."""
@@ -135,6 +142,10 @@ class FurhatRealtime:
             self._socket = None
             opened, self._opened = self._opened, ExitStack()
         opened.close()
+
+    def _choose_voice(self) -> None:
+        voice = {"name": self._settings.voice} if self._settings.voice else {}
+        self._send("request.voice.config", language=_REGIONS.get(self._language, self._language), **voice)
 
     def _sign_in(self) -> None:
         if self._ask("request.auth", "response.auth", key=self._settings.key).get("access") is not True:

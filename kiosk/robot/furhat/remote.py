@@ -35,16 +35,25 @@ class Furhat:
         self._language = language
         self._http = Http(settings.host, settings.port or PORT, settings.connect_deadline)
         self._gestures: tuple[str, ...] = ()
+        self._voices: tuple[RobotVoice, ...] = ()
 
     def connect(self) -> Found:
         """Look for it, see what it offers, and give it a voice of the language; raises RobotFailed."""
         self.resolve()
         self.probe()
         self._gestures = self.gestures()
-        voices = self.voices()
-        voice = chosen_voice(voices, self._language, self._settings.voice)
+        self._voices = self.voices()
+        voice = chosen_voice(self._voices, self._language, self._settings.voice)
         self.speak_with(voice)
-        return Found(voices, self._gestures, voice)
+        return Found(self._voices, self._gestures, voice)
+
+    def speak(self, language: str) -> None:
+        """Give it a voice of another language; raises RobotFailed if it has none."""
+        if language == self._language:
+            return
+        self._language = language
+        if self._voices:
+            self.speak_with(chosen_voice(self._voices, language, self._settings.voice))
 
     def resolve(self) -> None:
         """Look its name up, for all calls that follow; raises RobotFailed."""

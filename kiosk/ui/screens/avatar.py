@@ -140,6 +140,10 @@ class AvatarBody(QObject):
         voice.finished.connect(self._finished)
         voice.failed.connect(self._failed)
 
+    def speak(self, language: str) -> None:
+        """Speak this language from the next sentence on."""
+        self._voice.speak(language)
+
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence."""
         self._rest()
