@@ -6,7 +6,7 @@ import hashlib
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from enum import Enum
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PositiveInt, field_validator, model_validator
 
@@ -76,7 +76,7 @@ class _Pointed(_Rating):
 
 
 class Likert(_Pointed):
-    """Points between two worded ends; every point may have a word of its own."""
+    """Points between two worded ends."""
 
     kind: Literal["likert"]
     lowest: Words
@@ -229,6 +229,8 @@ Item = Annotated[
 ]
 Rating = Likert | Differential | Slider | Pictures
 Choice = Single | Multiple
+KINDS = ("likert", "differential", "slider", "pictures", "single", "multiple", "integer", "text", "page")
+"""Every kind of item."""
 
 
 class Order(Enum):
@@ -240,7 +242,10 @@ class Order(Enum):
 
 
 class Questionnaire(Declared):
-    """Items in their order; ``version`` changes whenever one does, and ``note`` says where the wording is from."""
+    """Items in their order; ``version`` changes whenever one does, and ``note`` says where the wording is from.
+
+    In a file, a table that is named like a kind holds what all items of that kind have, unless they say otherwise.
+    """
 
     file_kind = "questionnaire"
 
@@ -273,6 +278,17 @@ class Questionnaire(Declared):
     def unworded(self, language: str) -> tuple[str, ...]:
         """The items that lack a text in this language."""
         return tuple(item.id for item in self.items if any(language not in words for words in item.texts()))
+
+    @model_validator(mode="before")
+    @classmethod
+    def _give_items_what_their_kind_has(cls, given: Any) -> Any:  # noqa: ANN401 - whatever a file holds
+        if not isinstance(given, dict) or not isinstance(given.get("items"), list):
+            return given
+        shared = {kind: given[kind] for kind in KINDS if isinstance(given.get(kind), dict)}
+        items = [
+            shared.get(str(item.get("kind")), {}) | item if isinstance(item, dict) else item for item in given["items"]
+        ]
+        return {key: value for key, value in given.items() if key not in shared} | {"items": items}
 
     @field_validator("items")
     @classmethod
