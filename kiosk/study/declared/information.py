@@ -78,8 +78,9 @@ class Information(Declared):
 
 def check_alike(sheets: dict[str, Information], folder: Path) -> None:
     """Raise BadInput unless every language has the same version and asks for the same."""
-    by_content = {
-        (sheet.version, tuple((p.id, p.required) for p in sheet.consent.purposes)) for sheet in sheets.values()
+    asked = {
+        (sheet.version, tuple((purpose.id, purpose.required) for purpose in sheet.consent.purposes))
+        for sheet in sheets.values()
     }
-    if len(by_content) > 1:
+    if len(asked) > 1:
         raise BadInput(f"the information sheets in {folder} differ between languages in version or purposes")

@@ -281,7 +281,7 @@ class Questionnaire(Declared):
 
     @model_validator(mode="before")
     @classmethod
-    def _give_items_what_their_kind_has(cls, given: Any) -> Any:  # noqa: ANN401 - whatever a file holds
+    def _give_items_what_their_kind_has(cls, given: Any) -> Any:
         if not isinstance(given, dict) or not isinstance(given.get("items"), list):
             return given
         shared = {kind: given[kind] for kind in KINDS if isinstance(given.get(kind), dict)}
