@@ -35,11 +35,13 @@ robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), 
 @study_option
 @robot_host_option
 @robot_port_option
+@click.option("--site", default="", help="Where this kiosk stands, if data of several will be merged: A, B, ROME.")
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
 @json_option
 def open_kiosk(
     data: Path,
     study: Path | None,
+    site: str,
     robot_host: str | None,
     robot_port: int | None,
     *,
@@ -47,18 +49,14 @@ def open_kiosk(
     as_json: bool,
 ) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
-    plan = make_plan(read_settings(study, robot_host, robot_port))
+    prepared = read_study(read_settings(study, robot_host, robot_port))
     chance = SystemRandom()
-    commit = code_commit()
-
-    def next_sitting() -> Provenance:
-        return Provenance(plan, chance.getrandbits(SEED_BITS), AvatarBody.name.value, commit, simulated=False)
-
+    origin = Origin(code_commit(), simulated=False, seed=lambda: chance.getrandbits(SEED_BITS))
     mode = Mode(Display.WINDOW if window else Display.FULL_SCREEN)
     check_screen(mode.display)
-    with Recorder(data) as recorder:
+    with Recorder(data, site) as recorder:
         log_into(data)
-        with App(plan, mode, recorder, next_sitting) as app:
+        with App(mode, recorder, Desk(prepared, recorder, origin)) as app:
             app.run()
     told = {"data": str(data), "sittings": recorder.begun, "interrupted_before": list(recorder.recovered)}
     click.echo(json.dumps(told) if as_json else f"{recorder.begun} sittings were recorded in {data}.")

@@ -7,7 +7,6 @@ import logging
 import os
 import signal
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -26,10 +25,11 @@ from kiosk.robot.bodies import Bodies
 from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import ASSETS, Settings
-from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.plan import Plan
+from kiosk.store.recorder import Recorder
+from kiosk.study.plan import Study
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
+from kiosk.ui.desk import Desk
 from kiosk.ui.performer import Screens
 from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
 from kiosk.ui.screens.board import BoardScreen
@@ -78,29 +78,31 @@ class Mode:
 class App:
     """The kiosk, ready to run. Only one can be in a process."""
 
-    def __init__(self, plan: Plan, mode: Mode, recorder: Recorder, next_sitting: Callable[[], Provenance]) -> None:
-        """Build everything for this plan and show the window; ``next_sitting`` is asked once for each sitting."""
+    def __init__(self, mode: Mode, recorder: Recorder, desk: Desk) -> None:
+        """Build everything for the desk's study and show the window; the desk is asked once for each sitting."""
+        study = desk.study
+        settings = study.settings
         self.application = _application(mode.display)
         # A loop of our own: the application's asks every window first, and the window refuses everybody.
         self._loop = QEventLoop()
         self._owner = QObject()
         self.clock = _clock(mode, self._owner)
         self.started_ms = self.clock.now_ms()
-        self.screens = _screens(plan, self._owner)
-        self.conductor = Conductor(self.screens, recorder, self.clock, next_sitting)
-        self._voice = _voice(plan.settings, mode, self.clock, self._owner)
-        self.bodies = Bodies(self.conductor, self.clock.after, plan.settings.robot)
+        self.screens = _screens(study, self._owner)
+        self.conductor = Conductor(self.screens, recorder, self.clock, desk)
+        self._voice = _voice(settings, mode, self.clock, self._owner)
+        self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
         self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, self._owner))
         self.conductor.take(self.bodies)
         self._landing = Landing()
-        self._take_robot(plan)
-        if plan.settings.voice.sounds:
+        self._take_robot(settings)
+        if settings.voice.sounds:
             self.conductor.play = lambda effect: self._voice.play(effect.file)
-        if mode.pace is Pace.WALL and plan.settings.screen.motion:
+        if mode.pace is Pace.WALL and settings.screen.motion:
             # Kept, for Qt alone does not keep alive whom it calls back.
             self._life = IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
         self._engine = QQmlApplicationEngine()
-        self.window = self._load(plan, mode)
+        self.window = self._load(settings, mode)
         self.screens.kiosk.left.connect(self.quit)
         self._keep_heart_beating()
 
@@ -149,17 +151,16 @@ class App:
             part.deleteLater()
             QCoreApplication.sendPostedEvents(part, QEvent.Type.DeferredDelete)
 
-    def _take_robot(self, plan: Plan) -> None:
-        settings = plan.settings.robot
-        device = robot_of(settings, plan.catalogue.language)
+    def _take_robot(self, settings: Settings) -> None:
+        device = robot_of(settings.robot, settings.languages[0])
         if device is None:
             return
-        self.bodies.take_robot(RobotBody(device, self.bodies, self._landing, settings.look_every))
+        self.bodies.take_robot(RobotBody(device, self.bodies, self._landing, settings.robot.look_every))
         if isinstance(self.clock, VirtualClock):
             self.clock.waits_for = lambda: self.bodies.busy
 
-    def _load(self, plan: Plan, mode: Mode) -> QQuickWindow:
-        moving = plan.settings.screen.motion and mode.pace is Pace.WALL
+    def _load(self, settings: Settings, mode: Mode) -> QQuickWindow:
+        moving = settings.screen.motion and mode.pace is Pace.WALL
         screens = self.screens
         self._engine.setInitialProperties(
             {
@@ -173,7 +174,7 @@ class App:
                 "words": words(plan.catalogue),
                 "cardBack": QUrl.fromLocalFile(str(ASSETS / "cards" / "back.svg")),
                 "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
-                "textSize": plan.settings.screen.text_size,
+                "textSize": settings.screen.text_size,
                 "motion": MOTION_MS if moving else 0,
             }
         )
@@ -231,7 +232,7 @@ def _voice(settings: Settings, mode: Mode, clock: Clock, owner: QObject) -> Voic
         return SilentVoice(clock, owner)
     if not settings.voice.enabled:
         return NoVoice(owner)
-    return EngineVoice(settings.voice, settings.language, parent=owner)
+    return EngineVoice(settings.voice, settings.languages[0], parent=owner)
 
 
 def _screens(plan: Plan, owner: QObject) -> Screens:

@@ -9,6 +9,7 @@ import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from kiosk.robot.bodies import Bodies
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
@@ -18,6 +19,7 @@ from kiosk.study.events import Stage, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
 from kiosk.ui.clock import Clock
+from kiosk.ui.desk import Desk
 from kiosk.ui.performer import Performer, Screens
 from kiosk.ui.record import Record
 from kiosk.ui.sounds import Effect, effect
@@ -30,22 +32,18 @@ _log = logging.getLogger(__name__)
 Witness = Callable[[WorldEvent, tuple[Command, ...], Stage], None]
 """Is told of every event once its commands were carried out, and of the stage that the sitting is in."""
 
-NextSitting = Callable[[str], Provenance]
-"""What the next sitting is to follow, in the language that its visitor chose; may raise StoreFailed."""
-
-
 class Conductor:
     """Runs one sitting after another; it is also the body's listener."""
 
-    def __init__(self, screens: Screens, recorder: Recorder, clock: Clock, next_sitting: NextSitting) -> None:
-        """``next_sitting`` is asked once for each sitting, when it begins."""
+    def __init__(self, screens: Screens, recorder: Recorder, clock: Clock, desk: Desk) -> None:
+        """``desk`` is asked once for each sitting, when it begins."""
         self.witness: Witness | None = None
         self.play: Callable[[Effect], None] = lambda _: None
         self.trouble: Callable[[str], None] = lambda _: None
         """Is told, in words for the experimenter, of what the disk did not take."""
         self._recorder = recorder
         self._clock = clock
-        self._next_sitting = next_sitting
+        self._desk = desk
         self._performer = Performer(screens, clock, lambda timer: self.tell(happened.TimerEnded, timer=timer))
         self._queue: deque[WorldEvent] = deque()
         self._working = False
@@ -69,11 +67,12 @@ class Conductor:
         if self._session is not None or self._performer.screens.kiosk.shown != "attract":
             return
         try:
-            sitting = self._next_sitting(language)
+            sitting = self._with_body(self._desk.next_sitting(language))
         except StoreFailed as failure:
             self._give_way(failure)
             return
-        self._begin(self._with_body(sitting), Record(self._recorder, self._with_body(sitting)), self._clock.now_ms())
+        record = Record(self._recorder, sitting, partial(self._desk.kept, sitting))
+        self._begin(sitting, record, self._clock.now_ms())
         self.tell(happened.StartTapped)
 
     def resume(self, sitting: Provenance, number: int, past: tuple[WorldEvent, ...]) -> None:
@@ -87,9 +86,8 @@ class Conductor:
         body = self._performer.body_name
         resumed = happened.SittingResumed(at_ms=past[-1].at_ms, body=body or happened.BodyName.AVATAR)
         session.check(resumed)
-        self._begin(
-            sitting, Record.resumed(self._recorder, sitting, number), self._clock.now_ms() - past[-1].at_ms, session
-        )
+        record = Record.resumed(self._recorder, sitting, number)
+        self._begin(sitting, record, self._clock.now_ms() - past[-1].at_ms, session)
         self.tell(happened.SittingResumed, body=resumed.body)
 
     def tell(self, kind: type[WorldEvent], **what: object) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Self
 
 from kiosk.store.recorder import Provenance, Recorder
@@ -14,12 +15,13 @@ from kiosk.study.session import Keeping
 class Record:
     """What becomes of a sitting's events."""
 
-    def __init__(self, recorder: Recorder, sitting: Provenance) -> None:
-        """Nothing is written until a command says so."""
+    def __init__(self, recorder: Recorder, sitting: Provenance, kept: Callable[[], None] = lambda: None) -> None:
+        """Nothing is written until a command says so; ``kept`` is told when it is."""
         self.code = ""
         """What the participant can withdraw with; empty while nothing is stored."""
         self._recorder = recorder
         self._sitting = sitting
+        self._kept = kept
         self._keeping = Keeping.UNDECIDED
         self._held: list[Event] = []
 
@@ -50,3 +52,4 @@ class Record:
         self.code = self._recorder.begin(self._sitting, self._held).code
         self._keeping = Keeping.KEPT
         self._held.clear()
+        self._kept()

@@ -1,0 +1,81 @@
+"""The experimenter's desk: what the next sitting is to follow, by the list or by a decision that is recorded.
+
+No visitor sees it, and nothing decided here changes a sitting that is under way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.allocation import Allotted, Place
+from kiosk.study.condition import Condition
+from kiosk.study.events import BodyName
+from kiosk.study.plan import Study
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What all sittings of a run of the program have in common."""
+
+    code_commit: str
+    simulated: bool
+    seed: Callable[[], int]
+    """Gives every sitting a seed of its own."""
+
+
+class Desk:
+    """Chooses the next sitting's condition: the experimenter's, else the list's next, else the study file's."""
+
+    def __init__(self, study: Study, recorder: Recorder, origin: Origin) -> None:
+        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed already."""
+        self.study = study
+        self._recorder = recorder
+        self._origin = origin
+        self._chosen: Condition | None = None
+        allocation = study.settings.allocation
+        quotas = {Condition.named(name): quota for name, quota in allocation.quotas.items()}
+        self._listed = bool(quotas)
+        if quotas:
+            recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
+
+    @property
+    def chosen(self) -> Condition | None:
+        """The condition that the experimenter chose for the next sitting; None for the list's."""
+        return self._chosen
+
+    def choose(self, condition: Condition | None, reason: str) -> None:
+        """Have the next sitting in this condition, or, with None, in the list's; raises StoreFailed."""
+        name = condition.value if condition else "automatic"
+        self._recorder.note("ConditionChosen", {"condition": name, "reason": reason})
+        self._chosen = condition
+
+    def next_sitting(self, language: str) -> Provenance:
+        """What the next sitting is to follow; raises StoreFailed."""
+        place = self._next_place() if self._listed and self._chosen is None else None
+        condition = self._chosen or (place.condition if place else None)
+        return Provenance(
+            self.study.plan(language, condition),
+            self._origin.seed(),
+            BodyName.AVATAR.value,
+            self._origin.code_commit,
+            simulated=self._origin.simulated,
+            place=place,
+            allotted=self._allotted(place),
+        )
+
+    def kept(self, sitting: Provenance) -> None:
+        """This sitting is on record: what was chosen for it does not hold for the one after."""
+        if sitting.allotted is Allotted.OVERRIDE:
+            self._chosen = None
+
+    def _next_place(self) -> Place | None:
+        return self._recorder.next_place(simulated=self._origin.simulated)
+
+    def _allotted(self, place: Place | None) -> Allotted | None:
+        if self._chosen is not None:
+            return Allotted.OVERRIDE
+        if not self._listed:
+            return None
+        return Allotted.BEYOND if place is None else Allotted.LIST
