@@ -275,6 +275,41 @@ class Robot(Declared):
         return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
 
 
+class Keys(Declared):
+    """The experimenter's chords, in Qt's spelling; an empty one switches the key off."""
+
+    panel: Annotated[str, Field(description="Opens and closes the panel.")] = "Ctrl+Shift+P"
+    condition: Annotated[str, Field(description="Chooses the next visitor's condition, one after another.")] = (
+        "Ctrl+Shift+C"
+    )
+    body: Annotated[str, Field(description="Lets the robot or the avatar help from the next sitting on.")] = (
+        "Ctrl+Shift+B"
+    )
+    again: Annotated[str, Field(description="Says the last sentence again.")] = "Ctrl+Shift+A"
+    quiet: Annotated[str, Field(description="Makes the voice and the sounds silent, or heard again.")] = "Ctrl+Shift+M"
+    pause: Annotated[str, Field(description="Stops the sitting for a while, and lets it go on.")] = "Ctrl+Shift+Space"
+    end: Annotated[str, Field(description="Ends the sitting, with a reason.")] = "Ctrl+Shift+E"
+    next: Annotated[str, Field(description="Gets ready for the next visitor at once.")] = "Ctrl+Shift+N"
+    leave: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
+
+
+class Experimenter(Declared):
+    """Who may change a running study."""
+
+    pin: Annotated[
+        str,
+        Field(
+            exclude=True,
+            pattern=r"^(|scrypt:[0-9a-f]{32}:[0-9a-f]{64})$",
+            description="The PIN, salted and hashed, as 'recollect study pin' prints it; never recorded. Empty: none.",
+        ),
+    ] = ""
+    backup_every: Annotated[
+        PositiveInt, Field(description="How long after the last one a backup is made, in minutes, between sittings.")
+    ] = 60
+    backups: Annotated[PositiveInt, Field(description="How many backups are kept.")] = 24
+
+
 class Settings(Declared):
     """Everything that one study may set."""
 
@@ -307,6 +342,8 @@ class Settings(Declared):
     voice: Voice = Voice()
     robot: Robot = Robot()
     screen: Screen = Screen()
+    keys: Keys = Keys()
+    experimenter: Experimenter = Experimenter()
 
     _beside: Path = PrivateAttr(default_factory=Path)
     """The study file's folder: what it names by a path lies there. It is no setting, and is not recorded."""
