@@ -17,10 +17,11 @@ from kiosk.cli.wiring import code_commit, log_into, make_plan, read_settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.after.utterances import body_changes, utterances
 from kiosk.study.events import Event
-from kiosk.ui.app import App, Display, Mode, Pace, check_screen
+from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
 from kiosk.ui.rehearsing.shots import Shots, make_folder
 from kiosk.ui.screens.avatar import AvatarBody
+from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 SEED_BITS = 32
 SETTLE_MS = 450

@@ -21,7 +21,8 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App
+from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.robot.furhat_fake import FurhatFake
 from tests.robot.furhat_fake import Mode as Fault

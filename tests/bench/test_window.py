@@ -18,7 +18,8 @@ from PySide6.QtTest import QTest
 from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App
+from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import find, lay_out, middle
 from tests.bench.percentiles import tell_percentiles
 

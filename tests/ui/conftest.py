@@ -24,7 +24,8 @@ from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.reading import Archive, archive
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App
+from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, find, lay_out, middle
 

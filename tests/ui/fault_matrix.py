@@ -21,7 +21,8 @@ import click
 from kiosk.cli.wiring import make_plan, read_settings
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App
+from kiosk.ui.window import Display, Mode, Pace
 from tests.robot.furhat_fake import FAULTS
 from tests.robot.furhat_fake import Mode as Fault
 from tests.ui.sabotage import Moment, Outcome, Sabotage, outcome, replayed

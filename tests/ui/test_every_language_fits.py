@@ -19,7 +19,8 @@ from kiosk.cli.wiring import make_plan
 from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.commands import Wait
-from kiosk.ui.app import App, Display, Mode, Pace
+from kiosk.ui.app import App
+from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import lay_out
 from tests import pseudo
 

@@ -1,0 +1,127 @@
+"""The window with all its screens, and nothing behind it yet; the one place that makes Qt's application object."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+# PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QUrl
+from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
+from PySide6.QtQml import QQmlApplicationEngine
+from PySide6.QtQuick import QQuickWindow
+
+from kiosk import BadInput
+from kiosk.settings import ASSETS, Settings
+from kiosk.study.plan import Study
+from kiosk.ui.screens.every import Screens
+
+QML = Path(__file__).parent / "qml" / "Main.qml"
+FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
+MOTION_MS = 220
+"""How long a card takes to turn and a screen to fade; 0 without motion."""
+
+
+class Pace(Enum):
+    """How time passes."""
+
+    WALL = "wall"
+    """As it does for people, or a number of times as fast."""
+    VIRTUAL = "virtual"
+    """From one wait to the next, as fast as the machine allows, in silence and without motion."""
+
+
+class Display(Enum):
+    """Where the window is."""
+
+    FULL_SCREEN = "full screen"
+    WINDOW = "window"
+    NOWHERE = "nowhere"
+    """Drawn, but on no screen: it can be rehearsed and photographed."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """How the kiosk runs."""
+
+    display: Display = Display.FULL_SCREEN
+    pace: Pace = Pace.WALL
+    speed: float = 1.0
+
+
+class Window:
+    """All that can be seen. Only one can be in a process."""
+
+    def __init__(self, study: Study, mode: Mode) -> None:
+        """Show the window of this study; every screen of it is empty."""
+        self.application = _application(mode.display)
+        self.owner = QObject()
+        """What belongs to the window lives as long as this."""
+        self.screens = Screens.of(study, self.owner)
+        self._engine = QQmlApplicationEngine()
+        self.shown = self._load(study.settings, mode)
+        """Qt's own window."""
+
+    def close(self) -> None:
+        """Close it, with everything but the application object: Qt allows no second one."""
+        self.screens.kiosk.let_go()
+        self.shown.close()
+        # The engine goes before the objects that its windows look at.
+        for part in (self._engine, self.owner):
+            part.deleteLater()
+            QCoreApplication.sendPostedEvents(part, QEvent.Type.DeferredDelete)
+
+    def _load(self, settings: Settings, mode: Mode) -> QQuickWindow:
+        moving = settings.screen.motion and mode.pace is Pace.WALL
+        self._engine.setInitialProperties(
+            {
+                **self.screens.by_name,
+                "cardBack": QUrl.fromLocalFile(str(ASSETS / "cards" / "back.svg")),
+                "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
+                "textSize": settings.screen.text_size,
+                "motion": MOTION_MS if moving else 0,
+            }
+        )
+        self._engine.load(QUrl.fromLocalFile(str(QML)))
+        window = self._engine.rootObjects()[0]
+        if not isinstance(window, QQuickWindow):
+            raise TypeError(f"{QML} holds a {type(window).__name__}, not a window")
+        _show(window, mode.display)
+        return window
+
+
+def check_screen(display: Display) -> None:
+    """Raise BadInput where there is no screen to show anything on; Qt itself would end the process."""
+    needs = sys.platform.startswith("linux") and display is not Display.NOWHERE
+    if needs and not {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"} & os.environ.keys():
+        raise BadInput("there is no screen here; 'recollect rehearse --headless' needs none")
+
+
+def _application(display: Display) -> QGuiApplication:
+    """The application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
+    os.environ.setdefault("QT_QUICK_BACKEND", "software")
+    os.environ.setdefault("QSG_RENDER_LOOP", "basic")
+    if display is Display.NOWHERE:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    existing = QGuiApplication.instance()
+    application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
+    application.setQuitOnLastWindowClosed(False)
+    for font in FONTS:
+        QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
+    application.setFont(QFont("Noto Sans"))
+    application.setWindowIcon(QIcon(str(ASSETS / "icon.svg")))
+    return application
+
+
+def _show(window: QQuickWindow, display: Display) -> None:
+    if display is Display.FULL_SCREEN:
+        window.setFlags(window.flags() | Qt.WindowType.FramelessWindowHint | Qt.WindowType.WindowStaysOnTopHint)
+        # Without a window manager nobody obeys a wish for the full screen: take its size as well.
+        window.setGeometry(window.screen().geometry())
+        window.showFullScreen()
+    else:
+        window.show()
+    window.requestActivate()
