@@ -20,8 +20,9 @@ from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
 from kiosk.ui.clock import Clock
 from kiosk.ui.desk import Desk
-from kiosk.ui.performer import Performer, Screens
+from kiosk.ui.performer import Performer
 from kiosk.ui.record import Record
+from kiosk.ui.screens.every import Screens
 from kiosk.ui.sounds import Effect, effect
 
 PAUSE_MS = 15_000

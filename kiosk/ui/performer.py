@@ -3,34 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial, singledispatchmethod
 
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.body import Body
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
-from kiosk.study.events import Timer
+from kiosk.study.events import BodyName, Timer
+from kiosk.study.plan import Plan
 from kiosk.ui.clock import Clock, Wait
-from kiosk.ui.screens.avatar import AvatarScreen
-from kiosk.ui.screens.board import BoardScreen
-from kiosk.ui.screens.plain import AttractScreen, IntroductionScreen, KioskScreen, QuestionScreen, ResultScreen
+from kiosk.ui.screens.every import Screens
 
 SETTLE_MS = 400
 """How long a new screen takes no input; the slowest double click that desktops accept by default."""
-
-
-@dataclass(frozen=True)
-class Screens:
-    """Everything that can be shown."""
-
-    kiosk: KioskScreen
-    attract: AttractScreen
-    introduction: IntroductionScreen
-    board: BoardScreen
-    result: ResultScreen
-    question: QuestionScreen
-    avatar: AvatarScreen
 
 
 class Performer:
@@ -46,14 +31,20 @@ class Performer:
         self._settling: Wait | None = None
         screens.kiosk.unsettled.connect(self._let_settle)
 
+    def begin(self, plan: Plan) -> None:
+        """A sitting begins: everything speaks its language, and tells its contact."""
+        self.screens.speak(plan.catalogue)
+        self.screens.debrief.give_contact(plan.settings.consent.contact)
+        if self.bodies is not None:
+            self.bodies.begin(plan.language)
+
     def reset(self, screen: str) -> None:
-        """Leave nothing of a sitting: no wait, no sound, no bubble, no question; then show the screen of this name."""
+        """Leave nothing of a sitting: no wait, no sound, and no screen that remembers; then show this one."""
         for timer in Timer:
             self._stop_wait(timer)
         if self.bodies is not None:
             self.bodies.rest()
-        self.screens.avatar.say("")
-        self.screens.kiosk.ask_still_there(asks=False)
+        self.screens.clear()
         self.screens.kiosk.show(screen)
 
     @singledispatchmethod
@@ -66,13 +57,41 @@ class Performer:
         """It is on the disk already."""
 
     @perform.register
+    def _(self, command: do.KeepSitting) -> None:
+        """The record's matter."""
+
+    @perform.register
+    def _(self, command: do.ForgetSitting) -> None:
+        """The record's matter."""
+
+    @perform.register
+    def _(self, command: do.ShowAbout) -> None:
+        self.screens.about.show(command.page)
+        self.screens.kiosk.show("about")
+
+    @perform.register
+    def _(self, command: do.ShowConsent) -> None:
+        self.screens.consent.show(command.page)
+        self.screens.kiosk.show("consent")
+
+    @perform.register
+    def _(self, command: do.ShowTicks) -> None:
+        self.screens.consent.show_ticks(command.purposes)
+
+    @perform.register
+    def _(self, command: do.ShowAgeQuestion) -> None:
+        self.screens.age.ask(command.adult)
+        self.screens.kiosk.show("age")
+
+    @perform.register
     def _(self, command: do.ShowIntroduction) -> None:
         self.screens.kiosk.show("introduction")
 
     @perform.register
     def _(self, command: do.ShowBoard) -> None:
-        self.screens.board.deal(command.rows, command.columns, command.pairs)
-        self.screens.kiosk.show("game")
+        board, practice = self.screens.board, command.practice
+        board.deal(command.rows, command.columns, command.pairs, command.deck, practice=practice)
+        self.screens.kiosk.show("practice" if practice else "game")
 
     @perform.register
     def _(self, command: do.TurnUp) -> None:
@@ -141,13 +160,35 @@ class Performer:
         self.screens.kiosk.show("result")
 
     @perform.register
-    def _(self, command: do.ShowQuestion) -> None:
-        self.screens.question.ask(command.questionnaire, command.item, command.points, command.number, command.of)
-        self.screens.kiosk.show("questions")
+    def _(self, command: do.ShowItems) -> None:
+        self.screens.form.show(command.items, command.number, command.of)
+        self.screens.kiosk.show("form")
 
     @perform.register
     def _(self, command: do.ShowAnswer) -> None:
-        self.screens.question.show_answer(command.value)
+        self.screens.form.show_answer(command.item, command.value)
+
+    @perform.register
+    def _(self, command: do.ShowMissing) -> None:
+        asking = self.screens.consent if self.screens.kiosk.shown == "consent" else self.screens.form
+        asking.show_missing(command.names)
+
+    @perform.register
+    def _(self, command: do.ShowDebrief) -> None:
+        self.screens.debrief.show(command.page)
+        self.screens.kiosk.show("debrief")
+
+    @perform.register
+    def _(self, command: do.ShowThanks) -> None:
+        self.screens.kiosk.show("thanks")
+
+    @perform.register
+    def _(self, command: do.ShowPause) -> None:
+        self.screens.kiosk.pause(paused=True)
+
+    @perform.register
+    def _(self, command: do.HidePause) -> None:
+        self.screens.kiosk.pause(paused=False)
 
     @perform.register
     def _(self, command: do.AskStillThere) -> None:
@@ -169,6 +210,11 @@ class Performer:
     @perform.register
     def _(self, command: do.EndSitting) -> None:
         """The conductor gets ready for the next visitor; there is nothing to carry out before."""
+
+    @property
+    def body_name(self) -> BodyName | None:
+        """The name of the body that helps now."""
+        return None if self._body is None else self._body.name
 
     @property
     def _body(self) -> Body | None:

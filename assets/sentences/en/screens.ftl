@@ -1,21 +1,50 @@
 ### Every sentence on the screens and every one that is spoken outside a hint.
 
+language-name = English
+
 ## Attract
 
 attract-title = Do you remember?
-attract-line = Play a game of pairs with me. It takes about five minutes.
+attract-line = Play a game of pairs with me.
 attract-start = Start
+
+## About the study
+
+about-continue = Continue
+
+## Consent
+
+consent-required = needed to take part
+consent-optional = up to you
+consent-missing = Please tick this box if you want to take part.
+consent-agree = I take part
+consent-decline = Play without taking part
+
+## Age
+
+age-question = Are you { $adult } years old or older?
+age-line = You can play either way. If you are younger, nothing about you is stored.
+age-yes = Yes
+age-no = No
 
 ## Introduction
 
 introduction-title = Hello!
 introduction-speech =
-    .a = Hello, nice to meet you! There are twenty-four cards, and every picture is there twice. Turn two cards at a time and find all the pairs. Now and then I will help you. Good luck!
-    .b = Hello, I am glad you are here! Twenty-four cards, twelve pairs. Turn two cards at a time until all the pairs are found. Sometimes I will give you a hint. Have fun!
+    .a = Hello, nice to meet you! There are { $cards } cards, and every picture is there twice. Turn two cards at a time and find all the pairs. Now and then I will help you. Good luck!
+    .b = Hello, I am glad you are here! { $cards } cards, { $pairs } pairs. Turn two cards at a time until all the pairs are found. Sometimes I will give you a hint. Have fun!
 introduction-turn = Turn two cards at a time.
 introduction-match = Two alike stay open. Two different ones turn back.
 introduction-help = Now and then I give you a hint. Whether you take it is up to you.
 introduction-continue = I am ready
+
+## Practice
+
+practice-title = Practice
+practice-skip = To the game
+practice-speech =
+    .a = Let us practise first. Nothing counts yet, and you can go on to the game whenever you like.
+    .b = First a short practice. Try it out in peace; when you have had enough, go on to the game.
 
 ## Game
 
@@ -46,7 +75,7 @@ result-time =
 result-time-label = Time
 result-moves-label = Moves
 result-pairs-label = Pairs
-result-continue = Three short questions
+result-continue = Continue
 result-speech-few =
     .a = Wow, what a memory! Only { $moves } moves.
     .b = { $moves } moves! That was really quick.
@@ -55,22 +84,47 @@ result-speech-some =
     .b = Nicely played, { $moves } moves.
 result-speech-many =
     .a = You did it, all the pairs are found! Thank you for playing with me.
-    .b = There they are, all twelve pairs. That was fun!
+    .b = There they are, all the pairs. That was fun!
 
 ## Questions
 
-questions-progress = Question { $number } of { $all }
-questions-lowest = not at all
-questions-highest = very much
-questions-next = Next
-questions-skip = Skip
-questions-finish = Finish
-question-closing-enjoyed = Did you enjoy the game?
-question-closing-helped = Did the hints help you to find the pairs?
-question-closing-understood = Did your helper seem to know what you remembered?
+form-progress = Page { $number } of { $all }
+form-next = Next
+form-skip = Skip
+form-finish = Finish
+form-missing = Please answer this one first.
+form-range = from { $lowest } to { $highest }
+form-type = Tap here to type
+form-less = One less
+form-more = One more
+
+## The keyboard on the screen
+
+keyboard-shift = Capitals
+keyboard-delete = Delete
+keyboard-space = Space
+keyboard-done = Done
+
+## Debrief
+
+debrief-code = Your code
+debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }.
+debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
+debrief-subject = Please delete my data: { $code }
+debrief-continue = Continue
+
+## Thanks
+
+thanks-title = Thank you!
+thanks-line = It was lovely to play with you. See you soon!
+thanks-continue = Finish
+thanks-speech =
+    .a = Thank you for playing with me. Goodbye!
+    .b = That was a pleasure. Thank you, and have a lovely day!
 
 ## Everywhere
 
+scroll-more = There is more below
 still-there-title = Are you still there?
 still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here

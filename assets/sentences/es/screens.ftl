@@ -1,22 +1,51 @@
 ### Every sentence on the screens and every one that is spoken outside a hint.
 ### Informal "tú", and nothing that tells whether the visitor, or the assistant, is a woman or a man.
 
+language-name = Español
+
 ## Attract
 
 attract-title = ¿Te acuerdas?
-attract-line = Juega conmigo a encontrar las parejas. Se tarda unos cinco minutos.
+attract-line = Juega conmigo a encontrar las parejas.
 attract-start = Empezar
+
+## About the study
+
+about-continue = Continuar
+
+## Consent
+
+consent-required = necesario para participar
+consent-optional = como prefieras
+consent-missing = Si quieres participar, marca esta casilla.
+consent-agree = Participo
+consent-decline = Jugar sin participar
+
+## Age
+
+age-question = ¿Has cumplido { $adult } años?
+age-line = Puedes jugar en cualquier caso. Si aún no los tienes, no guardamos nada sobre ti.
+age-yes = Sí
+age-no = No
 
 ## Introduction
 
 introduction-title = ¡Hola!
 introduction-speech =
-    .a = ¡Hola, me alegro de conocerte! Hay veinticuatro cartas, y cada dibujo está dos veces. Levanta las cartas de dos en dos y encuentra todas las parejas. De vez en cuando te echaré una mano. ¡Mucha suerte!
-    .b = ¡Hola, qué bien que estés aquí! Veinticuatro cartas, doce parejas. Levanta las cartas de dos en dos hasta encontrarlas todas. A veces te daré una pista. ¡Que te diviertas!
+    .a = ¡Hola, me alegro de conocerte! Hay { $cards } cartas, y cada dibujo está dos veces. Levanta las cartas de dos en dos y encuentra todas las parejas. De vez en cuando te echaré una mano. ¡Mucha suerte!
+    .b = ¡Hola, qué bien que estés aquí! { $cards } cartas, { $pairs } parejas. Levanta las cartas de dos en dos hasta encontrarlas todas. A veces te daré una pista. ¡Que te diviertas!
 introduction-turn = Da la vuelta a dos cartas cada vez.
 introduction-match = Dos iguales se quedan a la vista. Dos distintas se vuelven a tapar.
 introduction-help = De vez en cuando te doy una pista. Tú decides si la sigues.
 introduction-continue = Empecemos
+
+## Practice
+
+practice-title = Práctica
+practice-skip = Ir al juego
+practice-speech =
+    .a = Primero practicamos un poco. Todavía no cuenta nada, y puedes pasar al juego cuando quieras.
+    .b = Empezamos con una breve práctica. Prueba con calma; cuando tengas bastante, pasa al juego.
 
 ## Game
 
@@ -47,7 +76,7 @@ result-time =
 result-time-label = Tiempo
 result-moves-label = Jugadas
 result-pairs-label = Parejas
-result-continue = Tres preguntas breves
+result-continue = Continuar
 result-speech-few =
     .a = ¡Vaya memoria! Solo { $moves } jugadas.
     .b = ¡En { $moves } jugadas! Ha sido rapidísimo.
@@ -56,22 +85,47 @@ result-speech-some =
     .b = Buena partida, { $moves } jugadas.
 result-speech-many =
     .a = ¡Lo has conseguido, todas las parejas! Gracias por jugar conmigo.
-    .b = Ahí están, las doce parejas. ¡Qué divertido!
+    .b = Ahí están, todas las parejas. ¡Qué divertido!
 
 ## Questions
 
-questions-progress = Pregunta { $number } de { $all }
-questions-lowest = nada
-questions-highest = muchísimo
-questions-next = Siguiente
-questions-skip = Saltar
-questions-finish = Terminar
-question-closing-enjoyed = ¿Te ha gustado el juego?
-question-closing-helped = ¿Te han ayudado las pistas a encontrar las parejas?
-question-closing-understood = ¿Te ha parecido que quien te ayudaba sabía lo que recordabas?
+form-progress = Página { $number } de { $all }
+form-next = Siguiente
+form-skip = Saltar
+form-finish = Terminar
+form-missing = Responde primero a esta pregunta, por favor.
+form-range = de { $lowest } a { $highest }
+form-type = Toca aquí para escribir
+form-less = Uno menos
+form-more = Uno más
+
+## The keyboard on the screen
+
+keyboard-shift = Mayúsculas
+keyboard-delete = Borrar
+keyboard-space = Espacio
+keyboard-done = Hecho
+
+## Debrief
+
+debrief-code = Tu código
+debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }.
+debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
+debrief-subject = Por favor, borren mis datos: { $code }
+debrief-continue = Continuar
+
+## Thanks
+
+thanks-title = ¡Gracias!
+thanks-line = Ha sido un placer jugar contigo. ¡Hasta pronto!
+thanks-continue = Terminar
+thanks-speech =
+    .a = Gracias por jugar conmigo. ¡Hasta la vista!
+    .b = Ha sido un placer. ¡Gracias, y que tengas un buen día!
 
 ## Everywhere
 
+scroll-more = Hay más abajo
 still-there-title = ¿Sigues ahí?
 still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí

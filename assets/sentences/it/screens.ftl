@@ -1,22 +1,51 @@
 ### Every sentence on the screens and every one that is spoken outside a hint.
 ### Informal "tu", and nothing that tells whether the visitor, or the assistant, is a woman or a man.
 
+language-name = Italiano
+
 ## Attract
 
 attract-title = Ti ricordi?
-attract-line = Gioca con me a trovare le coppie. Ci vogliono circa cinque minuti.
+attract-line = Gioca con me a trovare le coppie.
 attract-start = Inizia
+
+## About the study
+
+about-continue = Continua
+
+## Consent
+
+consent-required = necessario per partecipare
+consent-optional = come preferisci
+consent-missing = Se vuoi partecipare, spunta questa casella.
+consent-agree = Partecipo
+consent-decline = Gioco senza partecipare
+
+## Age
+
+age-question = Hai compiuto { $adult } anni?
+age-line = Puoi giocare in ogni caso. Se non li hai ancora, non conserviamo nulla su di te.
+age-yes = Sì
+age-no = No
 
 ## Introduction
 
 introduction-title = Ciao!
 introduction-speech =
-    .a = Ciao, che piacere conoscerti! Ci sono ventiquattro carte, e ogni figura c'è due volte. Gira due carte alla volta e trova tutte le coppie. Ogni tanto ti darò una mano. In bocca al lupo!
-    .b = Ciao, che bello averti qui! Ventiquattro carte, dodici coppie. Gira due carte alla volta, finché non le hai trovate tutte. Qualche volta ti darò un suggerimento. Buon divertimento!
+    .a = Ciao, che piacere conoscerti! Ci sono { $cards } carte, e ogni figura c'è due volte. Gira due carte alla volta e trova tutte le coppie. Ogni tanto ti darò una mano. In bocca al lupo!
+    .b = Ciao, che bello averti qui! { $cards } carte, { $pairs } coppie. Gira due carte alla volta, finché non le hai trovate tutte. Qualche volta ti darò un suggerimento. Buon divertimento!
 introduction-turn = Gira due carte alla volta.
 introduction-match = Due carte uguali restano scoperte. Due diverse si coprono di nuovo.
 introduction-help = Ogni tanto ti do un suggerimento. Sta a te decidere se seguirlo.
 introduction-continue = Cominciamo
+
+## Practice
+
+practice-title = Prova
+practice-skip = Vai al gioco
+practice-speech =
+    .a = Prima facciamo una prova. Non conta ancora nulla, e puoi passare al gioco quando vuoi.
+    .b = Cominciamo con una breve prova. Fai con calma; quando ne hai abbastanza, passa al gioco.
 
 ## Game
 
@@ -51,7 +80,7 @@ result-time =
 result-time-label = Tempo
 result-moves-label = Mosse
 result-pairs-label = Coppie
-result-continue = Tre brevi domande
+result-continue = Continua
 result-speech-few =
     .a = Wow, che memoria! Solo { $moves } mosse.
     .b = In { $moves } mosse! È stato davvero veloce.
@@ -60,22 +89,47 @@ result-speech-some =
     .b = Bella partita, { $moves } mosse.
 result-speech-many =
     .a = Ce l'hai fatta, hai trovato tutte le coppie! Grazie per aver giocato con me.
-    .b = Eccole qua, tutte e dodici le coppie. È stato divertente!
+    .b = Eccole qua, tutte le coppie. È stato divertente!
 
 ## Questions
 
-questions-progress = Domanda { $number } di { $all }
-questions-lowest = per niente
-questions-highest = moltissimo
-questions-next = Avanti
-questions-skip = Salta
-questions-finish = Fine
-question-closing-enjoyed = Ti è piaciuto il gioco?
-question-closing-helped = I suggerimenti ti hanno aiutato a trovare le coppie?
-question-closing-understood = Secondo te, chi ti aiutava sapeva che cosa ricordavi?
+form-progress = Pagina { $number } di { $all }
+form-next = Avanti
+form-skip = Salta
+form-finish = Fine
+form-missing = Rispondi prima a questa domanda, per favore.
+form-range = da { $lowest } a { $highest }
+form-type = Tocca qui per scrivere
+form-less = Uno in meno
+form-more = Uno in più
+
+## The keyboard on the screen
+
+keyboard-shift = Maiuscole
+keyboard-delete = Cancella
+keyboard-space = Spazio
+keyboard-done = Fatto
+
+## Debrief
+
+debrief-code = Il tuo codice
+debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }.
+debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
+debrief-subject = Per favore, cancellate i miei dati: { $code }
+debrief-continue = Continua
+
+## Thanks
+
+thanks-title = Grazie!
+thanks-line = È stato bello giocare con te. A presto!
+thanks-continue = Fine
+thanks-speech =
+    .a = Grazie per aver giocato con me. Arrivederci!
+    .b = È stato un piacere. Grazie, e buona giornata!
 
 ## Everywhere
 
+scroll-more = Sotto c'è altro
 still-there-title = Ci sei ancora?
 still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui

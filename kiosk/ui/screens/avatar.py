@@ -55,6 +55,16 @@ class AvatarScreen(QObject):
         self._bubble = sentence
         self.changed.emit()
 
+    def clear(self) -> None:
+        """Say nothing, and look calmly at whoever comes."""
+        self._bubble = ""
+        self._mood = Mood.IDLE
+        self._ponders = False
+        self._gaze = self._glance = (0.0, 0.0)
+        self._mouth = 0.0
+        self.changed.emit()
+        self.spoke.emit()
+
     def look(self, x: float, y: float) -> None:
         """Look left or right and up or down, each from -1 to 1; (0, 0) is at the visitor."""
         self._gaze = (x, y)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
@@ -30,6 +31,7 @@ QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _NOWHERE = -1
+_NO_FOLDER = Path()
 _WAITS = {Wait.SPEAKING: "game-wait-speaking", Wait.TURNING_BACK: "game-wait-turning-back"}
 
 
@@ -58,21 +60,40 @@ class BoardScreen(QAbstractListModel):
     changed = Signal()
     tapped = Signal(Position)
     """A card was tapped."""
+    skipped = Signal()
+    """The visitor leaves the practice."""
 
-    def __init__(self, catalogue: Catalogue, pictures: Path, parent: QObject | None = None) -> None:
-        """Take the cards' pictures from this folder, as ``<card>.svg``."""
+    def __init__(self, catalogue: Catalogue, folder_of: Callable[[str], Path], parent: QObject | None = None) -> None:
+        """``folder_of`` tells where the pictures of a deck are, as ``<card>.svg``."""
         super().__init__(parent)
         self._catalogue = catalogue
-        self._pictures = pictures
+        self._folder_of = folder_of
+        self._pictures = _NO_FOLDER
+        self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
         self._wait: Wait | None = None
         self._mark_row = self._mark_column = _NOWHERE
 
-    def deal(self, rows: int, columns: int, pairs: int) -> None:
-        """Show so many closed cards."""
+    def speak(self, catalogue: Catalogue) -> None:
+        """Name the cards, and tell the progress, in this language, from the next board on."""
+        self._catalogue = catalogue
+        self.changed.emit()
+
+    def deal(self, rows: int, columns: int, pairs: int, deck: str, *, practice: bool = False) -> None:
+        """Show so many closed cards of a deck; a practice can be left."""
+        self._pictures = self._folder_of(deck)
+        self._reset(rows, columns, pairs, practice=practice)
+
+    def clear(self) -> None:
+        """Show no card."""
+        self._pictures = _NO_FOLDER
+        self._reset(0, 0, 0, practice=False)
+
+    def _reset(self, rows: int, columns: int, pairs: int, *, practice: bool) -> None:
         self.beginResetModel()
         self._rows, self._columns, self._pairs = rows, columns, pairs
+        self._practice = practice
         self._faces = [_Face() for _ in range(rows * columns)]
         self.endResetModel()
         self._pairs_found = self._moves = 0
@@ -208,6 +229,11 @@ class BoardScreen(QAbstractListModel):
         return self._catalogue.text("game-moves", moves=self._moves)
 
     @Property(bool, notify=changed)
+    def practice(self) -> bool:
+        """Whether this is a practice, and can be left."""
+        return self._practice
+
+    @Property(bool, notify=changed)
     def open(self) -> bool:
         """Whether a tap counts."""
         return self._wait is None
@@ -236,3 +262,8 @@ class BoardScreen(QAbstractListModel):
     def tap(self, location: int) -> None:
         """The visitor taps a card."""
         self.tapped.emit(self._position(location))
+
+    @Slot()
+    def skip(self) -> None:
+        """The visitor leaves the practice."""
+        self.skipped.emit()

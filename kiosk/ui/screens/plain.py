@@ -1,24 +1,26 @@
-"""One small object per screen: what it shows, and what the visitor did. No object knows what comes next."""
+"""The window as a whole, and what draws people to it. Neither knows what comes next."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
+from kiosk.ui.screens.words import words
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
-MS_PER_SECOND = 1000
-SECONDS_PER_MINUTE = 60
-
 
 @QmlElement
 class KioskScreen(QObject):
-    """The window as a whole: which screen is shown, and whether somebody is asked if they are still there."""
+    """The window as a whole: which screen is shown, in which language, and what lies over it."""
 
     changed = Signal()
+    spoken = Signal()
+    """Another language is spoken; apart from ``changed``, because all texts follow."""
     confirmed = Signal()
     """The visitor said that they are still there."""
     left = Signal()
@@ -26,12 +28,19 @@ class KioskScreen(QObject):
     unsettled = Signal()
     """Something else is shown than a moment ago."""
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._words = words(catalogue)
         self._screen = "attract"
         self._asks_still_there = False
+        self._paused = False
         self._leaving = False
         self._settled = True
+
+    def speak(self, catalogue: Catalogue) -> None:
+        """Show every fixed text in this language."""
+        self._words = words(catalogue)
+        self.spoken.emit()
 
     def show(self, screen: str) -> None:
         """Show the screen of this name; it takes no input until ``settle``."""
@@ -49,10 +58,36 @@ class KioskScreen(QObject):
             self._asks_still_there = asks
             self._unsettle()
 
+    def pause(self, *, paused: bool) -> None:
+        """Cover everything with a calm word, or take it away."""
+        if paused != self._paused:
+            self._paused = paused
+            self._unsettle()
+
+    def clear(self) -> None:
+        """Nothing lies over the screen."""
+        self.ask_still_there(asks=False)
+        self.pause(paused=False)
+
     @property
     def shown(self) -> str:
         """The name of the screen that is shown."""
         return self._screen
+
+    @property
+    def takes_input(self) -> bool:
+        """Whether what is shown can be tapped."""
+        return self._settled
+
+    @property
+    def covered(self) -> bool:
+        """Whether a question or a calm word lies over the screen."""
+        return self._asks_still_there or self._paused
+
+    @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
+    def words(self) -> dict[str, str]:
+        """The fixed texts, by the names of their messages."""
+        return self._words
 
     @Property(str, notify=changed)
     def screen(self) -> str:
@@ -62,17 +97,17 @@ class KioskScreen(QObject):
     @Property(bool, notify=changed)
     def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention
         """Whether the visitor is asked if they are still there."""
-        return self._asks_still_there
+        return self._asks_still_there and not self._paused
 
-    def _unsettle(self) -> None:
-        self._settled = False
-        self.changed.emit()
-        self.unsettled.emit()
+    @Property(bool, notify=changed)
+    def paused(self) -> bool:
+        """Whether a calm word covers everything."""
+        return self._paused
 
-    @property
-    def takes_input(self) -> bool:
-        """Whether what is shown can be tapped."""
-        return self._settled
+    @Property(bool, notify=changed)
+    def bare(self) -> bool:
+        """Whether nothing lies over the screen."""
+        return not self.covered
 
     @Property(bool, notify=changed)
     def settled(self) -> bool:
@@ -99,22 +134,40 @@ class KioskScreen(QObject):
         """The experimenter leaves the kiosk."""
         self.left.emit()
 
+    def _unsettle(self) -> None:
+        self._settled = False
+        self.changed.emit()
+        self.unsettled.emit()
+
 
 @QmlElement
 class AttractScreen(QObject):
-    """What draws people in: a row of cards, of which one pair after another is turned up."""
+    """What draws people in: cards that turn, a title in one language after another, and a way in for each of them."""
 
     changed = Signal()
-    started = Signal()
+    started = Signal(str)
+    """A visitor begins, in this language."""
 
-    def __init__(self, pictures: tuple[str, ...], parent: QObject | None = None) -> None:
+    def __init__(self, pictures: Sequence[str], catalogues: Sequence[Catalogue], parent: QObject | None = None) -> None:
+        """Show these pictures; the first of the languages is shown first."""
         super().__init__(parent)
         self._pictures = list(pictures)
-        self._shown = 0
+        self._catalogues = tuple(catalogues)
+        self._shown = self._language = 0
 
     def turn(self) -> None:
         """Turn up the next card."""
         self._shown = (self._shown + 1) % len(self._pictures)
+        self.changed.emit()
+
+    def next_language(self) -> None:
+        """Show the title in the next language."""
+        self._language = (self._language + 1) % len(self._catalogues)
+        self.changed.emit()
+
+    def clear(self) -> None:
+        """Begin anew, with the first card and the first language."""
+        self._shown = self._language = 0
         self.changed.emit()
 
     @Property(list, constant=True)
@@ -127,135 +180,32 @@ class AttractScreen(QObject):
         """Which of the cards is turned up."""
         return self._shown
 
-    @Slot()
-    def start(self) -> None:
-        """A visitor begins."""
-        self.started.emit()
-
-
-@QmlElement
-class IntroductionScreen(QObject):
-    """What the game is about."""
-
-    continued = Signal()
-
-    @Slot()
-    def proceed(self) -> None:
-        """The visitor is ready."""
-        self.continued.emit()
-
-
-@QmlElement
-class ResultScreen(QObject):
-    """What the visitor achieved."""
-
-    changed = Signal()
-    continued = Signal()
-
-    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._catalogue = catalogue
-        self._pairs = self._moves = self._time = ""
-
-    def show(self, pairs: int, moves: int, time_ms: int) -> None:
-        """Show a finished game."""
-        minutes, seconds = divmod(round(time_ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
-        self._pairs, self._moves = str(pairs), str(moves)
-        self._time = self._catalogue.text("result-time", minutes=minutes, seconds=seconds)
-        self.changed.emit()
+    @Property(str, notify=changed)
+    def title(self) -> str:
+        """The title, in the language of the moment."""
+        return self._text("attract-title")
 
     @Property(str, notify=changed)
-    def pairs(self) -> str:
-        """How many pairs were found."""
-        return self._pairs
+    def line(self) -> str:
+        """The line below it, in the same language."""
+        return self._text("attract-line")
 
-    @Property(str, notify=changed)
-    def moves(self) -> str:
-        """In how many moves."""
-        return self._moves
+    @Property(list, constant=True)
+    def ways(self) -> list[dict[str, str]]:
+        """The ways in, one for each language: its code, its name, and "start" in it."""
+        return [
+            {
+                "language": catalogue.language,
+                "name": catalogue.text("language-name"),
+                "start": catalogue.text("attract-start"),
+            }
+            for catalogue in self._catalogues
+        ]
 
-    @Property(str, notify=changed)
-    def time(self) -> str:
-        """In what time."""
-        return self._time
+    @Slot(str)
+    def start(self, language: str) -> None:
+        """A visitor begins, in this language."""
+        self.started.emit(language)
 
-    @Slot()
-    def proceed(self) -> None:
-        """The visitor has seen it."""
-        self.continued.emit()
-
-
-@QmlElement
-class QuestionScreen(QObject):
-    """One question with its scale."""
-
-    changed = Signal()
-    answered = Signal(str, int)
-    """The item's name, and the answer from 1."""
-    continued = Signal()
-
-    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._catalogue = catalogue
-        self._item = ""
-        self._text = self._progress = ""
-        self._points = self._chosen = 0
-        self._last = False
-
-    def ask(self, questionnaire: str, item: str, points: int, number: int, of: int) -> None:
-        """Ask an item, ``number`` ``of`` so many; no answer is chosen."""
-        self._item = item
-        self._text = self._catalogue.text(f"question-{questionnaire}-{item}")
-        self._progress = self._catalogue.text("questions-progress", number=number, all=of)
-        self._points, self._chosen, self._last = points, 0, number == of
-        self.changed.emit()
-
-    def show_answer(self, value: int) -> None:
-        """Show which answer is chosen."""
-        self._chosen = value
-        self.changed.emit()
-
-    @property
-    def scale(self) -> int:
-        """The highest answer there is."""
-        return self._points
-
-    @property
-    def answer(self) -> int | None:
-        """The chosen answer, from 1."""
-        return self._chosen or None
-
-    @Property(str, notify=changed)
-    def text(self) -> str:
-        """The question."""
-        return self._text
-
-    @Property(str, notify=changed)
-    def progress(self) -> str:
-        """Which question of how many this is."""
-        return self._progress
-
-    @Property(int, notify=changed)
-    def points(self) -> int:
-        """How many answers there are."""
-        return self._points
-
-    @Property(int, notify=changed)
-    def chosen(self) -> int:
-        """The chosen answer, from 1; 0 for none."""
-        return self._chosen
-
-    @Property(bool, notify=changed)
-    def last(self) -> bool:
-        """Whether no further question follows."""
-        return self._last
-
-    @Slot(int)
-    def choose(self, value: int) -> None:
-        """The visitor chooses an answer."""
-        self.answered.emit(self._item, value)
-
-    @Slot()
-    def proceed(self) -> None:
-        """The visitor goes on."""
-        self.continued.emit()
+    def _text(self, message: str) -> str:
+        return self._catalogues[self._language].text(message)

@@ -1,0 +1,185 @@
+"""The form: a page of items of any kind, the answers given so far, and what is still being typed.
+
+What is typed is an answer once its editing ends or the visitor goes on, never letter by letter; and it is an answer
+only when it comes back through ``show_answer``, so nothing that was not taken is ever shown as given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import Property, QObject, Signal, Slot
+from PySide6.QtQml import QmlElement
+
+from kiosk.assistant.wording import Catalogue
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Page, Single
+from kiosk.ui.screens.items import described
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+
+@QmlElement
+class FormScreen(QObject):
+    """A page of items."""
+
+    changed = Signal()
+    """Another page is shown."""
+    marked = Signal()
+    """Another answer is chosen, typed or missed; apart from ``changed``, so that the items stay the same items."""
+    missed = Signal(str)
+    """The first item that is missed is to be brought into view."""
+    answered = Signal(str, object)
+    """The visitor answered an item; None takes the answer back."""
+    continued = Signal()
+
+    def __init__(self, catalogue: Catalogue, scale: Callable[[str], Path], parent: QObject | None = None) -> None:
+        """``scale`` tells where the pictures of a scale are, as ``1.svg`` and so on."""
+        super().__init__(parent)
+        self._catalogue = catalogue
+        self._scale = scale
+        self._items: tuple[Item, ...] = ()
+        self._number = self._of = 0
+        self._answers: dict[str, Answer] = {}
+        self._drafts: dict[str, str] = {}
+        self._missing: tuple[str, ...] = ()
+
+    def speak(self, catalogue: Catalogue) -> None:
+        """Ask in this language, from the next page on."""
+        self._catalogue = catalogue
+        self.marked.emit()
+
+    def show(self, items: tuple[Item, ...], number: int, of: int) -> None:
+        """Show a page, ``number`` ``of`` so many; nothing is answered."""
+        self._items, self._number, self._of = items, number, of
+        self._answers, self._drafts, self._missing = {}, {}, ()
+        self.changed.emit()
+        self.marked.emit()
+
+    def show_answer(self, item: str, value: Answer | None) -> None:
+        """Show which answer is chosen."""
+        if value is None:
+            self._answers.pop(item, None)
+        else:
+            self._answers[item] = value
+        self._missing = tuple(name for name in self._missing if name != item)
+        self.marked.emit()
+
+    def show_missing(self, items: tuple[str, ...]) -> None:
+        """Show which items have to be answered before the visitor can go on."""
+        self._missing = items
+        self.marked.emit()
+        self.missed.emit(items[0])
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self.show((), 0, 0)
+
+    @property
+    def shown(self) -> tuple[Item, ...]:
+        """The items of the page, as anybody in front of the screen can see."""
+        return self._items
+
+    @property
+    def given(self) -> dict[str, Answer]:
+        """The answers that are chosen, as anybody in front of the screen can see."""
+        return dict(self._answers)
+
+    @Property(list, notify=changed)
+    def items(self) -> list[dict[str, Any]]:
+        """What is shown of the items, in their order."""
+        return [described(item, self._catalogue, self._scale) for item in self._items]
+
+    @Property(str, notify=changed)
+    def progress(self) -> str:
+        """Which page of how many this is."""
+        if self._of < 2:  # noqa: PLR2004 - a single page needs no number
+            return ""
+        return self._catalogue.text("form-progress", number=self._number, all=self._of)
+
+    @Property(bool, notify=changed)
+    def last(self) -> bool:
+        """Whether no further page follows."""
+        return self._number == self._of
+
+    @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
+    def answers(self) -> dict[str, Any]:
+        """The chosen answers, by their items."""
+        return {item: list(value) if isinstance(value, tuple) else value for item, value in self._answers.items()}
+
+    @Property(list, notify=marked)
+    def missing(self) -> list[str]:
+        """The items that have to be answered first, or have an answer that cannot be."""
+        return list(self._missing)
+
+    @Property(bool, notify=marked)
+    def skips(self) -> bool:
+        """Whether to go on is to leave out everything on this page, and one may."""
+        asked = [item for item in self._items if not isinstance(item, Page)]
+        untouched = not self._answers and not any(self._drafts.values())
+        return bool(asked) and untouched and not any(item.required for item in asked)
+
+    @Slot(str, int)
+    def rate(self, item: str, value: int) -> None:
+        """The visitor chooses a point of a scale."""
+        self.answered.emit(item, value)
+
+    @Slot(str, str)
+    def choose(self, item: str, option: str) -> None:
+        """The visitor chooses one of several options."""
+        self.answered.emit(item, option)
+
+    @Slot(str, str)
+    def toggle(self, item: str, option: str) -> None:
+        """The visitor adds one of several options, or takes it away."""
+        before = self._answers.get(item, ())
+        chosen = before if isinstance(before, tuple) else ()
+        after = set(chosen) ^ {option}
+        self.answered.emit(item, tuple(known for known in self._options(item) if known in after) or None)
+
+    @Slot(str, str)
+    def draft(self, item: str, text: str) -> None:
+        """The visitor is typing; this is what stands there now."""
+        self._drafts[item] = text
+        self.marked.emit()
+
+    @Slot(str)
+    def finish(self, item: str) -> None:
+        """The visitor has done with typing, for now."""
+        if item not in self._drafts or self._is_wrong(item):
+            return
+        typed = self._typed(item)
+        if typed != self._answers.get(item):
+            self.answered.emit(item, typed)
+
+    @Slot()
+    def proceed(self) -> None:
+        """The visitor goes on; what is typed is answered first, and what cannot be an answer has to be mended."""
+        for item in tuple(self._drafts):
+            self.finish(item)
+        wrong = tuple(item for item in self._drafts if self._is_wrong(item))
+        if wrong:
+            self.show_missing(wrong)
+        else:
+            self.continued.emit()
+
+    def _typed(self, name: str) -> Answer | None:
+        """What stands in a field, as an answer; None for nothing, and for what is no number where one is asked for."""
+        text = "".join(letter for letter in self._drafts.get(name, "") if letter.isprintable()).strip()
+        if not isinstance(self._item(name), Integer):
+            return text or None
+        return int(text) if text.isdecimal() else None
+
+    def _is_wrong(self, name: str) -> bool:
+        """Whether something stands in a field that cannot be an answer."""
+        typed = self._typed(name)
+        return bool(self._drafts.get(name, "").strip()) and (typed is None or not self._item(name).accepts(typed))
+
+    def _item(self, name: str) -> Item:
+        return next(item for item in self._items if item.id == name)
+
+    def _options(self, name: str) -> tuple[str, ...]:
+        item = self._item(name)
+        return item.ids if isinstance(item, Single | Multiple) else ()
