@@ -13,11 +13,12 @@ import click
 
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, rehearsal_data_option, study_option
-from kiosk.cli.wiring import code_commit, log_into, make_plan, read_settings
+from kiosk.cli.wiring import code_commit, log_into, read_settings, read_study
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.after.utterances import body_changes, utterances
 from kiosk.study.events import Event
 from kiosk.ui.app import App
+from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
 from kiosk.ui.rehearsing.shots import Shots, make_folder
 from kiosk.ui.screens.avatar import AvatarBody

@@ -7,10 +7,14 @@ from contextlib import closing
 from datetime import UTC, datetime
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from kiosk import BadInput
 from kiosk.store.migrations import MIGRATIONS, SCHEMA
 
 FILE = "recollect.db"
+LOCK = "recollect.lock"
+LOCK_WAIT_S = 1.0
 APPLICATION_ID = int.from_bytes(b"Rclt")
 """Stands in the file's header, so that a database of another program is never touched."""
 
@@ -21,6 +25,35 @@ _USER_VERSION_AT, _APPLICATION_ID_AT, _HEADER = 60, 68, 100
 """Where the SQLite file format keeps these numbers (sqlite.org/fileformat2.html, 1.3)."""
 
 
+def lock(folder: Path) -> FileLock:
+    """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
+
+    It comes before the database is opened: a newer program must not migrate it under a kiosk that runs.
+    """
+    held = FileLock(folder / LOCK)
+    try:
+        _make(folder)
+        # Whoever reads looks at the lock for a moment, and is no reason to give up.
+        held.acquire(timeout=LOCK_WAIT_S)
+    except Timeout as error:
+        raise BadInput(f"another Recollect is writing in {folder}") from error
+    except OSError as error:
+        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+    return held
+
+
+def in_use(folder: Path) -> bool:
+    """Whether somebody is writing in a data folder."""
+    try:
+        with FileLock(folder / LOCK, blocking=False):
+            return False
+    except Timeout:
+        return True
+    except OSError:
+        # Where the lock cannot even be looked at, nobody can be writing.
+        return False
+
+
 def open_for_writing(folder: Path) -> sqlite3.Connection:
     """Open the database of a data folder, made or migrated as needed.
 
@@ -29,7 +62,7 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
     """
     path = folder / FILE
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _make(folder)
         _refuse_foreign_or_newer(path)
         connection = sqlite3.connect(path, isolation_level=None)
         try:
@@ -37,8 +70,6 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
         except BaseException:
             connection.close()
             raise
-    except FileExistsError as error:
-        raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
     except sqlite3.Error as error:
@@ -47,7 +78,27 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
 
 
 def open_for_reading(folder: Path) -> sqlite3.Connection:
-    """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done."""
+    """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done.
+
+    Of an older one a copy in memory is opened, which has taken the steps that it lacks.
+    """
+    connection = open_as_it_is(folder)
+    if connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA:
+        return connection
+    copy = sqlite3.connect(":memory:", isolation_level=None)
+    try:
+        with closing(connection):
+            connection.backup(copy)
+        _migrate(copy)
+        copy.execute("PRAGMA query_only = ON")
+    except sqlite3.Error as error:
+        copy.close()
+        raise BadInput(f"the database {folder / FILE} cannot be read: {error}") from error
+    return copy
+
+
+def open_as_it_is(folder: Path) -> sqlite3.Connection:
+    """The same, but an older one is opened as it was written."""
     path = folder / FILE
     if not path.is_file():
         raise BadInput(f"there is no database in {folder}")
@@ -64,6 +115,13 @@ def open_for_reading(folder: Path) -> sqlite3.Connection:
     except sqlite3.Error as error:
         raise BadInput(f"the database {path} cannot be read: {error}") from error
     return connection
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
 
 
 def _read_only(path: Path) -> sqlite3.Connection:

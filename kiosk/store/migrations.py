@@ -94,6 +94,136 @@ MIGRATIONS: tuple[Migration, ...] = (
             ),
         ),
     ),
+    Migration(
+        2,
+        "participants, places, and what becomes of them",
+        (
+            # A list of places is fixed before the first visitor; a later row of a site goes on from its earlier one.
+            """
+            CREATE TABLE allocation (
+                id INTEGER PRIMARY KEY AUTOINCREMENT,
+                site TEXT NOT NULL,
+                simulated INTEGER NOT NULL CHECK (simulated IN (0, 1)),
+                seed INTEGER NOT NULL,
+                block INTEGER NOT NULL,
+                quotas TEXT NOT NULL CHECK (json_valid(quotas)),
+                places TEXT NOT NULL CHECK (json_valid(places)),
+                fixed_at TEXT NOT NULL
+            ) STRICT
+            """,
+            "ALTER TABLE sitting ADD COLUMN site TEXT NOT NULL DEFAULT ''",
+            "ALTER TABLE sitting ADD COLUMN list INTEGER REFERENCES allocation (id)",
+            "ALTER TABLE sitting ADD COLUMN place INTEGER CHECK ((place IS NULL) = (list IS NULL))",
+            """
+            ALTER TABLE sitting ADD COLUMN allotted TEXT
+            CHECK (allotted IN ('list', 'override', 'beyond') AND (allotted IS 'list') = (place IS NOT NULL))
+            """,
+            "ALTER TABLE sitting ADD COLUMN information_source TEXT REFERENCES source (sha256)",
+            "ALTER TABLE sitting ADD COLUMN about_you_source TEXT REFERENCES source (sha256)",
+            "ALTER TABLE sitting ADD COLUMN practice_deck TEXT",
+            # The wall's clock when it was written, ms since 1970; at_ms goes on counting from the sitting's start.
+            "ALTER TABLE event ADD COLUMN wall_ms INTEGER",
+            # Who finished a game is asked before every sitting.
+            "CREATE INDEX game_finished ON event (sitting) WHERE type = 'GameFinished'",
+            # Rehearsals count for themselves, so that none uses up a real number or place.
+            """
+            CREATE TABLE participant (
+                sitting INTEGER PRIMARY KEY REFERENCES sitting (id),
+                site TEXT NOT NULL,
+                simulated INTEGER NOT NULL CHECK (simulated IN (0, 1)),
+                number INTEGER NOT NULL,
+                code TEXT NOT NULL UNIQUE,
+                UNIQUE (site, simulated, number)
+            ) STRICT
+            """,
+            # People who played without being stored: no time, nothing that could tell them apart.
+            """
+            CREATE TABLE visit (
+                id INTEGER PRIMARY KEY AUTOINCREMENT,
+                why TEXT NOT NULL CHECK (why IN ('declined', 'under_age', 'left')),
+                simulated INTEGER NOT NULL CHECK (simulated IN (0, 1))
+            ) STRICT
+            """,
+            # What stays of a sitting that was withdrawn, so that counts still add up.
+            """
+            CREATE TABLE tombstone (
+                sitting INTEGER PRIMARY KEY,
+                site TEXT NOT NULL,
+                number INTEGER NOT NULL,
+                simulated INTEGER NOT NULL CHECK (simulated IN (0, 1)),
+                condition TEXT NOT NULL,
+                list INTEGER REFERENCES allocation (id),
+                place INTEGER,
+                allotted TEXT,
+                status TEXT NOT NULL,
+                game_completed INTEGER NOT NULL CHECK (game_completed IN (0, 1)),
+                withdrawn_at TEXT NOT NULL,
+                UNIQUE (site, simulated, number)
+            ) STRICT
+            """,
+            # What experimenters did outside sittings.
+            """
+            CREATE TABLE booth_event (
+                id INTEGER PRIMARY KEY AUTOINCREMENT,
+                wall_ms INTEGER NOT NULL,
+                type TEXT NOT NULL,
+                body TEXT NOT NULL CHECK (json_valid(body))
+            ) STRICT
+            """,
+            *(
+                f"""
+                CREATE TRIGGER {table}_is_never_{deed}d BEFORE {deed} ON {table}
+                BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+                """
+                for table, deeds in (
+                    ("allocation", ("update", "delete")),
+                    ("visit", ("update", "delete")),
+                    ("tombstone", ("update", "delete")),
+                    ("booth_event", ("update", "delete")),
+                    ("participant", ("update",)),
+                )
+                for deed in deeds
+            ),
+            *(
+                f"""
+                CREATE TRIGGER {table}_is_never_replaced BEFORE INSERT ON {table}
+                WHEN EXISTS (SELECT 1 FROM {table} WHERE {in_its_way})
+                BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+                """  # noqa: S608 - the names are ours
+                for table, in_its_way in (
+                    ("allocation", "id = NEW.id"),
+                    ("visit", "id = NEW.id"),
+                    ("booth_event", "id = NEW.id"),
+                    (
+                        "participant",
+                        "sitting = NEW.sitting OR code = NEW.code"
+                        " OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
+                    ),
+                    (
+                        "tombstone",
+                        "sitting = NEW.sitting"
+                        " OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
+                    ),
+                )
+            ),
+            # Where there is a tombstone, and nowhere else, a sitting may go, and it does not come back.
+            "DROP TRIGGER event_is_never_deleted",
+            "DROP TRIGGER sitting_is_never_deleted",
+            *(
+                f"""
+                CREATE TRIGGER {table}_is_deleted_only_when_withdrawn BEFORE delete ON {table}
+                WHEN NOT EXISTS (SELECT 1 FROM tombstone WHERE sitting = OLD.{sitting})
+                BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+                """  # noqa: S608 - the names are ours
+                for table, sitting in (("event", "sitting"), ("sitting", "id"), ("participant", "sitting"))
+            ),
+            """
+            CREATE TRIGGER sitting_that_was_withdrawn_stays_so BEFORE INSERT ON sitting
+            WHEN EXISTS (SELECT 1 FROM tombstone WHERE sitting = NEW.id)
+            BEGIN SELECT RAISE(ABORT, 'what was withdrawn does not come back'); END
+            """,
+        ),
+    ),
 )
 
 SCHEMA = MIGRATIONS[-1].number

@@ -10,23 +10,26 @@ from pathlib import Path
 from typing import Any
 
 import sqlite_utils
-from filelock import FileLock, Timeout
 
 from kiosk import BadInput
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
 from kiosk.settings import Settings
-from kiosk.store.database import open_for_reading
-from kiosk.store.recorder import LOCK
+from kiosk.store.database import in_use, open_for_reading
+from kiosk.store.people.participants import participant_of
+from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
-from kiosk.study.events import Event, SittingEnded, Status, from_record
 from kiosk.study.after.measures import Measures, measure
-from kiosk.study.declared.questionnaire import Questionnaire
+from kiosk.study.declared.information import Information
+from kiosk.study.declared.questionnaire import QUESTIONNAIRES, Questionnaire
+from kiosk.study.events import Event, SittingEnded, Stage, StageEntered, Status, from_record
 from kiosk.study.plan import Plan
 
-_MEASURED = ("CardFlipped", "HintGiven", "BoardOpened")
-_SUMMARISED = (*_MEASURED, "SittingEnded")
-
+_SUMMARISED = (
+    *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "BoardOpened"),
+    *("PauseAsked", "PauseEnded", "SittingEnded"),
+)
+"""What is told of a sitting at a glance follows from these."""
 
 LARGEST = 2**63 - 1
 """The largest whole number that SQLite knows."""
@@ -34,7 +37,11 @@ LARGEST = 2**63 - 1
 
 @dataclass(frozen=True)
 class Sitting:
-    """A stored sitting at a glance; ``status`` is None while it is under way."""
+    """A stored sitting at a glance; ``status`` is None while it is under way.
+
+    ``participant`` and ``code`` are None in sittings from before people were numbered, and ``allotted`` where no list
+    of places was followed. ``stage`` is where it ended, or is; None if it got nowhere.
+    """
 
     id: int
     started_at: str
@@ -43,12 +50,19 @@ class Sitting:
     status: Status | None
     simulated: bool
     measures: Measures
+    participant: str | None
+    code: str | None
+    stage: Stage | None
+    allotted: Allotted | None
 
     def to_json(self) -> dict[str, Any]:
-        """The sitting as the command line prints it."""
+        """The sitting as the command line prints it: without the code, which is the visitor's."""
         return {
             "sitting": self.id,
+            "participant": self.participant,
             "status": self.status.value if self.status else "running",
+            "stage": self.stage.value if self.stage else None,
+            "allotted": self.allotted.value if self.allotted else None,
             "condition": self.condition,
             "body": self.body,
             "flips": self.measures.flips,
@@ -88,14 +102,19 @@ class Archive:
     def plan(self, number: int) -> Plan:
         """What a sitting followed, from what was kept with it; raises BadInput if this program cannot read that."""
         row = self._row(number)
+        if row["information_source"] is None:
+            raise BadInput(f"sitting {number} is from before sittings had all their stages, and cannot be played again")
         try:
             return Plan(
-                Settings.model_validate_json(self.source(row["settings_sha256"])),
-                Condition.named(row["condition"]),
-                QTable.from_json(self.source(row["policy_source"])),
-                Catalogue(Path(row["language"]), json.loads(self.source(row["sentences_source"]))),
-                Questionnaire.model_validate_json(self.source(row["questionnaire_source"])),
-                tuple(json.loads(row["deck"])),
+                settings=Settings.model_validate_json(self.source(row["settings_sha256"])),
+                condition=Condition.named(row["condition"]),
+                policy=QTable.from_json(self.source(row["policy_source"])),
+                catalogue=Catalogue(Path(row["language"]), json.loads(self.source(row["sentences_source"]))),
+                information=Information.model_validate_json(self.source(row["information_source"])),
+                about_you=Questionnaire.model_validate_json(self.source(row["about_you_source"])),
+                questionnaires=QUESTIONNAIRES.validate_json(self.source(row["questionnaire_source"])),
+                deck=tuple(json.loads(row["deck"])),
+                practice_deck=tuple(json.loads(row["practice_deck"])),
             )
         except ValueError as error:
             raise BadInput(f"what sitting {number} followed cannot be read: {error}") from error
@@ -123,18 +142,27 @@ class Archive:
             f"sitting = ? AND type IN ({wanted})", [row["id"], *_SUMMARISED], order_by="seq"
         )
         events = [_event({"at_ms": r["at_ms"], "type": r["type"]} | json.loads(r["body"])) for r in rows]
+        participant = participant_of(self._database.conn, row["id"])
         return Sitting(
             row["id"],
             row["started_at"],
             row["condition"],
             row["body"],
-            self._status(events),
+            self._status(row["id"]),
             bool(row["simulated"]),
             measure(events),
+            participant.name if participant else None,
+            participant.code if participant else None,
+            _stage(events),
+            Allotted(row["allotted"]) if row["allotted"] else None,
         )
 
-    def _status(self, events: list[Event]) -> Status | None:
-        return next((event.status for event in events if isinstance(event, SittingEnded)), self._unended)
+    def _status(self, number: int) -> Status | None:
+        """How a sitting ended: only its very last event says so, as one that was cut off may have been gone on with."""
+        for row in self._database["event"].rows_where("sitting = ?", [number], order_by="seq DESC", limit=1):
+            if row["type"] == SittingEnded.__name__:
+                return Status(json.loads(row["body"])["status"])
+        return self._unended
 
 
 @contextmanager
@@ -142,20 +170,15 @@ def archive(folder: Path) -> Iterator[Archive]:
     """The archive of a data folder; raises BadInput if there is none that can be read."""
     connection = open_for_reading(folder)
     try:
-        yield Archive(sqlite_utils.Database(connection), in_use=_in_use(folder))
+        yield Archive(sqlite_utils.Database(connection), in_use=in_use(folder))
     finally:
         connection.close()
 
 
-def _in_use(folder: Path) -> bool:
-    try:
-        with FileLock(folder / LOCK, blocking=False):
-            return False
-    except Timeout:
-        return True
-    except OSError:
-        # Where the lock cannot even be looked at, nobody can be writing.
-        return False
+def _stage(events: list[Event]) -> Stage | None:
+    """The last stage that was more than the end."""
+    entered = [event.stage for event in events if isinstance(event, StageEntered) and event.stage is not Stage.OVER]
+    return entered[-1] if entered else None
 
 
 def _event(record: dict[str, Any]) -> Event:

@@ -5,23 +5,24 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
-from typing import Self
-
-from filelock import FileLock, Timeout
+from typing import Any, Self
 
 from kiosk import BadInput, __version__
-from kiosk.store.database import open_for_writing
-from kiosk.study.events import Event, SittingEnded, Status, WorldEvent, to_record
+from kiosk.store.database import lock, open_for_writing
+from kiosk.store.people.lists import Lists, check_not_given_out_again
+from kiosk.store.people.participants import Participant, checked_site, enrol, participant_of
+from kiosk.store.rows import insert, insert_events, interrupted_at, json_text, mark_interrupted, now_ms
+from kiosk.study.allocation import Allotted, Place
+from kiosk.study.condition import Condition
+from kiosk.study.declared.questionnaire import QUESTIONNAIRES
+from kiosk.study.events import Event, Unstored
 from kiosk.study.plan import Plan
-
-LOCK = "recollect.lock"
-LOCK_WAIT_S = 1.0
 
 
 class StoreFailed(Exception):
@@ -37,28 +38,33 @@ class Provenance:
     body: str
     code_commit: str
     simulated: bool
+    place: Place | None = None
+    """The place that it takes in the list that the recorder fixed; given if, and only if, it was allotted by it."""
+    allotted: Allotted | None = None
 
 
 class Recorder:
     """Writes one data folder; a second one on the same folder is refused in words."""
 
-    def __init__(self, folder: Path) -> None:
-        """Open the folder's database, and mark the sittings that a crash cut off; raises BadInput if it cannot."""
-        self._connection = open_for_writing(folder)
-        self._lock = FileLock(folder / LOCK)
-        try:
-            # Whoever reads looks at the lock for a moment, and is no reason to give up.
-            self._lock.acquire(timeout=LOCK_WAIT_S)
-        except Timeout as error:
-            self._connection.close()
-            raise BadInput(f"another Recollect is writing in {folder}") from error
+    def __init__(self, folder: Path, site: str = "") -> None:
+        """Open the folder's database, and mark the sittings that a crash cut off; raises BadInput if it cannot.
+
+        ``site`` stands before the participants' numbers and codes, where data of several places will be merged.
+        """
+        self._site = checked_site(site)
+        self._lock = lock(folder)
         self._sitting = 0
         self._next_seq = 1
         self.begun = 0
         """How many sittings were begun with this recorder."""
         try:
+            self._connection = open_for_writing(folder)
+        except BaseException:
+            self._lock.release()
+            raise
+        try:
             with self._transaction():
-                self.recovered = self._mark_interrupted()
+                self.recovered = mark_interrupted(self._connection)
         except StoreFailed as error:
             self._close()
             raise BadInput(f"the data folder {folder} cannot be written: {error.__cause__}") from error
@@ -71,24 +77,80 @@ class Recorder:
         """Close the database and let others write."""
         self._close()
 
-    def begin(self, provenance: Provenance, events: Sequence[Event]) -> int:
-        """Write a sitting's row with its first events, in one transaction; returns its number.
+    # The list of places
+
+    def fix_list(
+        self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, simulated: bool
+    ) -> tuple[Place, ...]:
+        """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
+
+        Without a seed one is drawn and stored. Raises BadInput if the list that is fixed is another one, or if there
+        is no such list; StoreFailed if the disk does not take it.
+        """
+        with self._transaction():
+            return self._lists(simulated=simulated).fix(quotas, block, seed)
+
+    def next_place(self, *, simulated: bool) -> Place | None:
+        """The first place of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
+
+        It is computed from what is stored and nothing else.
+        """
+        with self._transaction():
+            return self._lists(simulated=simulated).next_place()
+
+    # Sittings
+
+    def begin(self, provenance: Provenance, events: Sequence[Event]) -> Participant:
+        """Write a sitting's row with its first events, in one transaction; returns who the visitor is from here on.
 
         A sitting that never got its end, because the disk failed it, is marked as interrupted on the way.
         """
         with self._transaction():
-            self._mark_interrupted()
-            self._sitting = self._insert_sitting(provenance)
-            self._insert_events(self._sitting, 1, events)
+            mark_interrupted(self._connection)
+            sitting = self._insert_sitting(provenance)
+            insert_events(self._connection, sitting, 1, events)
+            participant = enrol(self._connection, sitting)
+        self._sitting = sitting
         self._next_seq = 1 + len(events)
         self.begun += 1
-        return self._sitting
+        return participant
+
+    def resume(self, number: int) -> Participant:
+        """Go on with a sitting that was interrupted: the next events follow its last one.
+
+        Raises BadInput if there is no such sitting, or if it ended in another way.
+        """
+        with self._transaction():
+            mark_interrupted(self._connection)
+            seq = interrupted_at(self._connection, number)
+            participant = participant_of(self._connection, number)
+            if participant is None:
+                raise BadInput(f"sitting {number} is from before people were numbered, so it cannot be gone on with")
+            check_not_given_out_again(self._connection, number)
+        self._sitting = number
+        self._next_seq = 1 + seq
+        return participant
 
     def append(self, events: Sequence[Event]) -> None:
         """Write the sitting's next events, in one transaction; raises StoreFailed if the disk does not take them."""
         with self._transaction():
-            self._insert_events(self._sitting, self._next_seq, events)
+            insert_events(self._connection, self._sitting, self._next_seq, events)
         self._next_seq += len(events)
+
+    # Outside sittings
+
+    def count_visit(self, why: Unstored, *, simulated: bool) -> None:
+        """Count somebody who played without being stored; nothing else of them is kept, not even when."""
+        with self._transaction():
+            insert(self._connection, "visit", {"why": why.value, "simulated": int(simulated)})
+
+    def note(self, kind: str, body: Mapping[str, Any]) -> None:
+        """Write down what an experimenter did outside a sitting; ``body`` holds JSON values."""
+        with self._transaction():
+            insert(self._connection, "booth_event", {"wall_ms": now_ms(), "type": kind, "body": json_text(body)})
+
+    def _lists(self, *, simulated: bool) -> Lists:
+        return Lists(self._connection, self._site, simulated=simulated)
 
     def _close(self) -> None:
         self._connection.close()
@@ -109,65 +171,51 @@ class Recorder:
 
     def _insert_sitting(self, provenance: Provenance) -> int:
         plan = provenance.plan
-        cursor = self._connection.execute(
-            """
-            INSERT INTO sitting (
-                started_at, seed, condition, body, language, simulated, version, code_commit, deck,
-                policy_sha256, settings_sha256, policy_source, questionnaire_source, sentences_source
-            ) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)
-            """,
-            (
-                datetime.now(UTC).isoformat(timespec="milliseconds"),
-                provenance.seed,
-                plan.condition.value,
-                provenance.body,
-                plan.catalogue.language,
-                int(provenance.simulated),
-                __version__,
-                provenance.code_commit,
-                json.dumps(plan.deck),
-                plan.policy.sha256,
-                self._keep_source(plan.settings.model_dump_json()),
-                self._keep_source(plan.policy.to_json()),
-                self._keep_source(plan.questionnaire.model_dump_json()),
-                self._keep_source(json.dumps(plan.catalogue.sources, ensure_ascii=False)),
-            ),
+        return insert(
+            self._connection,
+            "sitting",
+            {
+                "started_at": datetime.now(UTC).isoformat(timespec="milliseconds"),
+                "seed": provenance.seed,
+                "condition": plan.condition.value,
+                "body": provenance.body,
+                "language": plan.catalogue.language,
+                "simulated": int(provenance.simulated),
+                "version": __version__,
+                "code_commit": provenance.code_commit,
+                "site": self._site,
+                **self._sources(plan),
+                **self._allotment(provenance),
+            },
         )
-        return cursor.lastrowid or 0
+
+    def _sources(self, plan: Plan) -> dict[str, str]:
+        """Keep what the sitting follows; returns the columns that point there."""
+        return {
+            "deck": json.dumps(plan.deck),
+            "policy_sha256": plan.policy.sha256,
+            "settings_sha256": self._keep_source(plan.settings.model_dump_json()),
+            "policy_source": self._keep_source(plan.policy.to_json()),
+            "practice_deck": json.dumps(plan.practice_deck),
+            "questionnaire_source": self._keep_source(QUESTIONNAIRES.dump_json(plan.questionnaires).decode()),
+            "about_you_source": self._keep_source(plan.about_you.model_dump_json()),
+            "information_source": self._keep_source(plan.information.model_dump_json()),
+            "sentences_source": self._keep_source(json.dumps(plan.catalogue.sources, ensure_ascii=False)),
+        }
+
+    def _allotment(self, provenance: Provenance) -> dict[str, str | int | None]:
+        """How the sitting came to its condition, as columns."""
+        place, allotted = provenance.place, provenance.allotted
+        if (place is not None) is not (allotted is Allotted.LIST):
+            raise ValueError(f"a sitting that was allotted by {allotted} cannot take {place}")
+        if place is None:
+            return {"allotted": allotted.value if allotted else None}
+        if place.condition is not provenance.plan.condition:
+            raise ValueError(f"{place} is not one for {provenance.plan.condition}")
+        list_id = self._lists(simulated=provenance.simulated).list_with(place)
+        return {"allotted": Allotted.LIST.value, "list": list_id, "place": place.number}
 
     def _keep_source(self, content: str) -> str:
         sha256 = hashlib.sha256(content.encode()).hexdigest()
         self._connection.execute("INSERT INTO source VALUES (?, ?) ON CONFLICT DO NOTHING", (sha256, content))
         return sha256
-
-    def _insert_events(self, sitting: int, first_seq: int, events: Sequence[Event]) -> None:
-        rows = (
-            (sitting, seq, event.at_ms, "world" if isinstance(event, WorldEvent) else "session", *_type_and_body(event))
-            for seq, event in enumerate(events, first_seq)
-        )
-        self._connection.executemany("INSERT INTO event VALUES (?, ?, ?, ?, ?, ?)", rows)
-
-    def _mark_interrupted(self) -> tuple[int, ...]:
-        """End every sitting that has no end, where its last event left it; returns their numbers."""
-        open_sittings = self._connection.execute(
-            """
-            SELECT sitting, max(seq), max(at_ms) FROM event
-            GROUP BY sitting HAVING NOT max(type = 'SittingEnded') ORDER BY sitting
-            """
-        ).fetchall()
-        for sitting, seq, at_ms in open_sittings:
-            end = SittingEnded(at_ms=at_ms, status=Status.INTERRUPTED)
-            self._connection.execute(
-                "INSERT INTO event VALUES (?, ?, ?, 'recovery', ?, ?)", (sitting, seq + 1, at_ms, *_type_and_body(end))
-            )
-        return tuple(sitting for sitting, *_ in open_sittings)
-
-
-def _type_and_body(event: Event) -> tuple[str, str]:
-    """An event's class, and its own fields as JSON; the time and the class have columns of their own."""
-    record = to_record(event)
-    kind = str(record.pop("type"))
-    del record["at_ms"]
-    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"))
-    # What the system says may hold lone surrogates, which no file can; written out, they are JSON's own escapes.
-    return kind, text.encode("utf-8", "backslashreplace").decode()

@@ -27,14 +27,6 @@ class Allotted(Enum):
     """The list is used up."""
 
 
-class Visit(Enum):
-    """Why somebody played without being stored; how many did is all that is kept of them."""
-
-    DECLINED = "declined"
-    UNDER_AGE = "under_age"
-    LEFT = "left"
-
-
 @dataclass(frozen=True)
 class Place:
     """One place of the list; ``number`` and ``block`` count from 1."""

@@ -18,8 +18,10 @@ from kiosk.store.migrations import MIGRATIONS, SCHEMA, Migration
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Recorder
 
-TWO = Migration(2, "a second step", ("CREATE TABLE second (id INTEGER PRIMARY KEY) STRICT",))
-BROKEN = Migration(2, "a step that fails", ("CREATE TABLE half (id INTEGER) STRICT", "CREATE TABLE event (id INTEGER)"))
+ONE_MORE = Migration(SCHEMA + 1, "one more step", ("CREATE TABLE more (id INTEGER PRIMARY KEY) STRICT",))
+BROKEN = Migration(
+    SCHEMA + 1, "a step that fails", ("CREATE TABLE half (id INTEGER) STRICT", "CREATE TABLE event (id INTEGER)")
+)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -71,7 +73,7 @@ def test_steps_are_numbered_without_a_gap() -> None:
 
 
 def test_a_step_that_is_edited_has_another_hash() -> None:
-    assert len({TWO.sha256, BROKEN.sha256, Migration(2, "", (*TWO.statements, "")).sha256}) == 3
+    assert len({ONE_MORE.sha256, BROKEN.sha256, Migration(SCHEMA + 1, "", (*ONE_MORE.statements, "")).sha256}) == 3
 
 
 def test_opening_again_takes_no_step_twice(folder: Path) -> None:
@@ -83,11 +85,14 @@ def test_opening_again_takes_no_step_twice(folder: Path) -> None:
 
 def test_an_older_database_takes_the_steps_it_lacks(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made(folder)
-    with_steps(monkeypatch, TWO)
+    with_steps(monkeypatch, ONE_MORE)
     made(folder)
-    assert ask(folder, "SELECT number, name FROM migration") == [(1, MIGRATIONS[0].name), (2, "a second step")]
-    assert ask(folder, "PRAGMA user_version") == [(2,)]
-    assert ask(folder, "SELECT * FROM second") == []
+    assert ask(folder, "SELECT number, name FROM migration") == [
+        *((step.number, step.name) for step in MIGRATIONS),
+        (SCHEMA + 1, "one more step"),
+    ]
+    assert ask(folder, "PRAGMA user_version") == [(SCHEMA + 1,)]
+    assert ask(folder, "SELECT * FROM more") == []
 
 
 def test_a_step_that_fails_leaves_nothing_behind(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -96,7 +101,7 @@ def test_a_step_that_fails_leaves_nothing_behind(folder: Path, monkeypatch: pyte
     with pytest.raises(BadInput, match=r"the database .* cannot be used: table event already exists"):
         open_for_writing(folder)
     assert ask(folder, "SELECT name FROM sqlite_master WHERE name = 'half'") == []
-    assert (ask(folder, "PRAGMA user_version"), ask(folder, "SELECT count(*) FROM migration")) == ([(1,)], [(1,)])
+    assert ask(folder, "PRAGMA user_version") == ask(folder, "SELECT count(*) FROM migration") == [(SCHEMA,)]
     monkeypatch.undo()
     made(folder)
 
@@ -105,7 +110,7 @@ def test_an_empty_file_becomes_a_database(folder: Path) -> None:
     folder.mkdir()
     (folder / FILE).touch()
     made(folder)
-    assert ask(folder, "SELECT count(*) FROM migration") == [(1,)]
+    assert ask(folder, "SELECT count(*) FROM migration") == [(SCHEMA,)]
 
 
 # Refused

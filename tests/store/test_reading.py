@@ -22,7 +22,7 @@ START = happened.StartTapped(at_ms=0)
 def write(folder: Path, provenance: Provenance, played: Driver) -> int:
     """Write what was played of a sitting."""
     with Recorder(folder) as recorder:
-        return recorder.begin(provenance, played.events)
+        return recorder.begin(provenance, played.events).sitting
 
 
 def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Driver) -> None:
@@ -33,7 +33,10 @@ def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Dri
     assert sitting.measures == measures
     assert sitting.to_json() == {
         "sitting": 1,
+        "participant": "1",
         "status": "completed",
+        "stage": "questions",
+        "allotted": None,
         "condition": "tom",
         "body": "avatar",
         "flips": measures.flips,
@@ -46,7 +49,7 @@ def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Dri
 
 def test_the_events_of_a_sitting_as_the_command_line_prints_them(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START])
+        number = recorder.begin(provenance, [START]).sitting
         recorder.append([happened.TimerEnded(at_ms=9, timer=happened.Timer.IDLE), happened.VisitorLeft(at_ms=9)])
         with archive(folder) as stored:
             assert stored.records(number) == [
@@ -62,7 +65,7 @@ def test_the_events_of_a_sitting_as_the_command_line_prints_them(folder: Path, p
 )
 def test_a_sitting_ended_as_it_says(folder: Path, provenance: Provenance, status: Status, word: str) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, happened.SittingEnded(at_ms=1, status=status)])
+        number = recorder.begin(provenance, [START, happened.SittingEnded(at_ms=1, status=status)]).sitting
         with archive(folder) as stored:
             assert stored.sitting(number).status is status
             assert stored.sitting(number).to_json()["status"] == word
@@ -70,7 +73,7 @@ def test_a_sitting_ended_as_it_says(folder: Path, provenance: Provenance, status
 
 def test_while_somebody_writes_a_sitting_without_an_end_is_running(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START])
+        number = recorder.begin(provenance, [START]).sitting
         with archive(folder) as stored:
             assert stored.sitting(number).status is None
             assert stored.sitting(number).to_json()["status"] == "running"
@@ -81,7 +84,7 @@ def test_while_somebody_writes_a_sitting_without_an_end_is_running(folder: Path,
 
 def test_after_a_crash_it_was_interrupted_though_nobody_has_said_so_yet(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START])
+        number = recorder.begin(provenance, [START]).sitting
     with archive(folder) as stored:
         assert stored.sitting(number).status is Status.INTERRUPTED
         assert [event for event in stored.events(number) if isinstance(event, happened.SittingEnded)] == []
@@ -128,7 +131,7 @@ def test_looking_does_not_keep_anybody_from_writing(folder: Path, provenance: Pr
 
 def test_sittings_stand_in_the_order_in_which_they_began(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        numbers = [recorder.begin(provenance, [START]) for _ in range(12)]
+        numbers = [recorder.begin(provenance, [START]).sitting for _ in range(12)]
         with archive(folder) as stored:
             assert [sitting.id for sitting in stored.sittings()] == numbers == list(range(1, 13))
 

@@ -8,6 +8,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
@@ -23,10 +24,13 @@ from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
 from kiosk.study import events as happened
+from kiosk.study.events import Unstored
+from kiosk.study.condition import Condition
 from kiosk.study.events import Event, Status
 from tests.store.writer import GONE
 from tests.study.driver import Driver, notes, replay
 
+A_TOMBSTONE = "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
 ROOT = Path(__file__).parents[2]
 START = happened.StartTapped(at_ms=0)
 
@@ -40,7 +44,7 @@ def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
 def write(recorder: Recorder, provenance: Provenance, played: Driver) -> int:
     """Write a sitting as it is played: a transaction for every event and what followed from it."""
     first, *others = played.steps
-    number = recorder.begin(provenance, [first.event, *notes(first.commands)])
+    number = recorder.begin(provenance, [first.event, *notes(first.commands)]).sitting
     for step in others:
         recorder.append([step.event, *notes(step.commands)])
     return number
@@ -108,17 +112,30 @@ def test_an_event_s_row_can_be_read_without_the_program(folder: Path, provenance
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         recorder.append([happened.CardTapped(at_ms=7, position=Position(1, 2)), ignored])
-    assert rows(folder, "SELECT * FROM event ORDER BY seq") == [
+    assert rows(folder, "SELECT sitting, seq, at_ms, origin, type, body FROM event ORDER BY seq") == [
         (1, 1, 0, "world", "StartTapped", "{}"),
         (1, 2, 7, "world", "CardTapped", '{"position":{"row":1,"column":2}}'),
         (1, 3, 7, "session", "TapIgnored", '{"position":{"row":1,"column":2},"why":null}'),
     ]
 
 
+def test_an_event_says_when_it_was_written_by_the_clock_on_the_wall(folder: Path, provenance: Provenance) -> None:
+    before = time.time_ns() // 1_000_000
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+        recorder.append([happened.ContinueTapped(at_ms=5)])
+    with Recorder(folder):
+        pass
+    walls = [wall for (wall,) in rows(folder, "SELECT wall_ms FROM event ORDER BY seq")]
+    assert len(walls) == 3
+    assert before <= walls[0]
+    assert walls == sorted(walls)
+
+
 def test_words_in_any_script_are_kept_as_they_are(folder: Path, provenance: Provenance) -> None:
     failed = happened.SpeechFailed(at_ms=1, utterance=1, why="kein Ton — 音がない 🔇")
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, failed])
+        number = recorder.begin(provenance, [START, failed]).sitting
     with archive(folder) as stored:
         assert stored.events(number)[1] == failed
 
@@ -127,7 +144,7 @@ def test_words_that_are_not_quite_text_are_kept_all_the_same(folder: Path, prove
     """The operating system's messages may hold lone surrogates, in the name of a device or a file."""
     failed = happened.SpeechFailed(at_ms=1, utterance=1, why="no device \udcff")
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, failed])
+        number = recorder.begin(provenance, [START, failed]).sitting
     with archive(folder) as stored:
         assert stored.events(number)[1] == failed
 
@@ -154,7 +171,7 @@ def test_a_sitting_s_row_says_what_it_followed(folder: Path, provenance: Provena
 
 def test_sittings_are_numbered_and_share_what_they_followed(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        assert [recorder.begin(provenance, [START]) for _ in range(3)] == [1, 2, 3]
+        assert [recorder.begin(provenance, [START]).sitting for _ in range(3)] == [1, 2, 3]
     assert rows(folder, "SELECT count(*) FROM source") == [(4,)]
     assert rows(folder, "SELECT sitting, seq FROM event WHERE type = 'StartTapped'") == [(1, 1), (2, 1), (3, 1)]
 
@@ -173,10 +190,18 @@ def test_what_was_written_before_another_sitting_began_stays_with_its_own(folder
 # Nothing is ever changed
 
 
-@pytest.mark.parametrize("table", ["event", "sitting", "source", "migration"])
+@pytest.mark.parametrize(
+    "table",
+    ["event", "sitting", "source", "migration", "participant", "allocation", "visit", "booth_event", "tombstone"],
+)
 def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: Provenance, table: str) -> None:
     with Recorder(folder) as recorder:
+        recorder.fix_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
         recorder.begin(provenance, [START])
+        recorder.count_visit(Unstored.LEFT, simulated=True)
+        recorder.note("deviation", {"why": "the robot fell over"})
+    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+        connection.execute(A_TOMBSTONE, (7,))
     before = rows(folder, f"SELECT * FROM {table}")  # noqa: S608 - a table of ours
     assert before
     with closing(sqlite3.connect(folder / FILE)) as connection:
@@ -190,25 +215,61 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
 @pytest.mark.parametrize(
     "deed",
     [
-        "INSERT OR REPLACE INTO event SELECT sitting, seq, 99, origin, type, body FROM event",
+        "INSERT OR REPLACE INTO event SELECT sitting, seq, 99, origin, type, body, 0 FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
-        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'StartTapped', '{}')",
+        "REPLACE INTO participant SELECT sitting, site, simulated, number, 'forged' FROM participant",
+        "REPLACE INTO participant SELECT 9, site, simulated, number, 'forged' FROM participant",
+        "REPLACE INTO participant SELECT 9, site, simulated, 9, code FROM participant",
+        "REPLACE INTO allocation SELECT id, site, simulated, 99, block, quotas, places, fixed_at FROM allocation",
+        "REPLACE INTO visit SELECT id, 'declined', simulated FROM visit",
+        "REPLACE INTO booth_event SELECT id, 0, type, body FROM booth_event",
+        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'StartTapped', '{}', 0)",
     ],
 )
 def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Provenance, deed: str) -> None:
     """SQLite's REPLACE deletes the old row without a word to the triggers of DELETE."""
     with Recorder(folder) as recorder:
+        recorder.fix_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
         recorder.begin(provenance, [START])
-    with closing(sqlite3.connect(folder / FILE)) as connection, pytest.raises(sqlite3.IntegrityError):
+        recorder.count_visit(Unstored.LEFT, simulated=True)
+        recorder.note("deviation", {"why": "the robot fell over"})
+    with (
+        closing(sqlite3.connect(folder / FILE)) as connection,
+        pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"),
+    ):
         connection.execute(deed)
+
+
+@pytest.mark.parametrize("table", ["event", "participant", "sitting"])
+def test_only_a_tombstone_lets_a_sitting_go(folder: Path, provenance: Provenance, table: str) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+        recorder.begin(provenance, [START])
+    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+        connection.execute(A_TOMBSTONE, (1,))
+        key = "id" if table == "sitting" else "sitting"
+        connection.execute(f"DELETE FROM {table} WHERE {key} = 1")  # noqa: S608 - a table of ours
+        with pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"):
+            connection.execute(f"DELETE FROM {table} WHERE {key} = 2")  # noqa: S608
+
+
+def test_a_sitting_that_was_withdrawn_does_not_come_back(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+        connection.execute("CREATE TEMP TABLE kept AS SELECT * FROM sitting")
+        connection.execute(A_TOMBSTONE, (1,))
+        connection.execute("DELETE FROM sitting")
+        with pytest.raises(sqlite3.IntegrityError, match="what was withdrawn does not come back"):
+            connection.execute("INSERT INTO sitting SELECT * FROM kept")
 
 
 def test_an_event_s_number_is_taken_once(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, pytest.raises(sqlite3.IntegrityError):
-        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'StartTapped', '{}')")
+        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'StartTapped', '{}', 0)")
 
 
 # On the disk
@@ -259,7 +320,7 @@ def test_a_disk_that_is_full_when_a_sitting_begins_keeps_nothing_of_it(
         assert rows(folder, "SELECT count(*) FROM sitting") == [(0,)]
         assert rows(folder, "SELECT count(*) FROM source") == [(0,)]
         unlimited(connections[0])
-        assert recorder.begin(provenance, [START]) == 1
+        assert recorder.begin(provenance, [START]).sitting == 1
 
 
 def test_an_event_without_a_sitting_is_not_written(folder: Path) -> None:
@@ -288,7 +349,7 @@ def test_a_sitting_that_was_cut_off_is_marked_where_its_last_event_left_it(
         recorder.append([happened.ContinueTapped(at_ms=70), happened.BoardOpened(at_ms=70)])
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
-    assert rows(folder, "SELECT * FROM event WHERE seq > 3") == [
+    assert rows(folder, "SELECT sitting, seq, at_ms, origin, type, body FROM event WHERE seq > 3") == [
         (1, 4, 70, "recovery", "SittingEnded", '{"status":"interrupted"}')
     ]
 
@@ -381,6 +442,17 @@ def test_a_recorder_that_is_refused_lets_go_of_the_database(
     for connection in connections:
         with pytest.raises(sqlite3.ProgrammingError, match="closed"):
             connection.execute("SELECT 1")
+
+
+def test_a_database_is_not_migrated_under_a_recorder_that_is_at_work(folder: Path, provenance: Provenance) -> None:
+    """A newer program that is refused leaves the older one that runs its database as it knows it."""
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, [START])
+        with closing(sqlite3.connect(folder / FILE)) as connection:
+            connection.execute("PRAGMA user_version = 1")
+        with pytest.raises(BadInput, match="another Recollect is writing in"):
+            Recorder(folder)
+        assert rows(folder, "PRAGMA user_version") == [(1,)]
 
 
 # Killed in the middle

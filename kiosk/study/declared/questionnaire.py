@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, PositiveInt, field_validator, model_validator
+from pydantic import Field, TypeAdapter, PositiveInt, field_validator, model_validator
 
 from kiosk.settings import Declared
 from kiosk.study.declared.words import Text, Words
@@ -305,6 +305,10 @@ class Questionnaire(Declared):
             if len({item.ends for item in items}) > 1:
                 raise ValueError(f"items: those of the scale {scale!r} have different ends, so they cannot be summed")
         return self
+
+
+QUESTIONNAIRES = TypeAdapter(tuple[Questionnaire, ...])
+"""Reads and writes several of them together."""
 
 
 def _refuse_twice(what: str, names: Iterator[str]) -> None:

@@ -1,0 +1,259 @@
+"""The list of places is fixed once; games that are completed consume it, and nothing else does."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk import BadInput
+from kiosk.store.database import FILE
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study import events as happened
+from kiosk.study.allocation import Allotted, Place, places
+from kiosk.study.condition import Condition
+from kiosk.study.events import Event, Status
+
+FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
+EIGHT = {Condition.TOM: 8, Condition.NOTOM: 8}
+THREE = {Condition.TOM: 3, Condition.NOTOM: 3}
+BEGUN = (happened.StartTapped(at_ms=0),)
+LEFT = (*BEGUN, happened.SittingEnded(at_ms=5, status=Status.ABANDONED))
+FINISHED = (*BEGUN, happened.GameFinished(at_ms=5))
+COMPLETED = (*FINISHED, happened.SittingEnded(at_ms=9, status=Status.COMPLETED))
+
+
+def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
+    """What stands in the database of a folder."""
+    with closing(sqlite3.connect(folder / FILE)) as connection:
+        return connection.execute(query).fetchall()
+
+
+def seated(
+    recorder: Recorder,
+    provenance: Provenance,
+    events: Sequence[Event] = COMPLETED,
+    *,
+    allotted: Allotted = Allotted.LIST,
+    simulated: bool = True,
+) -> Place | None:
+    """Have somebody play in the next place, or without one, and say which place it was."""
+    place = recorder.next_place(simulated=simulated) if allotted is Allotted.LIST else None
+    plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
+    recorder.begin(replace(provenance, plan=plan, place=place, allotted=allotted, simulated=simulated), events)
+    return place
+
+
+# Fixed
+
+
+def test_a_list_is_fixed_and_found_again(folder: Path) -> None:
+    for _ in range(2):
+        with Recorder(folder) as recorder:
+            assert recorder.fix_list(FOUR, 4, 7, simulated=False) == places(FOUR, 4, 7)
+    assert rows(folder, "SELECT site, simulated, seed, block FROM allocation") == [("", 0, 7, 4)]
+
+
+def test_a_seed_that_nobody_gave_is_drawn_and_kept(folder: Path) -> None:
+    lists = []
+    for _ in range(3):
+        with Recorder(folder) as recorder:
+            lists.append(recorder.fix_list(FOUR, 4, None, simulated=False))
+    ((seed,),) = rows(folder, "SELECT seed FROM allocation")
+    assert lists == [places(FOUR, 4, seed)] * 3
+
+
+def test_a_stored_list_can_be_read_without_the_program(folder: Path) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=False)
+    ((quotas, blocks),) = rows(folder, "SELECT quotas, places FROM allocation")
+    assert json.loads(quotas) == {"tom": 4, "notom": 4}
+    assert json.loads(blocks) == [
+        [place.condition.value for place in listed if place.block == block] for block in (1, 2)
+    ]
+
+
+def test_raised_quotas_make_the_list_longer_and_change_nothing_of_it(folder: Path) -> None:
+    with Recorder(folder) as recorder:
+        short = recorder.fix_list(FOUR, 4, 7, simulated=False)
+        longer = recorder.fix_list(EIGHT, 4, None, simulated=False)
+    assert longer[: len(short)] == short
+    assert longer == places(EIGHT, 4, 7)
+    assert rows(folder, "SELECT seed, quotas FROM allocation") == [
+        (7, '{"tom": 4, "notom": 4}'),
+        (7, '{"tom": 8, "notom": 8}'),
+    ]
+
+
+def test_a_list_that_ended_within_a_block_can_be_made_longer_too(folder: Path) -> None:
+    with Recorder(folder) as recorder:
+        short = recorder.fix_list(THREE, 4, 7, simulated=False)
+        longer = recorder.fix_list(EIGHT, 4, 7, simulated=False)
+        assert longer[: len(short)] == short
+        assert recorder.fix_list(EIGHT, 4, 7, simulated=False) == longer
+    assert len(rows(folder, "SELECT 1 FROM allocation")) == 2
+
+
+@pytest.mark.parametrize(
+    ("quotas", "block", "seed"),
+    [
+        (THREE, 4, 7),
+        (FOUR, 2, 7),
+        (FOUR, 4, 8),
+        (EIGHT, 4, 8),
+        ({Condition.TOM: 8, Condition.NOTOM: 4}, 6, 7),
+        ({Condition.TOM: 8, Condition.RANDOM_EXPLAINED: 8}, 4, 7),
+    ],
+)
+def test_another_list_is_refused_and_the_first_one_stays(
+    folder: Path, quotas: dict[Condition, int], block: int, seed: int
+) -> None:
+    with Recorder(folder) as recorder:
+        recorder.fix_list(FOUR, 4, 7, simulated=False)
+        before = rows(folder, "SELECT * FROM allocation")
+        with pytest.raises(
+            BadInput,
+            match=r"another list of places is already fixed in this data folder \(4 tom, 4 notom, in blocks of 4\)",
+        ):
+            recorder.fix_list(quotas, block, seed, simulated=False)
+        assert rows(folder, "SELECT * FROM allocation") == before
+        recorder.fix_list(FOUR, 4, 7, simulated=False)
+
+
+def test_a_list_that_there_cannot_be_is_refused_and_not_stored(folder: Path) -> None:
+    with Recorder(folder) as recorder, pytest.raises(BadInput, match="a block of 3 places"):
+        recorder.fix_list(FOUR, 3, 7, simulated=False)
+    assert rows(folder, "SELECT * FROM allocation") == []
+
+
+def test_people_and_rehearsals_and_every_site_have_lists_of_their_own(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.fix_list(FOUR, 4, 1, simulated=False)
+        recorder.fix_list(FOUR, 2, 2, simulated=True)
+        for _ in range(3):
+            seated(recorder, provenance)
+        assert recorder.next_place(simulated=True) == places(FOUR, 2, 2)[3]
+        assert recorder.next_place(simulated=False) == places(FOUR, 4, 1)[0]
+    with Recorder(folder, "MI") as recorder:
+        assert recorder.next_place(simulated=False) is None
+        recorder.fix_list(EIGHT, 8, 3, simulated=False)
+        assert recorder.next_place(simulated=False) == places(EIGHT, 8, 3)[0]
+
+
+# Consumed
+
+
+def test_a_completed_game_consumes_its_place(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        assert [seated(recorder, provenance) for _ in listed] == list(listed)
+        assert recorder.next_place(simulated=True) is None
+
+
+@pytest.mark.parametrize("events", [BEGUN, LEFT])
+def test_a_game_that_is_not_completed_gives_its_place_back(
+    folder: Path, provenance: Provenance, events: Sequence[Event]
+) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        assert [seated(recorder, provenance, events) for _ in range(3)] == [listed[0]] * 3
+        assert seated(recorder, provenance) == listed[0]
+        assert seated(recorder, provenance) == listed[1]
+
+
+def test_whoever_leaves_after_the_game_has_consumed_the_place(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        seated(recorder, provenance, FINISHED)
+        assert recorder.next_place(simulated=True) == listed[1]
+
+
+@pytest.mark.parametrize("allotted", [Allotted.OVERRIDE, Allotted.BEYOND])
+def test_what_was_not_allotted_by_the_list_takes_no_place(
+    folder: Path, provenance: Provenance, allotted: Allotted
+) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        assert seated(recorder, provenance, allotted=allotted) is None
+        assert recorder.next_place(simulated=True) == listed[0]
+    assert rows(folder, "SELECT list, place, allotted FROM sitting") == [(None, None, allotted.value)]
+
+
+def test_a_place_stays_consumed_when_its_game_is_withdrawn(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        for _ in range(2):
+            seated(recorder, provenance)
+    for sitting, completed in ((1, 1), (2, 0)):
+        with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+            connection.execute(
+                "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', 1, ?1, 'list', 'completed', ?2, '2026-01-31')",
+                (sitting, completed),
+            )
+            for table, key in (("event", "sitting"), ("participant", "sitting"), ("sitting", "id")):
+                connection.execute(f"DELETE FROM {table} WHERE {key} = ?", (sitting,))  # noqa: S608 - a table of ours
+    with Recorder(folder) as recorder:
+        assert recorder.next_place(simulated=True) == listed[1]
+
+
+def test_places_stay_consumed_when_the_list_is_made_longer(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.fix_list(THREE, 4, 7, simulated=True)
+        for _ in range(6):
+            seated(recorder, provenance)
+        assert recorder.next_place(simulated=True) is None
+        longer = recorder.fix_list(EIGHT, 4, 7, simulated=True)
+        assert [seated(recorder, provenance) for _ in range(10)] == list(longer[6:])
+    assert rows(folder, "SELECT list, count(*) FROM sitting GROUP BY list") == [(1, 6), (2, 10)]
+
+
+def test_a_sitting_s_row_says_how_it_came_to_its_condition(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        first, *_ = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        seated(recorder, provenance)
+        recorder.begin(provenance, BEGUN)
+    assert rows(folder, "SELECT condition, list, place, allotted FROM sitting") == [
+        (first.condition.value, 1, 1, "list"),
+        ("tom", None, None, None),
+    ]
+
+
+def test_a_place_that_is_not_free_is_not_taken(folder: Path, provenance: Provenance) -> None:
+    other = Place(1, 1, provenance.plan.condition)
+    with Recorder(folder) as recorder:
+        with pytest.raises(ValueError, match="there is no free"):
+            recorder.begin(replace(provenance, place=other, allotted=Allotted.LIST), BEGUN)
+        recorder.fix_list(FOUR, 4, 7, simulated=True)
+        taken = seated(recorder, provenance)
+        assert taken is not None
+        plan = replace(provenance.plan, condition=taken.condition)
+        with pytest.raises(ValueError, match="there is no free"):
+            recorder.begin(replace(provenance, plan=plan, place=taken, allotted=Allotted.LIST), BEGUN)
+    assert rows(folder, "SELECT count(*) FROM sitting") == [(1,)]
+
+
+def test_a_place_of_another_condition_is_not_taken(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        listed = recorder.fix_list(FOUR, 4, 7, simulated=True)
+        place = next(place for place in listed if place.condition is not provenance.plan.condition)
+        with pytest.raises(ValueError, match="is not one for Condition"):
+            recorder.begin(replace(provenance, place=place, allotted=Allotted.LIST), BEGUN)
+
+
+@pytest.mark.parametrize("allotted", [None, Allotted.OVERRIDE, Allotted.BEYOND])
+def test_a_place_and_how_it_was_allotted_go_together(
+    folder: Path, provenance: Provenance, allotted: Allotted | None
+) -> None:
+    with Recorder(folder) as recorder:
+        recorder.fix_list(FOUR, 4, 7, simulated=True)
+        place = recorder.next_place(simulated=True)
+        with pytest.raises(ValueError, match="cannot take Place"):
+            recorder.begin(replace(provenance, place=place, allotted=allotted), BEGUN)
+        with pytest.raises(ValueError, match="cannot take None"):
+            recorder.begin(replace(provenance, allotted=Allotted.LIST), BEGUN)
