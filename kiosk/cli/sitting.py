@@ -14,14 +14,14 @@ import click
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, rehearsal_data_option, study_option
 from kiosk.cli.wiring import code_commit, log_into, read_settings, read_study
-from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.recorder import Recorder
 from kiosk.study.after.utterances import body_changes, utterances
+from kiosk.study.condition import Condition
 from kiosk.study.events import Event
 from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
 from kiosk.ui.rehearsing.shots import Shots, make_folder
-from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 SEED_BITS = 32
@@ -98,15 +98,17 @@ def rehearse(
 
     A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
     """
-    plan = make_plan(read_settings(study, robot_host, robot_port), condition)
-    if plan.settings.robot.kind != "none" and speed not in {None, 1}:
+    prepared = read_study(read_settings(study, robot_host, robot_port))
+    robot = prepared.settings.robot.kind != "none"
+    if robot and speed not in {None, 1}:
         raise BadInput("a robot speaks at its own speed, so a rehearsal with one cannot have another")
-    provenance = Provenance(plan, seed, AvatarBody.name.value, code_commit(), simulated=True)
+    fixed = Condition.named(condition or prepared.settings.assistance.condition)
+    origin = Origin(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
     if shots is not None:
         make_folder(shots)
-    with Recorder(data) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
+    with Recorder(data) as recorder, App(mode, recorder, Desk(prepared, recorder, origin)) as app:
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
         rehearsal = Rehearsal(app, seed, pictures)
         try:
@@ -117,7 +119,7 @@ def rehearse(
 
     with archive(data) as stored:
         played = stored.sittings()[-1].to_json()
-        if plan.settings.robot.kind != "none":
+        if robot:
             played |= _with_robot(stored.events(played["sitting"]), rehearsal.pulse.longest_ms)
     if as_json:
         click.echo(json.dumps(played))

@@ -12,9 +12,9 @@ from kiosk.assistant.mdp import Action
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.game import Board, Concentration, Position
 from kiosk.store.reading import Archive
+from kiosk.study.after.moment import Moment
 from kiosk.study.condition import Condition
 from kiosk.study.events import AssistanceDecided, BoardDealt, CardFlipped, Event, HintGiven
-from kiosk.study.after.moment import Moment
 
 
 def explained(archive: Archive, number: int, flip: int) -> Explanation:

@@ -17,9 +17,9 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.settings import Settings
 from kiosk.store.database import in_use, open_for_reading
 from kiosk.store.people.participants import participant_of
+from kiosk.study.after.measures import Measures, measure
 from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
-from kiosk.study.after.measures import Measures, measure
 from kiosk.study.declared.information import Information
 from kiosk.study.declared.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.study.events import Event, SittingEnded, Stage, StageEntered, Status, from_record

@@ -33,6 +33,7 @@ _log = logging.getLogger(__name__)
 Witness = Callable[[WorldEvent, tuple[Command, ...], Stage], None]
 """Is told of every event once its commands were carried out, and of the stage that the sitting is in."""
 
+
 class Conductor:
     """Runs one sitting after another; it is also the body's listener."""
 

@@ -23,6 +23,8 @@ class Origin:
     simulated: bool
     seed: Callable[[], int]
     """Gives every sitting a seed of its own."""
+    condition: Condition | None = None
+    """Every sitting is in this one, whatever the list says, and takes no place in it."""
 
 
 class Desk:
@@ -36,8 +38,8 @@ class Desk:
         self._chosen: Condition | None = None
         allocation = study.settings.allocation
         quotas = {Condition.named(name): quota for name, quota in allocation.quotas.items()}
-        self._listed = bool(quotas)
-        if quotas:
+        self._listed = bool(quotas) and origin.condition is None
+        if self._listed:
             recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
 
     @property
@@ -54,7 +56,7 @@ class Desk:
     def next_sitting(self, language: str) -> Provenance:
         """What the next sitting is to follow; raises StoreFailed."""
         place = self._next_place() if self._listed and self._chosen is None else None
-        condition = self._chosen or (place.condition if place else None)
+        condition = self._chosen or (place.condition if place else self._origin.condition)
         return Provenance(
             self.study.plan(language, condition),
             self._origin.seed(),
@@ -66,7 +68,7 @@ class Desk:
         )
 
     def kept(self, sitting: Provenance) -> None:
-        """This sitting is on record: what was chosen for it does not hold for the one after."""
+        """Note that a sitting is on record: what was chosen for it does not hold for the one after."""
         if sitting.allotted is Allotted.OVERRIDE:
             self._chosen = None
 

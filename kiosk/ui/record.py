@@ -34,7 +34,7 @@ class Record:
         return record
 
     def write(self, event: WorldEvent, commands: tuple[Command, ...]) -> None:
-        """Write, hold back or forget what happened and what came of it; raises StoreFailed if the disk does not take it."""
+        """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it."""
         events = (event, *(command.event for command in commands if isinstance(command, do.Record)))
         forgotten = next((command for command in commands if isinstance(command, do.ForgetSitting)), None)
         if self._keeping is Keeping.KEPT:

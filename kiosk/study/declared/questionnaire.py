@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, TypeAdapter, PositiveInt, field_validator, model_validator
+from pydantic import Field, PositiveInt, TypeAdapter, field_validator, model_validator
 
 from kiosk.settings import Declared
 from kiosk.study.declared.words import Text, Words
