@@ -42,10 +42,8 @@ def _ends(item: Item, language: str) -> dict[str, Any]:
 def _choice(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """What there is to choose from, or how much can be typed."""
     match item:
-        case Likert() | Differential():
-            return {"points": item.points, "pictures": []}
-        case Pictures():
-            return {"points": item.points, "pictures": _pictures(scale(item.pictures), item.points)}
+        case Likert() | Differential() | Pictures():
+            return {"points": item.points, "pictures": _pictures(item, scale)}
         case Slider():
             return {"lowest": item.lowest, "highest": item.highest}
         case Integer():
@@ -59,5 +57,9 @@ def _choice(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> d
     return {}
 
 
-def _pictures(folder: Path, points: int) -> list[str]:
-    return [QUrl.fromLocalFile(str(folder / f"{point}.svg")).toString() for point in range(1, points + 1)]
+def _pictures(item: Likert | Differential | Pictures, scale: Callable[[str], Path]) -> list[str]:
+    """The addresses of the pictures, from the lowest point on; none where points are numbers."""
+    if not isinstance(item, Pictures):
+        return []
+    folder = scale(item.pictures)
+    return [QUrl.fromLocalFile(str(folder / f"{point}.svg")).toString() for point in range(1, item.points + 1)]
