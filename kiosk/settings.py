@@ -372,6 +372,12 @@ class Settings(Declared):
         """The hash of every setting, given or default, so that a sitting's settings can be told apart later."""
         return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
 
+    def beside(self, other: Settings) -> Settings:
+        """The same settings, whose paths start from the folder of another study file."""
+        copied = self.model_copy()
+        copied._beside = other._beside
+        return copied
+
     def find(self, kind: str, name: str) -> Path:
         """What a study file calls by name: the shipped one in this folder of assets, or else a path from the file."""
         shipped = ASSETS / kind / name

@@ -22,6 +22,7 @@ _COMMANDS = {
     "robot": "kiosk.cli.robot:robot",
     "sittings": "kiosk.cli.records:sittings",
     "events": "kiosk.cli.records:events",
+    "replay": "kiosk.cli.replay:replay",
     "explain": "kiosk.cli.explain:explain",
     "train": "kiosk.cli.learning:train",
     "simulate": "kiosk.cli.learning:simulate",

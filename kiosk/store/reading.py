@@ -99,6 +99,10 @@ class Archive:
         """Every event of a sitting."""
         return [_event(record) for record in self.records(number)]
 
+    def story(self, number: int) -> list[Event]:
+        """Every event of a sitting that it came to by itself: without the ends that were put to it after a crash."""
+        return [_event(record) for record in self.records(number) if record["origin"] != "recovery"]
+
     def plan(self, number: int) -> Plan:
         """What a sitting followed, from what was kept with it; raises BadInput if this program cannot read that."""
         row = self._row(number)

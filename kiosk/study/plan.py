@@ -32,6 +32,10 @@ class Plan:
         """The language of the sitting."""
         return self.catalogue.language
 
+    def beside(self, other: Settings) -> Plan:
+        """The same plan, whose settings look for what they name by a path where these do."""
+        return replace(self, settings=self.settings.beside(other))
+
     @property
     def course(self) -> Course:
         """Its stages in their order; raises BadInput if there can be no such course."""

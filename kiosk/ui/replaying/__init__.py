@@ -1,0 +1,1 @@
+"""Stored sittings, played again on the screen."""

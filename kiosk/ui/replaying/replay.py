@@ -1,0 +1,109 @@
+"""A replay as a program: the kiosk's window with a player behind it in place of a session, or a folder of pictures."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from PySide6.QtCore import QObject
+
+from kiosk import BadInput
+from kiosk.robot.bodies import Bodies
+from kiosk.study import commands as do
+from kiosk.study.after.replay import Step
+from kiosk.study.plan import Plan, Study
+from kiosk.ui.clock import WallClock
+from kiosk.ui.loop import Loop
+from kiosk.ui.performer import Performer
+from kiosk.ui.replaying.bar import ReplayBar
+from kiosk.ui.replaying.player import Player
+from kiosk.ui.screens.avatar import AvatarBody
+from kiosk.ui.voice import Voice
+from kiosk.ui.window import Mode, Window
+
+_log = logging.getLogger(__name__)
+
+_UNSEEN = (do.Record, do.KeepSitting, do.ForgetSitting, do.StartTimer, do.StopTimer, do.EndSitting)
+"""Commands that change nothing on the screen."""
+
+
+class MuteVoice(Voice):
+    """Says nothing, and reports nothing: what became of every sentence stands in the record."""
+
+    def say(self, number: int, sentence: str) -> None:
+        """Say nothing."""
+
+    def stop(self) -> None:
+        """Nothing is to be heard anyway."""
+
+
+class _Deaf:
+    """Hears of no body: what they reported then is among the steps."""
+
+    def speech_started(self, utterance: int) -> None: ...
+
+    def speech_finished(self, utterance: int) -> None: ...
+
+    def speech_failed(self, utterance: int, why: str) -> None: ...
+
+    def robot_lost(self, why: str) -> None: ...
+
+
+class Replay:
+    """One stored sitting in the window. Only one can be in a process."""
+
+    def __init__(self, mode: Mode, plan: Plan, steps: tuple[Step, ...], title: str) -> None:
+        """Show the window as it was before the first step."""
+        self._window = Window(Study((plan,)), mode)
+        owner = self._window.owner
+        self._clock = WallClock(owner)
+        self._performer = Performer(self._window.screens, self._clock, lambda _: None)
+        self._performer.bodies = self._bodies(plan, owner)
+        self.player = Player(self._performer, self._clock, plan, steps)
+        self.player.change_speed(mode.speed)
+        self._loop = Loop(self._clock, owner, self._fault)
+        self._bar = ReplayBar(title, self.player, owner)
+        self._bar.left.connect(self._loop.quit)
+        self._window.shown.setProperty("replay", self._bar)
+        self._error: BaseException | None = None
+
+    def __enter__(self) -> Self:
+        """The replay itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """Close the window."""
+        self._loop.close()
+        self._window.close()
+
+    def run(self) -> None:
+        """Play until whoever watches has seen enough."""
+        self.player.run()
+        self._loop.run()
+        if self._error is not None:
+            raise self._error
+
+    def frames(self, folder: Path) -> Iterator[Path]:
+        """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot."""
+        self._window.shown.setProperty("replay", None)
+        for index, step in enumerate(self.player.steps, 1):
+            self.player.step()
+            if any(not isinstance(command, _UNSEEN) for command in step.commands):
+                file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
+                if not self._window.shown.grabWindow().save(str(file)):
+                    raise BadInput(f"the picture {file} cannot be written")
+                yield file
+
+    def _bodies(self, plan: Plan, owner: QObject) -> Bodies:
+        bodies = Bodies(_Deaf(), self._clock.after, plan.settings.robot)
+        bodies.take(AvatarBody(self._window.screens.avatar, MuteVoice(owner), _Deaf(), owner))
+        return bodies
+
+    def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
+        """A fault of ours ends the replay; nobody waits in front of it."""
+        _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
+        self._error = fault
+        self._loop.quit()
