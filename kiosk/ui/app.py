@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.robot.bodies import Bodies
+from kiosk.robot.device import Robot
 from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Settings
@@ -32,8 +33,11 @@ _log = logging.getLogger(__name__)
 class App:
     """The kiosk, ready to run. Only one can be in a process."""
 
-    def __init__(self, mode: Mode, recorder: Recorder, desk: Desk) -> None:
-        """Build everything for the desk's study and show the window; the desk is asked once for each sitting."""
+    def __init__(self, mode: Mode, recorder: Recorder, desk: Desk, robot: Robot | None = None) -> None:
+        """Build everything for the desk's study and show the window; the desk is asked once for each sitting.
+
+        ``robot`` helps in place of the one that the study file asks for.
+        """
         settings = desk.study.settings
         self._window = Window(desk.study, mode)
         owner = self._window.owner
@@ -45,7 +49,7 @@ class App:
         self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, owner))
         self.conductor.take(self.bodies)
         self._landing = Landing()
-        self._take_robot(settings)
+        self._take_robot(robot or robot_of(settings.robot, desk.study.languages[0]), settings)
         if settings.voice.sounds:
             self.conductor.play = lambda effect: self._voice.play(effect.file)
         if mode.pace is Pace.WALL and settings.screen.motion:
@@ -94,8 +98,7 @@ class App:
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.conductor.pause()
 
-    def _take_robot(self, settings: Settings) -> None:
-        device = robot_of(settings.robot, settings.languages[0])
+    def _take_robot(self, device: Robot | None, settings: Settings) -> None:
         if device is None:
             return
         self.bodies.take_robot(RobotBody(device, self.bodies, self._landing, settings.robot.look_every))
