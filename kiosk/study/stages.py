@@ -113,13 +113,14 @@ TABLE: Mapping[Stage, Mapping[type[Event], Turn]] = MappingProxyType(
 BEFORE_DECIDING = frozenset({Stage.ABOUT, Stage.CONSENT, Stage.AGE})
 """Until a visitor is past these, nothing of the sitting is written."""
 
-_ONLY_WHEN_KEPT = frozenset({Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF})
+_ONLY_WHEN_KEPT = frozenset({Stage.CONSENT, Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF})
 """Stages that would ask, or tell, somebody about a record that there is not."""
 
 _BEFORE: Mapping[Stage, tuple[Stage, ...]] = {
     Stage.CONSENT: (Stage.ABOUT_YOU, Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS),
     Stage.AGE: (Stage.ABOUT_YOU, Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS),
     Stage.ABOUT: (Stage.CONSENT, Stage.AGE, Stage.GAME),
+    Stage.ABOUT_YOU: (Stage.DEBRIEF, Stage.THANKS),
     Stage.PRACTICE: (Stage.GAME,),
     Stage.INTRODUCTION: (Stage.PRACTICE, Stage.GAME),
     Stage.GAME: (Stage.RESULT, Stage.DEBRIEF, Stage.THANKS),
@@ -172,19 +173,31 @@ def diagram() -> str:
     """The table as a Mermaid state diagram of the whole course; what may come in every stage stands in a note."""
     course = Course.of(STAGES)
     arrows = [
-        f"    {stage.value} --> {(course.after(stage, kept=True) if step is Turn.ON else stage).value}: {kind.__name__}"
+        f"    {stage.value} --> {coming.value}: {kind.__name__}"
         for stage, row in TABLE.items()
         for kind, step in row.items()
         if kind not in (*_ANYWHERE, *_LEAVING)
+        for coming in (_coming(course, stage, kind) if step is Turn.ON else (stage,))
     ]
+    left_out = ", ".join(stage.value for stage in course.stages if stage in _ONLY_WHEN_KEPT)
     notes = (
         f"    note right of {Stage.GAME.value}",
         f"        in every stage with a visitor: {_names(_ANYWHERE)};",
-        f"        and to {Stage.OVER.value}: {_names(_LEAVING)}",
+        f"        and to {Stage.OVER.value}: {_names(_LEAVING)};",
+        f"        from then on, a sitting that is not kept leaves out: {left_out}",
         "    end note",
     )
     ends = (f"    [*] --> {Stage.ATTRACT.value}", *arrows, f"    {Stage.OVER.value} --> [*]")
     return "\n".join(("stateDiagram-v2", *ends, *notes)) + "\n"
+
+
+_KEPT_AFTER: Mapping[type[Event], tuple[bool, ...]] = {DeclineTapped: (False,), AgeTapped: (True, False)}
+"""Whether a sitting can still be kept after what may decide against it."""
+
+
+def _coming(course: Course, stage: Stage, kind: type[Event]) -> tuple[Stage, ...]:
+    """The stages that this kind of event may lead to."""
+    return tuple(course.after(stage, kept=kept) for kept in _KEPT_AFTER.get(kind, (True,)))
 
 
 def _names(kinds: Sequence[type[Event]]) -> str:
