@@ -127,6 +127,7 @@ class Session:
     def _enter(self, stage: Stage, script: Script) -> None:
         script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
         self._presence.wait(stage, script)
+        script.do(do.Express(self._scenery.of(stage).mood))
         self._scenery.of(stage).enter(script)
 
     def _keep_from(self, stage: Stage, script: Script) -> None:

@@ -54,6 +54,8 @@ def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
 class Asking(Scene):
     """One or more questionnaires, one after another."""
 
+    mood = Mood.LISTENING
+
     def __init__(self, questionnaires: Sequence[Questionnaire], chance: Random) -> None:
         """Ask these; ``chance`` shuffles what is to be shuffled."""
         self._sheets = tuple(sheet for asked in questionnaires for sheet in sheets(asked, chance))
@@ -63,7 +65,6 @@ class Asking(Scene):
     def enter(self, script: Script) -> None:
         """Show the first page."""
         self._number = 0
-        script.do(do.Express(Mood.LISTENING))
         self._show(script)
 
     def accepts(self, event: WorldEvent) -> bool:

@@ -48,6 +48,8 @@ class Introduction(Scene):
 class Result(Scene):
     """What the visitor achieved."""
 
+    mood = Mood.HAPPY
+
     def __init__(self, speaker: Speaker, log: Callable[[Script], Sequence[Event]]) -> None:
         """``log`` tells everything that was concluded, with what the script at hand adds."""
         self._speaker = speaker
@@ -56,10 +58,7 @@ class Result(Scene):
     def enter(self, script: Script) -> None:
         """Show the figures and remark on them."""
         measures = measure(self._log(script))
-        script.do(
-            do.ShowResult(measures.pairs, measures.moves, measures.completion_ms),
-            do.Express(Mood.HAPPY),
-        )
+        script.do(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
         self._speaker.say(_remark(measures), script, moves=measures.moves)
 
 
@@ -72,11 +71,13 @@ class Debrief(Scene):
 
     def enter(self, script: Script) -> None:
         """Show it."""
-        script.do(do.Express(Mood.IDLE), do.ShowDebrief(self._page))
+        script.do(do.ShowDebrief(self._page))
 
 
 class Thanks(Scene):
     """The end, for a moment, or until it is tapped away."""
+
+    mood = Mood.HAPPY
 
     def __init__(self, speaker: Speaker, stay_ms: int) -> None:
         """Stay so long."""
@@ -85,7 +86,7 @@ class Thanks(Scene):
 
     def enter(self, script: Script) -> None:
         """Thank the visitor."""
-        script.do(do.ShowThanks(), do.Express(Mood.HAPPY), do.StartTimer(Timer.THANKS, self._stay_ms))
+        script.do(do.ShowThanks(), do.StartTimer(Timer.THANKS, self._stay_ms))
         self._speaker.say("thanks-speech", script)
 
     def react(self, event: WorldEvent, script: Script) -> None:

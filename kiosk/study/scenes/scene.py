@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import ClassVar
 
 from kiosk.assistant.wording import Wording
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Script
+from kiosk.study.commands import Mood, Script
 from kiosk.study.events import WorldEvent
 
 
 class Scene:
     """One stage; by default it shows nothing and takes whatever the table of stages lets through."""
+
+    mood: ClassVar[Mood] = Mood.IDLE
+    """The assistant's face as the stage begins, whatever it showed before."""
 
     def enter(self, script: Script) -> None:
         """Begin, or begin anew."""
