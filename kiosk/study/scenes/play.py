@@ -154,7 +154,8 @@ class Play(Scene):
             )
         )
         if given is not None:
-            script.do(do.ClearMark(), do.ClearBubble())
+            # Only a sentence that is said again can still be under way.
+            script.do(do.ClearMark(), do.StopSpeaking(), do.ClearBubble())
         script.do(do.TurnUp(flip.position, flip.card))
         if flip.matched is None:
             self._help_or_open(script)
