@@ -54,7 +54,7 @@ class Presence:
             script.do(do.StartTimer(Timer.IDLE, self._idle.of(stage.value)))
 
     def go_on(self, script: Script) -> None:
-        """End a pause that was cut off together with the program."""
+        """End a pause together with the sitting, or after the program that it was cut off with."""
         if self._paused:
             self._paused = False
             script.do(do.HidePause())

@@ -143,6 +143,7 @@ class Session:
 
     def _end(self, status: Status, script: Script) -> None:
         self._forget(Unstored.LEFT, script)
+        self._presence.go_on(script)
         script.note(happened.SittingEnded(at_ms=script.at_ms, status=status))
         script.do(do.Express(Mood.IDLE), do.EndSitting(status))
 
