@@ -59,6 +59,6 @@ class Study:
         return tuple(plan.language for plan in self.plans)
 
     def plan(self, language: str, condition: Condition | None = None) -> Plan:
-        """The plan of a language, in the study file's condition or another one."""
-        plan = next(plan for plan in self.plans if plan.language == language)
+        """The plan of one of its languages, in the study file's condition or another one."""
+        plan = self.plans[self.languages.index(language)]
         return plan if condition is None else replace(plan, condition=condition)

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from kiosk.study.events import (
+    BoardOpened,
     BodyChanged,
     Event,
     HintGiven,
@@ -14,6 +15,7 @@ from kiosk.study.events import (
     SentenceRequested,
     SpeechFailed,
     SpeechFinished,
+    StageEntered,
 )
 
 
@@ -43,6 +45,8 @@ def utterances(events: Iterable[Event]) -> Utterances:
             case HintGiven(utterance=number) | SentenceRequested(utterance=number) | SentenceRepeated(utterance=number):
                 requested.add(number)
                 under_way = number
+            case StageEntered() | BoardOpened():
+                under_way = None
             case SpeechFinished(utterance=number):
                 finished.add(number)
                 under_way = None
