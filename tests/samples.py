@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -11,15 +12,74 @@ from kiosk.assistant.mdp import STATES, Action, State
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
 from kiosk.game import Board
-from kiosk.settings import ASSETS, Settings
+from kiosk.settings import ASSETS, STAGES, Settings
 from kiosk.study.condition import Condition
-from kiosk.study.declared.questionnaire import Questionnaire
+from kiosk.study.declared.information import ConsentPage, Information, Page, Purpose
+from kiosk.study.declared.questionnaire import Integer, Likert, Multiple, Option, Questionnaire, ShortText, Single
 from kiosk.study.plan import Plan
 
-CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
+SHORT = ("introduction", "game", "result", "questions")
+"""The stages around a game, with nothing to be decided beforehand."""
+
+
+def _catalogue(folder: Path) -> Catalogue:
+    """A shipped catalogue, with something to say in every stage."""
+    shipped = Catalogue(folder)
+    unsaid = [message for message in ("practice-speech", "thanks-speech") if message not in shipped]
+    spoken = "".join(f"{message} =\n    .a = {message}, one.\n    .b = {message}, two.\n" for message in unsaid)
+    return Catalogue(folder, shipped.sources | {"samples.ftl": spoken}) if unsaid else shipped
+
+
+CATALOGUES = {folder.name: _catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
 ENGLISH = CATALOGUES["en"]
-ANIMALS = tuple(sorted(picture.stem for picture in (ASSETS / "cards" / "animals").glob("*.svg")))
-CLOSING = Questionnaire.read(ASSETS / "questionnaires" / "closing.toml")
+
+
+def _deck(name: str) -> tuple[str, ...]:
+    return tuple(sorted(picture.stem for picture in (ASSETS / "cards" / name).glob("*.svg")))
+
+
+ANIMALS, FRUIT = _deck("animals"), _deck("fruit")
+
+
+def likert(name: str, **more: Any) -> Likert:
+    """An item of five points."""
+    ends = {"lowest": {"en": "not at all"}, "highest": {"en": "very much"}}
+    return Likert.model_validate({"id": name, "kind": "likert", "text": {"en": f"{name}?"}} | ends | more)
+
+
+def questionnaire(name: str, *items: Any, **more: Any) -> Questionnaire:
+    """A questionnaire of these items."""
+    return Questionnaire(id=name, version="1", note="made for tests", items=items, **more)
+
+
+def options(*names: str) -> tuple[Option, ...]:
+    """Options of these names."""
+    return tuple(Option(id=name, text={"en": name}) for name in names)
+
+
+CLOSING = questionnaire("closing", likert("enjoyed"), likert("helped"), likert("understood"))
+ABOUT_YOU = questionnaire(
+    "about-you",
+    Integer(id="age", kind="integer", text={"en": "age?"}, lowest=18, highest=120, required=True),
+    Single(id="robots", kind="single", text={"en": "robots?"}, options=options("none", "stories", "owns")),
+    Multiple(id="languages", kind="multiple", text={"en": "languages?"}, options=options("en", "it", "es")),
+    ShortText(id="job", kind="text", text={"en": "job?"}, longest=20),
+    per_page=3,
+)
+INFORMATION = Information(
+    version="7",
+    about=Page(title="About", paragraphs=("what it is about",)),
+    consent=ConsentPage(
+        title="Consent",
+        paragraphs=("what is agreed to",),
+        purposes=(
+            Purpose(id="store", text="store it"),
+            Purpose(id="share", text="share it", required=False),
+        ),
+    ),
+    debrief=Page(title="Debrief", paragraphs=("what it was about",)),
+)
+"""An information sheet with two purposes, of which one is required."""
 
 
 def policy_that(choose: Callable[[State], Action], gate: Gate = NO_GATE) -> QTable:
@@ -40,9 +100,29 @@ def mixed(seed: int = 0, gate: Gate = NO_GATE) -> QTable:
     return policy_that(chosen.__getitem__, gate)
 
 
-def plan(condition: Condition = Condition.TOM, policy: QTable | None = None, **settings: Any) -> Plan:
-    """A plan for a whole sitting; ``settings`` are sections of the study file."""
-    return Plan(Settings(**settings), condition, policy or mixed(), ENGLISH, CLOSING, ANIMALS)
+def plan(
+    condition: Condition = Condition.TOM,
+    policy: QTable | None = None,
+    stages: tuple[str, ...] = SHORT,
+    **settings: Any,
+) -> Plan:
+    """A plan for a sitting of these stages; ``settings`` are sections of the study file."""
+    return Plan(
+        settings=Settings(stages=stages, **settings),
+        condition=condition,
+        policy=policy or mixed(),
+        catalogue=ENGLISH,
+        information=INFORMATION,
+        about_you=ABOUT_YOU,
+        questionnaires=(CLOSING,),
+        deck=ANIMALS,
+        practice_deck=FRUIT,
+    )
+
+
+def whole(condition: Condition = Condition.TOM, policy: QTable | None = None, **settings: Any) -> Plan:
+    """A plan for a sitting of all stages that there are."""
+    return plan(condition, policy, STAGES, **settings)
 
 
 def board_of(*rows: str) -> Board:

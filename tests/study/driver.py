@@ -1,24 +1,27 @@
 """Drives a sitting without a window: a clock that only moves when told to, timers that obey, and a body that speaks.
 
-``View`` is what a visitor would see of the commands so far; ``Driver`` sends events, keeps the timers that the session
-asked for, and answers for the body, as a conductor would.
+``Driver`` sends events, keeps the timers that the session asked for, and answers for the body, as a conductor would;
+``driven_to`` brings a willing visitor to any stage.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from random import Random
-from typing import TypeVar
+from typing import Self, TypeVar
 
 from kiosk.game import Position
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Command, Mood, Record, Wait
-from kiosk.study.events import Event, SessionEvent, Stage, Status, Timer, WorldEvent
+from kiosk.study.commands import Command, Record
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Page, Rating, Single
+from kiosk.study.events import BodyName, Event, SessionEvent, Stage, Timer, WorldEvent
 from kiosk.study.plan import Plan
 from kiosk.study.session import Session
+from tests.samples import whole
+from tests.study.view import View
 
 ONE_TAP = 700
 """How long the visitor thinks before a tap, in ms."""
@@ -37,83 +40,6 @@ class Voice(Enum):
     FAILS = "says at once that it cannot"
     BREAKS_OFF = "begins, then fails"
     IS_SILENT = "never answers"
-
-
-@dataclass
-class View:
-    """What there is to see after the commands so far."""
-
-    screen: str = "attract"
-    rows: int = 0
-    columns: int = 0
-    up: dict[Position, str] = field(default_factory=dict)
-    found: set[Position] = field(default_factory=set)
-    held: Wait | None = None
-    mark: tuple[int | None, int | None] | None = None
-    bubble: str | None = None
-    speaking: int | None = None
-    mood: Mood = Mood.IDLE
-    progress: tuple[int, int] = (0, 0)
-    result: do.ShowResult | None = None
-    question: do.ShowQuestion | None = None
-    answer: int | None = None
-    still_there: bool = False
-    ended: Status | None = None
-
-    @property
-    def closed(self) -> list[Position]:
-        """Every closed card, row by row."""
-        places = (Position(row, column) for row in range(self.rows) for column in range(self.columns))
-        return [place for place in places if place not in self.up]
-
-    def obey(self, commands: Iterable[Command]) -> None:
-        """Show what these commands say."""
-        for command in commands:
-            self._obey(command)
-
-    def _obey(self, command: Command) -> None:  # noqa: C901, PLR0912 - one case per command
-        match command:
-            case do.ShowIntroduction():
-                self.screen = "introduction"
-            case do.ShowBoard(rows=rows, columns=columns):
-                self.screen, self.rows, self.columns = "board", rows, columns
-            case do.TurnUp(position=position, card=card):
-                self.up[position] = card
-            case do.TurnBack(positions=positions):
-                for position in positions:
-                    del self.up[position]
-            case do.ShowPair(positions=positions):
-                self.found |= set(positions)
-            case do.ShowProgress(pairs_found=pairs_found, moves=moves):
-                self.progress = (pairs_found, moves)
-            case do.HoldBoard(wait=wait):
-                self.held = wait
-            case do.OpenBoard():
-                self.held = None
-            case do.ShowMark(row=row, column=column):
-                self.mark = (row, column)
-            case do.ClearMark():
-                self.mark = None
-            case do.Speak(utterance=utterance, sentence=sentence):
-                self.bubble, self.speaking = sentence, utterance
-            case do.StopSpeaking():
-                self.speaking = None
-            case do.ClearBubble():
-                self.bubble = None
-            case do.Express(mood=mood):
-                self.mood = mood
-            case do.ShowResult():
-                self.screen, self.result = "result", command
-            case do.ShowQuestion():
-                self.screen, self.question, self.answer = "question", command, None
-            case do.ShowAnswer(value=value):
-                self.answer = value
-            case do.AskStillThere():
-                self.still_there = True
-            case do.HideStillThere():
-                self.still_there = False
-            case do.EndSitting(status=status):
-                self.ended = status
 
 
 @dataclass(frozen=True)
@@ -200,10 +126,48 @@ class Driver:
         """Tap a card at once."""
         return self.send(happened.CardTapped(at_ms=self.now, position=position))
 
-    def answer(self, value: int, item: str | None = None) -> tuple[Command, ...]:
-        """Answer the question that is shown, or another one."""
-        shown = self.view.question.item if self.view.question else ""
+    def tick(self, *purposes: str, ticked: bool = True) -> None:
+        """Set, or take away, the ticks of these purposes of the consent."""
+        for purpose in purposes:
+            self.send(happened.PurposeTicked(at_ms=self.now, purpose=purpose, ticked=ticked))
+
+    def agree(self) -> tuple[Command, ...]:
+        """Agree to what is ticked, after a moment."""
+        self.spend(ONE_TAP)
+        return self.send(happened.AgreeTapped(at_ms=self.now))
+
+    def decline(self) -> tuple[Command, ...]:
+        """Play without being recorded."""
+        return self.send(happened.DeclineTapped(at_ms=self.now))
+
+    def say_age(self, *, adult: bool = True) -> tuple[Command, ...]:
+        """Say whether one is old enough."""
+        return self.send(happened.AgeTapped(at_ms=self.now, adult=adult))
+
+    def skip(self) -> tuple[Command, ...]:
+        """Leave the practice."""
+        return self.send(happened.SkipTapped(at_ms=self.now))
+
+    def answer(self, value: Answer | None, item: str | None = None) -> tuple[Command, ...]:
+        """Answer the first item that is shown, or another one."""
+        shown = self.view.page.items[0].id if self.view.page else ""
         return self.send(happened.AnswerGiven(at_ms=self.now, item=shown if item is None else item, value=value))
+
+    def pause(self) -> tuple[Command, ...]:
+        """The experimenter stops the sitting for a while."""
+        return self.send(happened.PauseAsked(at_ms=self.now))
+
+    def end_pause(self) -> tuple[Command, ...]:
+        """The experimenter lets it go on."""
+        return self.send(happened.PauseEnded(at_ms=self.now))
+
+    def repeat(self) -> tuple[Command, ...]:
+        """The experimenter wants the last sentence said again."""
+        return self.send(happened.RepeatAsked(at_ms=self.now))
+
+    def end(self, reason: str = "the fair is closing") -> tuple[Command, ...]:
+        """The experimenter ends the sitting."""
+        return self.send(happened.EndAsked(at_ms=self.now, reason=reason))
 
     def wait(self) -> tuple[Command, ...]:
         """Let the clock go on to the next thing that is due, a timer's end or the body's answer, and let it happen."""
@@ -220,16 +184,40 @@ class Driver:
         self.now = until
 
     def wait_until_open(self) -> None:
-        """Let time go by until cards can be tapped, or the game is over."""
-        while self.stage is Stage.GAME and (self.view.held is not None or not self.view.closed):
+        """Let time go by until cards can be tapped, or the stage is over."""
+        here = self.stage
+        while self.stage is here and (self.view.held is not None or not self.view.closed):
             self.wait()
 
     # Whole stretches
 
     def to_the_game(self) -> None:
         """Begin the sitting and go on to the game."""
-        self.start()
-        self.go_on()
+        self.to(Stage.GAME)
+
+    def to(self, stage: Stage) -> None:
+        """Go on to this stage, doing what is asked for; a practice is not asked for."""
+        while self.stage is not stage:
+            self.do_what_is_asked()
+
+    def do_what_is_asked(self) -> None:
+        """Go through the stage that the sitting is in."""
+        match self.stage:
+            case Stage.ATTRACT:
+                self.start()
+            case Stage.CONSENT:
+                self.tick(*(purpose.id for purpose in self.plan.information.consent.purposes))
+                self.agree()
+            case Stage.AGE:
+                self.say_age()
+            case Stage.ABOUT_YOU | Stage.QUESTIONS:
+                self.questions()
+            case Stage.PRACTICE:
+                self.skip()
+            case Stage.GAME:
+                self.play(with_memory(1))
+            case _:
+                self.go_on()
 
     def flip(self, position: Position) -> tuple[Command, ...]:
         """Wait until it is possible, think, and flip a card."""
@@ -238,26 +226,40 @@ class Driver:
         return self.tap(position)
 
     def play(self, choose: Callable[[View], Position]) -> None:
-        """Play the game to its end, flip by flip."""
+        """Play the game, or the practice, to its end, flip by flip."""
+        here = self.stage
         self.wait_until_open()
-        while self.stage is Stage.GAME:
+        while self.stage is here:
             self.spend(ONE_TAP)
             self.tap(choose(self.view))
             self.wait_until_open()
 
-    def questions(self, values: Sequence[int] | None = None) -> None:
-        """Answer all questions and end the sitting."""
-        values = values or [1] * len(self.plan.questionnaire.items)
-        for value in values:
-            self.answer(value)
+    def questions(self, values: Sequence[Answer] = ()) -> None:
+        """Answer all questions of this stage, with these values or any that will do, page by page."""
+        here, left = self.stage, list(values)
+        while self.stage is here:
+            for item in self.view.page.items if self.view.page else ():
+                if not isinstance(item, Page):
+                    self.answer(left.pop(0) if left else some_answer(item), item.id)
             self.go_on()
 
     def whole_sitting(self, choose: Callable[[View], Position]) -> None:
         """From the first tap to the end."""
         self.to_the_game()
         self.play(choose)
-        self.go_on()
-        self.questions()
+        self.to(Stage.OVER)
+
+    @classmethod
+    def resumed(cls, plan: Plan, seed: int, past: Iterable[WorldEvent], body: BodyName = BodyName.AVATAR) -> Self:
+        """A sitting that was cut off after these events, in a program that has just started."""
+        driver = cls(plan, seed)
+        for event in past:
+            driver.now = event.at_ms
+            driver.send(event)
+        driver._due.clear()
+        driver.view = View()
+        driver.send(happened.SittingResumed(at_ms=driver.now, body=body))
+        return driver
 
     # Timers and the body
 
@@ -290,6 +292,26 @@ class Driver:
     def _plan(self, after_ms: int, send: Callable[[int], WorldEvent], timer: Timer | None = None) -> None:
         self._numbers += 1
         self._due.append(_Due(self.now + after_ms, self._numbers, send, timer))
+
+
+def driven_to(stage: Stage, plan: Plan | None = None, seed: int = 5, voice: Voice = Voice.SPEAKS) -> Driver:
+    """A sitting that has just reached this stage, of all that there are unless the plan has others."""
+    driver = Driver(plan or whole(), seed, voice)
+    driver.to(stage)
+    return driver
+
+
+def some_answer(item: Item) -> Answer:
+    """An answer that an item accepts."""
+    if isinstance(item, Multiple):
+        return item.ids[:1]
+    if isinstance(item, Single):
+        return item.ids[0]
+    if isinstance(item, Integer):
+        return item.lowest
+    if isinstance(item, Rating):
+        return item.ends[0]
+    return "a word"
 
 
 def notes(commands: Iterable[Command]) -> list[SessionEvent]:
