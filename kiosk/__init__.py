@@ -8,7 +8,17 @@ __version__ = "0.1.0"
 
 
 class BadInput(Exception):
-    """Something that was handed to Recollect cannot be used; the message says what and where, in one sentence.
+    """Something that was handed to Recollect cannot be used; each sentence says what and where.
 
-    At the command line it becomes that sentence and exit code 2. Nothing has been changed when it is raised.
+    Mostly there is one; a file that is checked as a whole has one for everything that is wrong with it. At the command
+    line they become one line each and exit code 2. Nothing has been changed when it is raised.
     """
+
+    def __init__(self, *sentences: str) -> None:
+        """Say what is wrong."""
+        super().__init__(*sentences)
+        self.sentences = sentences
+
+    def __str__(self) -> str:
+        """The sentences, one per line."""
+        return "\n".join(self.sentences)

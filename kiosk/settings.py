@@ -9,7 +9,7 @@ import hashlib
 import tomllib
 from collections import Counter
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     BaseModel,
@@ -25,6 +25,7 @@ from pydantic import (
 )
 
 from kiosk import BadInput
+from kiosk.refusals import refusals
 
 STAGES = (
     "about",
@@ -55,29 +56,25 @@ class Declared(BaseModel):
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Read a file; raises BadInput with one sentence that names the file, and the key if it is about one."""
+        """Read a file; raises BadInput with a sentence for everything that is wrong, naming the file and the key."""
+        name = f"the {cls.file_kind} {path}"
+        given = _toml(name, path)
         try:
-            return cls.model_validate(tomllib.loads(path.read_text("utf-8")))
-        except OSError as error:
-            raise BadInput(f"the {cls.file_kind} {path} cannot be read: {error.strerror}") from error
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise BadInput(f"the {cls.file_kind} {path} is not TOML: {error}") from error
+            return cls.model_validate(given)
         except ValidationError as error:
-            raise BadInput(f"the {cls.file_kind} {path}: {refusal(error)}") from error
+            raise BadInput(*(f"{name}: {sentence}" for sentence in refusals(error, given, cls))) from error
 
 
-def refusal(error: ValidationError) -> str:
-    """The first thing that is wrong, in words: where it stands, what is wrong with it, and what it is."""
-    first = error.errors()[0]
-    place = ".".join(str(part) for part in first["loc"])
-    what = first["msg"].removeprefix("Value error, ")
-    if first["type"] == "missing":
-        return f"{place}: this key is missing"
-    if first["type"] == "extra_forbidden":
-        return f"{place}: there is no such key"
-    given = first["input"]
-    said = f", but it is {given!r}" if isinstance(given, str | int | float | bool | list | tuple) else ""
-    return f"{place}: {what}{said}" if place else f"{what}"
+def _toml(name: str, path: Path) -> dict[str, Any]:
+    try:
+        # Some editors begin a file with a mark that is no text.
+        return tomllib.loads(path.read_text("utf-8-sig"))
+    except OSError as error:
+        raise BadInput(f"{name} cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{name} is not UTF-8; save it with that encoding") from error
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise BadInput(f"{name} is not TOML: {error}") from error
 
 
 class Timing(Declared):
@@ -250,8 +247,7 @@ class Robot(Declared):
     axes: Annotated[
         str,
         Field(
-            pattern=r"^-?[xyz] -?[xyz] -?[xyz]$",
-            description="Its axes for sideways (the visitor's right), up and forward, each with a minus if reversed.",
+            description="Its axes for sideways (the visitor's right), up and forward, each with a minus if reversed."
         ),
     ] = "x y z"
     board_middle: Annotated[
@@ -266,8 +262,8 @@ class Robot(Declared):
     @field_validator("axes")
     @classmethod
     def _name_every_axis(cls, axes: str) -> str:
-        if {axis[-1] for axis in axes.split()} != {"x", "y", "z"}:
-            raise ValueError("each of x, y and z must be named once")
+        if sorted(axis.removeprefix("-") for axis in axes.split(" ")) != ["x", "y", "z"]:
+            raise ValueError(f"{axes!r} does not name x, y and z once each, such as 'x -z y'")
         return axes
 
     def speech_time(self, sentence: str) -> int:

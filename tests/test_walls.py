@@ -14,11 +14,12 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "settings"}
-"""The package itself and the study file's types: every room may know them, and they know no room."""
+BELOW_ALL = {"kiosk", "refusals", "settings"}
+"""The package itself, the study file's types and how they refuse: every room may know them, and they know no room."""
 
 ROOMS: dict[str, set[str]] = {
     "kiosk": set(),
+    "refusals": set(),
     "settings": set(),
     "game": set(),
     "assistant": {"game"},

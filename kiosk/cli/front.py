@@ -59,9 +59,10 @@ def recollect(context: click.Context) -> None:
 
 
 def main() -> Never:
-    """Run the command line; input that cannot be used gets one sentence and exit code 2."""
+    """Run the command line; input that cannot be used gets its sentences, one a line, and exit code 2."""
     try:
         recollect()
     except BadInput as refusal:
-        click.echo(f"recollect: {refusal}", err=True)
+        for sentence in refusal.sentences:
+            click.echo(f"recollect: {sentence}", err=True)
     sys.exit(BAD_INPUT)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, PositiveInt, TypeAdapter, field_validator, model_validator
+from pydantic import AfterValidator, Field, PositiveInt, TypeAdapter, field_validator, model_validator
 
 from kiosk.settings import Declared
 from kiosk.study.declared.words import Text, Words
@@ -16,7 +17,14 @@ from kiosk.study.declared.words import Text, Words
 Answer = int | str | tuple[str, ...]
 """A point on a scale or a number; an option's id or a text; the ids of several options."""
 
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+
+def _name(name: str) -> str:
+    if not re.fullmatch("[A-Za-z][A-Za-z0-9_-]*", name):
+        raise ValueError(f"{name!r} is no name; a name begins with a letter and has letters, digits, _ and - only")
+    return name
+
+
+Name = Annotated[str, AfterValidator(_name)]
 """Names go into records, columns and messages."""
 
 Points = Annotated[int, Field(ge=2, le=11)]

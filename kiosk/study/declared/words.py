@@ -5,10 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 Text = Annotated[str, Field(min_length=1)]
-Words = Annotated[dict[str, Text], Field(min_length=1)]
+
+
+def _by_language(given: object) -> object:
+    if isinstance(given, str):
+        raise ValueError(f"{given!r} stands in no language; write {{ en = {given!r} }}")
+    return given
+
+
+Words = Annotated[dict[str, Text], Field(min_length=1), BeforeValidator(_by_language)]
 """One text in several languages, by their codes."""
 
 

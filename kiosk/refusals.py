@@ -1,0 +1,167 @@
+"""What is wrong with a declared file, in words: for each fault one sentence that a person understands at once.
+
+It turns pydantic's errors into sentences. The place of a fault is told as the file writes it, counted from 1.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+KIND = "kind"
+"""The key by which the tables of one list are told apart."""
+
+_MUST: Mapping[str, str] = {
+    "int_type": "must be a whole number",
+    "float_type": "must be a number",
+    "string_type": "must be text in quotes",
+    "bool_type": "must be true or false",
+    "tuple_type": "must be a list in square brackets",
+    "model_type": "must be a table with keys of its own",
+    "model_attributes_type": "must be a table with keys of its own",
+    "dict_type": "must be a table in braces",
+    "greater_than": "must be more than {gt:g}",
+    "greater_than_equal": "must be at least {ge:g}",
+    "less_than_equal": "must be at most {le:g}",
+    "literal_error": "must be {expected}",
+    "enum": "must be {expected}",
+}
+"""What a value must be, by pydantic's type of error; what it is comes after it."""
+
+_TELLS: Mapping[str, str] = {
+    "string_too_short": "must not be empty",
+    "union_tag_not_found": f"the key {KIND!r} is missing",
+    "union_tag_invalid": f"{KIND} must be one of {{expected_tags}}, but it is {{tag!r}}",
+    "value_error": "{error}",
+}
+"""What says all there is to say."""
+
+_SAID_OF_WHAT_IS_ABOVE = frozenset({"missing", "extra_forbidden"})
+"""What is told of the table that lacks a key or has one too many."""
+
+
+def refusals(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
+    """A sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
+    errors = error.errors()
+    places = {fault["loc"] for fault in errors}
+    said = (_sentence(fault, given, model) for fault in errors if not _follows(fault, places))
+    return tuple(dict.fromkeys(said))
+
+
+def _follows(fault: ErrorDetails, places: set[tuple[int | str, ...]]) -> bool:
+    """Whether a list is too short only because something in it is wrong, which is said anyway."""
+    here = fault["loc"]
+    inside = (place for place in places if len(place) > len(here) and place[: len(here)] == here)
+    return fault["type"] == "too_short" and any(inside)
+
+
+def _sentence(fault: ErrorDetails, given: Any, model: type[BaseModel]) -> str:
+    place = _place(fault["loc"][:-1] if fault["type"] in _SAID_OF_WHAT_IS_ABOVE else fault["loc"], given)
+    what = _what(fault, model)
+    between = " " if what.startswith("must ") else ": "
+    return f"{place}{between}{what}" if place else what
+
+
+def _what(fault: ErrorDetails, model: type[BaseModel]) -> str:
+    context = fault.get("ctx", {})
+    match fault["type"]:
+        case "missing":
+            return _missing(fault)
+        case "extra_forbidden":
+            *table, key = fault["loc"]
+            return f"there is no key {key!r}{_meant(str(key), _keys(model, table))}"
+        case "too_short" | "too_long":
+            return f"must have {_entries(context)}, but it has {len(fault['input'])}"
+        case kind if kind in _TELLS:
+            return _TELLS[kind].format(**context)
+        case kind:
+            says = _MUST.get(kind, fault["msg"].removeprefix("Input ").replace("should", "must"))
+            return f"{says.format(**context)}, but it is {written(fault['input'])}"
+
+
+def _missing(fault: ErrorDetails) -> str:
+    """A key that is missing, or an entry of a list that has to have so many."""
+    last = fault["loc"][-1]
+    if isinstance(last, int):
+        return f"must have at least {last + 1} entries, but it has {len(fault['input'])}"
+    return f"the key {last!r} is missing"
+
+
+def _entries(context: Mapping[str, Any]) -> str:
+    side, bound = ("least", context["min_length"]) if "min_length" in context else ("most", context["max_length"])
+    return f"at {side} {bound} {'entry' if bound == 1 else 'entries'}"
+
+
+def _meant(key: str, keys: Sequence[str]) -> str:
+    close = get_close_matches(key, keys, n=1)
+    if close:
+        return f"; did you mean {close[0]!r}?"
+    return f"; there are {', '.join(keys)}" if keys else ""
+
+
+def written(value: object) -> str:
+    """A value as a TOML file writes it, cut short if it is long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "a table" if isinstance(value, dict) else reprlib.repr(value)
+
+
+def _place(steps: Sequence[int | str], given: Any) -> str:
+    """A place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``."""
+    entries: list[str] = []
+    keys: list[str] = []
+    here = given
+    for at, step in enumerate(steps):
+        if isinstance(step, int):
+            here = here[step] if isinstance(here, list) and step < len(here) else None
+            *above, name = keys or ["entry"]
+            entries.append(".".join((*above, _entry(name, step + 1, here))))
+            keys = []
+        elif not keys and isinstance(here, dict) and here.get(KIND) == step and _is_entry(steps, at):
+            # Pydantic names the kind of a table as a step; what all of a kind share stands under that name itself.
+            key = steps[at + 1] if at + 1 < len(steps) else None
+            if key not in here and isinstance(given.get(step), dict) and key in given[step]:
+                entries, keys, here = [], [step], given[step]
+        else:
+            keys.append(step)
+            here = here.get(step) if isinstance(here, dict) else None
+    return ": ".join(part for part in (", ".join(entries), ".".join(keys)) if part)
+
+
+def _is_entry(steps: Sequence[int | str], at: int) -> bool:
+    return at > 0 and isinstance(steps[at - 1], int)
+
+
+def _entry(name: str, number: int, entry: Any) -> str:
+    named = f" ({entry['id']})" if isinstance(entry, dict) and isinstance(entry.get("id"), str) else ""
+    singular = name.removesuffix("s")
+    return f"{singular} {number}{named}" if singular != name else f"{name}, number {number}{named}"
+
+
+def _keys(model: type[BaseModel], place: Sequence[int | str]) -> tuple[str, ...]:
+    """The keys of the table at a place; none if there is more than one table that it could be."""
+    models: tuple[type[BaseModel], ...] = (model,)
+    for step in place:
+        if isinstance(step, int):
+            continue
+        of_kind = tuple(each for each in models if KIND in each.model_fields and step in _kinds(each))
+        fields = (each.model_fields[step].annotation for each in models if step in each.model_fields)
+        models = of_kind or tuple(found for field in fields for found in _models(field))
+    return tuple(models[0].model_fields) if len(models) == 1 else ()
+
+
+def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
+    return get_args(model.model_fields[KIND].annotation)
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Every model in a type, however deep."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
