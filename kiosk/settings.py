@@ -218,7 +218,7 @@ class Robot(Declared):
     kind: Annotated[
         Literal["none", "furhat", "furhat-realtime"], Field(description="Which robot, or none: the avatar alone.")
     ] = "none"
-    host: Annotated[str, Field(description="Its name or address on the network.")] = "localhost"
+    host: Annotated[str, Field(min_length=1, description="Its name or address on the network.")] = "localhost"
     port: Annotated[
         int | None, Field(ge=1, le=65535, description="Its port; by default 54321, or 9000 for furhat-realtime.")
     ] = None
@@ -341,15 +341,20 @@ class Settings(Declared):
     keys: Keys = Keys()
     experimenter: Experimenter = Experimenter()
 
-    _beside: Path = PrivateAttr(default_factory=Path)
-    """The study file's folder: what it names by a path lies there. It is no setting, and is not recorded."""
+    _file: Path | None = PrivateAttr(None)
+    """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""
 
     @classmethod
     def read(cls, path: Path) -> Self:
         """Read a study file; the paths in it start from its own folder."""
         settings = super().read(path)
-        settings._beside = path.parent
+        settings._file = path
         return settings
+
+    @property
+    def name(self) -> str:
+        """What to call them in a refusal."""
+        return f"the {self.file_kind} {self._file}" if self._file else "the study"
 
     @model_validator(mode="after")
     def _name_things_once(self) -> Self:
@@ -368,16 +373,20 @@ class Settings(Declared):
         """The hash of every setting, given or default, so that a sitting's settings can be told apart later."""
         return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
 
-    def beside(self, other: Settings) -> Settings:
+    def lying_with(self, other: Settings) -> Settings:
         """The same settings, whose paths start from the folder of another study file."""
         copied = self.model_copy()
-        copied._beside = other._beside
+        copied._file = other._file
         return copied
 
     def find(self, kind: str, name: str) -> Path:
         """What a study file calls by name: the shipped one in this folder of assets, or else a path from the file."""
         shipped = ASSETS / kind / name
-        return shipped if shipped.exists() else self._beside / name
+        return shipped if shipped.exists() else self.beside(name)
+
+    def beside(self, name: str) -> Path:
+        """A path as the study file means it: from its own folder."""
+        return self._file.parent / name if self._file else Path(name)
 
 
 def _beside_or_inside(name: str) -> Path:

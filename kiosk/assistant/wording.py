@@ -81,6 +81,11 @@ class Catalogue:
         forms = {f"{CARD}-{form}": self._format(message, pattern, {}) for form, pattern in attributes.items()}
         return {CARD: self.text(message), **forms}
 
+    @property
+    def messages(self) -> frozenset[str]:
+        """The names of all messages."""
+        return frozenset(self._names)
+
     def __contains__(self, message: str) -> bool:
         """Whether there is such a message."""
         return self._bundle.has_message(message)

@@ -19,6 +19,7 @@ BAD_INPUT = 2
 _COMMANDS = {
     "open": "kiosk.cli.sitting:open_kiosk",
     "rehearse": "kiosk.cli.sitting:rehearse",
+    "study": "kiosk.cli.study:study",
     "robot": "kiosk.cli.robot:robot",
     "sittings": "kiosk.cli.records:sittings",
     "events": "kiosk.cli.records:events",

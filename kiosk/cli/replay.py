@@ -55,7 +55,7 @@ def replay(
     with archive(data) as stored:
         events, plan = stored.story(sitting), stored.plan(sitting)
         seed = stored.seed(sitting)
-    plan = plan if study is None else plan.beside(Settings.read(study))
+    plan = plan if study is None else plan.lying_with(Settings.read(study))
     _check_pictures(plan)
     steps = replayed(plan, seed, events)
     frames = frames or (Path(f"sitting-{sitting}") if headless else None)

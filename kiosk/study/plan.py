@@ -32,9 +32,9 @@ class Plan:
         """The language of the sitting."""
         return self.catalogue.language
 
-    def beside(self, other: Settings) -> Plan:
+    def lying_with(self, other: Settings) -> Plan:
         """The same plan, whose settings look for what they name by a path where these do."""
-        return replace(self, settings=self.settings.beside(other))
+        return replace(self, settings=self.settings.lying_with(other))
 
     @property
     def course(self) -> Course:

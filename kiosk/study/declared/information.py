@@ -6,6 +6,7 @@ These are the texts that an ethics board approves, so they stand apart from all 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Self
 
@@ -13,7 +14,7 @@ from pydantic import Field, field_validator
 
 from kiosk import BadInput
 from kiosk.settings import Declared
-from kiosk.study.declared.questionnaire import Name
+from kiosk.study.declared.questionnaire import Name, refuse_twice
 from kiosk.study.declared.words import Text
 
 Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
@@ -42,8 +43,7 @@ class ConsentPage(Page):
     @field_validator("purposes")
     @classmethod
     def _name_every_purpose_once(cls, purposes: tuple[Purpose, ...]) -> tuple[Purpose, ...]:
-        if len({purpose.id for purpose in purposes}) < len(purposes):
-            raise ValueError("two purposes have the same id")
+        refuse_twice("purpose", (purpose.id for purpose in purposes))
         return purposes
 
     @property
@@ -76,11 +76,18 @@ class Information(Declared):
         return cls.read(file)
 
 
-def check_alike(sheets: dict[str, Information], folder: Path) -> None:
+def check_alike(sheets: Mapping[str, Information], folder: Path) -> None:
     """Raise BadInput unless every language has the same version and asks for the same."""
-    asked = {
-        (sheet.version, tuple((purpose.id, purpose.required) for purpose in sheet.consent.purposes))
-        for sheet in sheets.values()
-    }
-    if len(asked) > 1:
-        raise BadInput(f"the information sheets in {folder} differ between languages in version or purposes")
+    for what, says in (("versions", _version), ("purposes", _purposes)):
+        said = {language: says(sheet) for language, sheet in sheets.items()}
+        if len(set(said.values())) > 1:
+            each = "; ".join(f"{language}: {words}" for language, words in said.items())
+            raise BadInput(f"the information sheets in {folder} have different {what}: {each}")
+
+
+def _version(sheet: Information) -> str:
+    return sheet.version
+
+
+def _purposes(sheet: Information) -> str:
+    return ", ".join(f"{purpose.id}{'' if purpose.required else ' (optional)'}" for purpose in sheet.consent.purposes)

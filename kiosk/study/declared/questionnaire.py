@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
@@ -186,7 +186,7 @@ class _Choice(_Question):
     @field_validator("options")
     @classmethod
     def _name_every_option_once(cls, options: tuple[Option, ...]) -> tuple[Option, ...]:
-        _refuse_twice("option", (option.id for option in options))
+        refuse_twice("option", (option.id for option in options))
         return options
 
 
@@ -301,7 +301,7 @@ class Questionnaire(Declared):
     @field_validator("items")
     @classmethod
     def _name_every_item_once(cls, items: tuple[Item, ...]) -> tuple[Item, ...]:
-        _refuse_twice("item", (item.id for item in items))
+        refuse_twice("item", (item.id for item in items))
         return items
 
     @model_validator(mode="after")
@@ -319,7 +319,8 @@ QUESTIONNAIRES = TypeAdapter(tuple[Questionnaire, ...])
 """Reads and writes several of them together."""
 
 
-def _refuse_twice(what: str, names: Iterator[str]) -> None:
+def refuse_twice(what: str, names: Iterable[str]) -> None:
+    """Raise ValueError if one of the names is there more than once."""
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         raise ValueError(f"the {what} {twice[0]!r} stands twice")

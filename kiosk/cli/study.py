@@ -1,0 +1,119 @@
+"""Commands that help to set up a study: check its file, write one to begin with, bring in an instrument."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from kiosk import BadInput
+from kiosk.cli.options import json_option
+from kiosk.robot.kinds import robot_of
+from kiosk.settings import Settings
+from kiosk.study.declared.cautions import cautions, minutes
+from kiosk.study.declared.questionnaire import Order, Page, Questionnaire
+from kiosk.study.declared.reference import as_pages, as_study_file
+from kiosk.study.declared.spreadsheet import Heading, read_items
+from kiosk.study.declared.toml import write_questionnaire
+from kiosk.study.declared.whole import read_study
+from kiosk.study.plan import Study
+
+BAD_INPUT = 2
+MOST_PER_PAGE = 8
+
+
+@click.group()
+def study() -> None:
+    """Set up a study: check its file, write one to begin with, bring in a questionnaire."""
+
+
+@study.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@json_option
+@click.pass_context
+def check(context: click.Context, file: Path, *, as_json: bool) -> None:
+    """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
+    try:
+        read = read_study(Settings.read(file))
+        robot_of(read.settings.robot, read.languages[0])
+    except BadInput as refusal:
+        if not as_json:
+            raise
+        click.echo(json.dumps({"faults": refusal.sentences}, ensure_ascii=False))
+        context.exit(BAD_INPUT)
+    summary = summarised(read)
+    if as_json:
+        click.echo(json.dumps({"faults": []} | summary, ensure_ascii=False))
+        return
+    table = Table(box=None, show_header=False)
+    for key, value in summary.items():
+        if key != "cautions":
+            table.add_row(key.replace("_", " "), _told(value))
+    Console().print(table)
+    for caution in summary["cautions"]:
+        click.echo(f"caution: {caution}")
+
+
+def summarised(read: Study) -> dict[str, Any]:
+    """What a study is, for people and programs."""
+    settings, plan = read.settings, read.plans[0]
+    return {
+        "title": settings.title,
+        "languages": list(read.languages),
+        "stages": list(settings.stages),
+        "conditions": dict(settings.allocation.quotas) or {settings.assistance.condition: None},
+        "block": settings.allocation.block if settings.allocation.quotas else None,
+        "policy": f"{plan.policy.name} {plan.policy.sha256[:8]}",
+        "items": {asked.id: _questions(asked) for asked in (plan.about_you, *plan.questionnaires)},
+        "minutes": max(round(minutes(plan)) for plan in read.plans),
+        "cautions": list(cautions(read)),
+    }
+
+
+def _questions(asked: Questionnaire) -> int:
+    return sum(not isinstance(item, Page) for item in asked.items)
+
+
+def _told(value: object) -> str:
+    """A value of the summary as a person reads it."""
+    match value:
+        case None:
+            return "none"
+        case dict():
+            return ", ".join(name if number is None else f"{name} {number}" for name, number in value.items())
+        case list():
+            return ", ".join(map(str, value))
+    return str(value)
+
+
+@study.command()
+def example() -> None:
+    """Print a study file with every key as it is without one, each with its sentence."""
+    click.echo(as_study_file(Settings()), nl=False)
+
+
+@study.command()
+def reference() -> None:
+    """Print the reference of every key of a study file (Markdown)."""
+    click.echo(as_pages(Settings), nl=False)
+
+
+@study.command(name="import")
+@click.argument("csv", type=click.Path(path_type=Path))
+@click.option("--id", "name", required=True, help="What the questionnaire is called, in records and columns.")
+@click.option("--version", required=True, help="Its version; it changes whenever an item does.")
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The TOML file to write; it must be new.")
+@click.option("--note", help="Where its wording is from.")
+@click.option("--per-page", type=click.IntRange(1, MOST_PER_PAGE), default=1, show_default=True, help="Items a page.")
+@click.option("--shuffled", is_flag=True, help="Shuffle its items anew for every visitor.")
+def bring_in(csv: Path, name: str, version: str, out: Path, note: str | None, per_page: int, *, shuffled: bool) -> None:
+    """Make a questionnaire of a CSV table, one row per item; docs/extend.md names the columns."""
+    order = Order.SHUFFLED if shuffled else Order.FIXED
+    heading = Heading(id=name, version=version, note=note or f"Brought in from {csv.name}.", per_page=per_page, order=order)
+    read = read_items(csv, heading)
+    write_questionnaire(read, out)
+    click.echo(f"{len(read.items)} items written to {out}")
