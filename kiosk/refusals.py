@@ -62,12 +62,13 @@ def _follows(fault: ErrorDetails, places: set[tuple[int | str, ...]]) -> bool:
 
 def _sentence(fault: ErrorDetails, given: Any, model: type[BaseModel]) -> str:
     place = _place(fault["loc"][:-1] if fault["type"] in _SAID_OF_WHAT_IS_ABOVE else fault["loc"], given)
-    what = _what(fault, model)
+    what = complaint(fault, model)
     between = " " if what.startswith("must ") else ": "
     return f"{place}{between}{what}" if place else what
 
 
-def _what(fault: ErrorDetails, model: type[BaseModel]) -> str:
+def complaint(fault: ErrorDetails, model: type[BaseModel]) -> str:
+    """What is wrong, without where."""
     context = fault.get("ctx", {})
     match fault["type"]:
         case "missing":

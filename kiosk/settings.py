@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -77,25 +78,37 @@ def _toml(name: str, path: Path) -> dict[str, Any]:
         raise BadInput(f"{name} is not TOML: {error}") from error
 
 
+@dataclass(frozen=True)
+class Unit:
+    """What a setting is measured in."""
+
+    name: str
+
+
+Milliseconds = Annotated[PositiveInt, Unit("ms")]
+
+
 class Timing(Declared):
     """When things happen in a sitting; all times in milliseconds."""
 
-    turn_back: Annotated[PositiveInt, Field(description="How long two unmatched cards stay open.")] = 1200
+    turn_back: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
     mark_delay: Annotated[
-        NonNegativeInt, Field(description="From the start of a spoken hint to its mark; never later than its end.")
+        NonNegativeInt,
+        Unit("ms"),
+        Field(description="From the start of a spoken hint to its mark; never later than its end."),
     ] = 3500
     mark_delay_silent: Annotated[
-        NonNegativeInt, Field(description="The same for a hint that is only shown as text.")
+        NonNegativeInt, Unit("ms"), Field(description="The same for a hint that is only shown as text.")
     ] = 600
-    reading: Annotated[PositiveInt, Field(description="Time to read a sentence without voice, per character.")] = 55
-    reading_least: Annotated[PositiveInt, Field(description="The least time to read any sentence.")] = 1500
+    reading: Annotated[Milliseconds, Field(description="Time to read a sentence without voice, per character.")] = 55
+    reading_least: Annotated[Milliseconds, Field(description="The least time to read any sentence.")] = 1500
     speech_deadline: Annotated[
-        PositiveInt, Field(description="The longest that a spoken sentence may hold up the game, per character.")
+        Milliseconds, Field(description="The longest that a spoken sentence may hold up the game, per character.")
     ] = 130
-    speech_deadline_least: Annotated[PositiveInt, Field(description="The same, whatever its length.")] = 4000
-    mood: Annotated[PositiveInt, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
-    finish: Annotated[PositiveInt, Field(description="From the last pair to the result.")] = 1800
-    thanks: Annotated[PositiveInt, Field(description="How long the thanks stay, if nobody taps them away.")] = 12_000
+    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
+    mood: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
+    finish: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
+    thanks: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = 12_000
 
     def reading_time(self, sentence: str) -> int:
         """How long a sentence is shown for reading, in ms."""
@@ -109,18 +122,18 @@ class Timing(Declared):
 class Idle(Declared):
     """Without a tap for so long, the visitor of a stage is asked: still there? All times in milliseconds."""
 
-    about: Annotated[PositiveInt, Field(description="While the study is described.")] = 60_000
-    consent: Annotated[PositiveInt, Field(description="While consent is asked for.")] = 90_000
-    age: Annotated[PositiveInt, Field(description="While the age is asked for.")] = 45_000
-    about_you: Annotated[PositiveInt, Field(description="During the questions about the visitor.")] = 60_000
-    introduction: Annotated[PositiveInt, Field(description="During the introduction.")] = 45_000
-    practice: Annotated[PositiveInt, Field(description="During the practice.")] = 60_000
-    game: Annotated[PositiveInt, Field(description="During the game.")] = 120_000
-    result: Annotated[PositiveInt, Field(description="While the result is shown.")] = 45_000
-    questions: Annotated[PositiveInt, Field(description="During the questionnaires.")] = 60_000
-    debrief: Annotated[PositiveInt, Field(description="While the study is explained.")] = 90_000
-    thanks: Annotated[PositiveInt, Field(description="While thanks are shown.")] = 45_000
-    still_there: Annotated[PositiveInt, Field(description="From that question to the end of the sitting.")] = 20_000
+    about: Annotated[Milliseconds, Field(description="While the study is described.")] = 60_000
+    consent: Annotated[Milliseconds, Field(description="While consent is asked for.")] = 90_000
+    age: Annotated[Milliseconds, Field(description="While the age is asked for.")] = 45_000
+    about_you: Annotated[Milliseconds, Field(description="During the questions about the visitor.")] = 60_000
+    introduction: Annotated[Milliseconds, Field(description="During the introduction.")] = 45_000
+    practice: Annotated[Milliseconds, Field(description="During the practice.")] = 60_000
+    game: Annotated[Milliseconds, Field(description="During the game.")] = 120_000
+    result: Annotated[Milliseconds, Field(description="While the result is shown.")] = 45_000
+    questions: Annotated[Milliseconds, Field(description="During the questionnaires.")] = 60_000
+    debrief: Annotated[Milliseconds, Field(description="While the study is explained.")] = 90_000
+    thanks: Annotated[Milliseconds, Field(description="While thanks are shown.")] = 45_000
+    still_there: Annotated[Milliseconds, Field(description="From that question to the end of the sitting.")] = 20_000
 
     def of(self, stage: str) -> int:
         """The time of the stage of this name, in ms."""
@@ -134,7 +147,7 @@ class Practice(Declared):
     rows: Annotated[PositiveInt, Field(description="Rows of its board.")] = 3
     columns: Annotated[PositiveInt, Field(description="Columns of its board.")] = 4
     deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
-    longest: Annotated[PositiveInt, Field(description="After so many milliseconds it ends by itself.")] = 300_000
+    longest: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
 
 
 class Allocation(Declared):
@@ -157,7 +170,9 @@ class Consent(Declared):
     """What visitors are told, what they agree to, and how old they must be."""
 
     text: Annotated[str, Field(description="The folder of assets/consent, or a path: one file per language.")] = "study"
-    adult: Annotated[PositiveInt, Field(description="From this age on a visitor's sitting may be stored.")] = 18
+    adult: Annotated[
+        PositiveInt, Unit("years"), Field(description="From this age on a visitor's sitting may be stored.")
+    ] = 18
     contact: Annotated[
         str, Field(description="Whom to write to for withdrawing, best a mail address; shown with the code.")
     ] = ""
@@ -174,9 +189,13 @@ class Game(Declared):
 class Assistance(Declared):
     """Who helps, and how."""
 
-    condition: Annotated[str, Field(description="Which help the next visitor gets: tom, notom, or another cell.")] = (
-        "tom"
-    )
+    condition: Annotated[
+        str,
+        Field(
+            description="Which help visitors get where nothing is allocated: tom, notom, mentalised_unexplained, "
+            "random_explained or no_assistance."
+        ),
+    ] = "tom"
     policy: Annotated[str, Field(description="The frozen Q-table: a name in policies/, or a path.")] = "default"
     target_rule: Annotated[
         Literal["most_flipped", "most_recent"], Field(description="Where a mentalised hint for a first card points.")
@@ -195,7 +214,9 @@ class Voice(Declared):
     """The avatar's voice."""
 
     enabled: Annotated[bool, Field(description="Whether sentences are spoken as well as shown.")] = True
-    rate: Annotated[int, Field(ge=80, le=300, description="How fast it speaks, in words per minute.")] = 150
+    rate: Annotated[
+        int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks, in words per minute.")
+    ] = 150
     volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
     sounds: Annotated[
         bool, Field(description="Whether cards are heard: quiet sounds, never while somebody speaks.")
@@ -226,20 +247,24 @@ class Robot(Declared):
         str, Field(exclude=True, description="The key of the Realtime API, if it asks for one; never recorded.")
     ] = ""
     voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
-    connect_deadline: Annotated[PositiveInt, Field(description="The longest that reaching it may take.")] = 1000
-    answer_deadline: Annotated[PositiveInt, Field(description="The longest that any answer but speech may take.")] = (
+    connect_deadline: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
+    answer_deadline: Annotated[Milliseconds, Field(description="The longest that any answer but speech may take.")] = (
         1500
     )
     speech_deadline: Annotated[
-        PositiveInt, Field(description="The longest that it may take to say a sentence, per character.")
+        Milliseconds, Field(description="The longest that it may take to say a sentence, per character.")
     ] = 110
-    speech_deadline_least: Annotated[PositiveInt, Field(description="The same, whatever its length.")] = 3500
-    look_every: Annotated[PositiveInt, Field(description="While it speaks, how often to see if it still answers.")] = (
+    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 3500
+    look_every: Annotated[Milliseconds, Field(description="While it speaks, how often to see if it still answers.")] = (
         1000
     )
-    probe_every: Annotated[PositiveInt, Field(description="Between sittings, how often to see if it is well.")] = 10_000
-    retry_first: Annotated[PositiveInt, Field(description="The first pause before a lost robot is tried again.")] = 2000
-    retry_longest: Annotated[PositiveInt, Field(description="The longest such pause; each is twice the last.")] = (
+    probe_every: Annotated[Milliseconds, Field(description="Between sittings, how often to see if it is well.")] = (
+        10_000
+    )
+    retry_first: Annotated[Milliseconds, Field(description="The first pause before a lost robot is tried again.")] = (
+        2000
+    )
+    retry_longest: Annotated[Milliseconds, Field(description="The longest such pause; each is twice the last.")] = (
         120_000
     )
     gestures: Annotated[bool, Field(description="Whether it shows moods with its face.")] = True
@@ -252,10 +277,12 @@ class Robot(Declared):
     ] = "x y z"
     board_middle: Annotated[
         tuple[float, float, float],
+        Unit("m"),
         Field(strict=False, description="Where the middle of the board is, seen from its eyes."),
     ] = (0.4, -0.2, 0.5)
     board_size: Annotated[
         tuple[PositiveFloat, PositiveFloat],
+        Unit("m"),
         Field(strict=False, description="How wide and how high the board is on the screen."),
     ] = (0.4, 0.25)
 

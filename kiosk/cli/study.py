@@ -14,12 +14,12 @@ from kiosk import BadInput
 from kiosk.cli.options import json_option
 from kiosk.robot.kinds import robot_of
 from kiosk.settings import Settings
-from kiosk.study.declared.cautions import cautions, minutes
+from kiosk.study.declared.checked.cautions import cautions, minutes
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.declared.imported.items import Heading, read_items
+from kiosk.study.declared.imported.writing import write_questionnaire
 from kiosk.study.declared.questionnaire import Order, Page, Questionnaire
-from kiosk.study.declared.reference import as_pages, as_study_file
-from kiosk.study.declared.spreadsheet import Heading, read_items
-from kiosk.study.declared.toml import write_questionnaire
-from kiosk.study.declared.whole import read_study
+from kiosk.study.declared.reference import as_page, as_study_file
 from kiosk.study.plan import Study
 
 BAD_INPUT = 2
@@ -39,7 +39,7 @@ def check(context: click.Context, file: Path, *, as_json: bool) -> None:
     """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
     try:
         read = read_study(Settings.read(file))
-        robot_of(read.settings.robot, read.languages[0])
+        _check_robot(read.settings)
     except BadInput as refusal:
         if not as_json:
             raise
@@ -56,6 +56,14 @@ def check(context: click.Context, file: Path, *, as_json: bool) -> None:
     Console().print(table)
     for caution in summary["cautions"]:
         click.echo(f"caution: {caution}")
+
+
+def _check_robot(settings: Settings) -> None:
+    """Raise BadInput if what its robot needs is not installed; it is not looked for."""
+    try:
+        robot_of(settings.robot, settings.languages[0])
+    except BadInput as refusal:
+        raise BadInput(f"{settings.name}: robot.kind: {refusal}") from refusal
 
 
 def summarised(read: Study) -> dict[str, Any]:
@@ -99,7 +107,7 @@ def example() -> None:
 @study.command()
 def reference() -> None:
     """Print the reference of every key of a study file (Markdown)."""
-    click.echo(as_pages(Settings), nl=False)
+    click.echo(as_page(Settings), nl=False)
 
 
 @study.command(name="import")
@@ -113,7 +121,9 @@ def reference() -> None:
 def bring_in(csv: Path, name: str, version: str, out: Path, note: str | None, per_page: int, *, shuffled: bool) -> None:
     """Make a questionnaire of a CSV table, one row per item; docs/extend.md names the columns."""
     order = Order.SHUFFLED if shuffled else Order.FIXED
-    heading = Heading(id=name, version=version, note=note or f"Brought in from {csv.name}.", per_page=per_page, order=order)
+    heading = Heading(
+        id=name, version=version, note=note or f"Brought in from {csv.name}.", per_page=per_page, order=order
+    )
     read = read_items(csv, heading)
     write_questionnaire(read, out)
     click.echo(f"{len(read.items)} items written to {out}")

@@ -52,5 +52,5 @@ def _places(settings: Settings, kind: str, name: str) -> tuple[Path, ...]:
 
 
 def _nothing(settings: Settings, what: str, name: str, shipped: Iterable[str]) -> BadInput:
-    beside = f", nor is there anything at {settings.beside(name)}" if name else ""
-    return BadInput(f"there is no {what} {name!r}; there are {', '.join(sorted(shipped))}{beside}")
+    beside = f", and nothing at {settings.beside(name)}" if name else ""
+    return BadInput(f"there is no {what} {name!r} (shipped are {', '.join(sorted(shipped))}){beside}")

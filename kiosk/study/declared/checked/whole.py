@@ -17,7 +17,7 @@ from kiosk.assistant.wording import CARD, Catalogue
 from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import ASSETS, Game, Practice, Settings
 from kiosk.study.condition import Condition
-from kiosk.study.declared import naming
+from kiosk.study.declared.checked import naming
 from kiosk.study.declared.information import Information, check_alike
 from kiosk.study.declared.questionnaire import Pictures, Questionnaire
 from kiosk.study.plan import Plan, Study

@@ -64,7 +64,7 @@ def _stage_times(plan: Plan) -> Mapping[str, float]:
         "about": _reading(plan, *pages.about.paragraphs),
         "consent": _reading(plan, *pages.consent.paragraphs, *(each.text for each in pages.consent.purposes)),
         "about_you": sum(_answering(plan, item) for item in plan.about_you.items),
-        "introduction": settings.timing.speech_deadline * _INTRODUCTION,
+        "introduction": settings.timing.reading * _INTRODUCTION + TAP_MS,
         "practice": min(settings.practice.longest, _playing(settings.practice)),
         "game": _playing(settings.game),
         "questions": sum(_answering(plan, item) for asked in plan.questionnaires for item in asked.items),
