@@ -13,10 +13,11 @@ import click
 
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, rehearsal_data_option, study_option
-from kiosk.cli.wiring import code_commit, log_into, read_settings, read_study
+from kiosk.cli.wiring import code_commit, log_into, read_settings
 from kiosk.store.recorder import Recorder
 from kiosk.study.after.utterances import body_changes, utterances
 from kiosk.study.condition import Condition
+from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.events import Event
 from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin

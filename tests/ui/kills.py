@@ -27,7 +27,7 @@ from typing import IO, Any
 import click
 from rich.progress import track
 
-from kiosk.cli.wiring import read_study
+from kiosk.study.declared.checked.whole import read_study
 from kiosk.settings import STAGES, Settings
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder

@@ -6,7 +6,7 @@ All faults are found, not only the first: whoever sets up a study mends them in 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -16,6 +16,7 @@ from kiosk.assistant.qtable import NONE, QTable
 from kiosk.assistant.wording import CARD, Catalogue
 from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import ASSETS, Game, Practice, Settings
+from kiosk.study.allocation import places
 from kiosk.study.condition import Condition
 from kiosk.study.declared.checked import naming
 from kiosk.study.declared.information import Information, check_alike
@@ -60,14 +61,6 @@ def read_study(settings: Settings) -> Study:
             for language in settings.languages
         )
     )
-
-
-def check_quotas(quotas: Mapping[Condition, int], block: int) -> None:
-    """Raise BadInput unless every condition has its share in every block."""
-    total = sum(quotas.values())
-    if any(block * quota % total for quota in quotas.values()):
-        wanted = ", ".join(f"{quota} {condition.value}" for condition, quota in quotas.items())
-        raise BadInput(f"a block of {block} visitors cannot hold {wanted} in ratio")
 
 
 class _Look:
@@ -194,4 +187,4 @@ class _Look:
         named = {name: self.at("allocation.quotas", partial(Condition.named, name)) for name in declared.quotas}
         quotas = {condition: declared.quotas[name] for name, condition in named.items() if condition}
         if quotas and len(quotas) == len(named):
-            self.at("allocation.block", partial(check_quotas, quotas, declared.block))
+            self.at("allocation.block", partial(places, quotas, declared.block, declared.seed or 0))
