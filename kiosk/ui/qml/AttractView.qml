@@ -1,4 +1,4 @@
-// What draws people in: a fan of cards that turn one after another, a title, and one button.
+// What draws people in: a fan of cards that turn one after another, a title, and one button for each language.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -8,11 +8,41 @@ FocusScope {
     id: view
 
     required property AttractScreen attract
-    required property var words
     required property url cardBack
     required property url cardShadow
 
     readonly property real cardSize: Math.min(width / 7.4, height / 4)
+    readonly property bool several: attract.ways.length > 1
+
+    onVisibleChanged: if (visible && ways.count > 0) (ways.itemAt(0) as Way).focus = true
+
+    component Way: FocusScope {
+        id: way
+        required property int index
+        required property var modelData
+        focus: index === 0
+        width: start.width
+        height: start.height + (name.visible ? name.height + 0.4 * Theme.gap : 0)
+        BigButton {
+            id: start
+            objectName: "start-" + way.modelData.language
+            text: way.modelData.start
+            font.pixelSize: Theme.heading
+            focus: true
+            Accessible.description: way.modelData.name
+            Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
+            Keys.onRightPressed: nextItemInFocusChain().forceActiveFocus(Qt.TabFocusReason)
+            onClicked: view.attract.start(way.modelData.language)
+        }
+        Text {
+            id: name
+            anchors { horizontalCenter: start.horizontalCenter; top: start.bottom; topMargin: 0.4 * Theme.gap }
+            visible: view.several
+            text: way.modelData.name
+            font.pixelSize: Theme.small
+            color: Theme.faintInk
+        }
+    }
 
     Column {
         anchors.centerIn: parent
@@ -40,23 +70,25 @@ FocusScope {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
             topPadding: Theme.gap
-            text: view.words["attract-title"]
+            text: view.attract.title
             font { pixelSize: Theme.title; bold: true }
         }
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
-            text: view.words["attract-line"]
+            text: view.attract.line
             font.pixelSize: Theme.body
             color: Theme.faintInk
         }
-        BigButton {
-            objectName: "start"
+        Flow {
             anchors.horizontalCenter: parent.horizontalCenter
-            text: view.words["attract-start"]
-            font.pixelSize: Theme.heading
-            focus: true
-            onClicked: view.attract.start()
+            width: Math.min(implicitWidth, view.width - 2 * Theme.gap)
+            spacing: 1.5 * Theme.gap
+            Repeater {
+                id: ways
+                model: view.attract.ways
+                Way {}
+            }
         }
     }
 }

@@ -8,20 +8,28 @@ FocusScope {
     id: view
 
     required property BoardScreen board
+    required property var words
     required property url cardBack
     required property url cardShadow
 
-    readonly property real header: 84 * Theme.unit
+    readonly property real header: (board.practice ? 136 : 84) * Theme.unit
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
-    readonly property real footer: 64 * Theme.unit
+    readonly property real footer: 64 * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)
     readonly property real cell: Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
                                           (height - header - numbers - footer) / Math.max(1, board.rows))
 
+    Text {
+        anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: Theme.gap }
+        visible: view.board.practice
+        text: view.words["practice-title"]
+        font { pixelSize: Theme.heading; bold: true }
+        color: Theme.sea
+    }
     Item {
         id: status
-        anchors { left: cards.left; right: cards.right; top: parent.top; topMargin: Theme.gap }
-        height: view.header - Theme.gap
+        anchors { left: cards.left; right: cards.right; bottom: table.top; bottomMargin: view.numbers }
+        height: 60 * Theme.unit
         Text {
             anchors { left: parent.left; verticalCenter: parent.verticalCenter }
             text: view.board.progress
@@ -38,11 +46,22 @@ FocusScope {
 
     Text {
         anchors { top: cards.bottom; horizontalCenter: cards.horizontalCenter }
-        height: view.footer
+        height: 64 * Theme.unit
         verticalAlignment: Text.AlignVCenter
         text: view.board.wait
         font.pixelSize: Theme.small
         color: Theme.deepAmber
+    }
+
+    BigButton {
+        id: skip
+        objectName: "skip"
+        anchors { bottom: parent.bottom; bottomMargin: Theme.gap; horizontalCenter: cards.horizontalCenter }
+        visible: view.board.practice
+        quiet: true
+        verticalPadding: 16 * Theme.unit
+        text: view.words["practice-skip"]
+        onClicked: view.board.skip()
     }
 
     Item {
@@ -159,10 +178,14 @@ FocusScope {
         property bool byKeyboard: false
         Keys.onPressed: byKeyboard = true
 
-        // A new board begins at its first card for those who play by keyboard.
+        // A new board begins at its first card for those who play by keyboard, and with nobody's keyboard.
         Connections {
             target: view.board
-            function onModelReset() { cards.currentIndex = 0 }
+            function onModelReset() {
+                cards.currentIndex = 0
+                cards.byKeyboard = false
+                cards.focus = true
+            }
         }
     }
 }

@@ -12,8 +12,9 @@ Item {
     opacity: sentence === "" ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
 
-    // The last sentence stays in the bubble while it fades.
+    // The last sentence stays in the bubble while it fades, and no longer.
     onSentenceChanged: if (sentence !== "") words.text = sentence
+    onOpacityChanged: if (opacity === 0) words.text = ""
 
     Rectangle {
         id: box

@@ -9,12 +9,16 @@ Window {
 
     required property KioskScreen kiosk
     required property AttractScreen attract
+    required property AboutScreen about
+    required property ConsentScreen consent
+    required property AgeScreen age
+    required property FormScreen form
     required property IntroductionScreen introduction
     required property BoardScreen board
     required property ResultScreen result
-    required property QuestionScreen question
+    required property DebriefScreen debrief
+    required property ThanksScreen thanks
     required property AvatarScreen avatar
-    required property var words
     required property url cardBack
     required property url cardShadow
     required property real textSize
@@ -50,48 +54,84 @@ Window {
         width: root.wide ? root.width * 0.715 : root.width
         height: root.wide ? root.height : root.height * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
-        enabled: root.kiosk.settled
+        enabled: root.kiosk.settled && root.kiosk.bare
 
         AttractView {
             anchors.fill: parent
             visible: root.kiosk.screen === "attract"
-            focus: visible && !root.kiosk.asksStillThere
+            focus: visible && root.kiosk.bare
             attract: root.attract
-            words: root.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
+        }
+        AboutView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "about"
+            focus: visible && root.kiosk.bare
+            about: root.about
+            words: root.kiosk.words
+        }
+        ConsentView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "consent"
+            focus: visible && root.kiosk.bare
+            consent: root.consent
+            words: root.kiosk.words
+        }
+        AgeView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "age"
+            focus: visible && root.kiosk.bare
+            age: root.age
+            words: root.kiosk.words
+        }
+        FormView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "form"
+            focus: visible && root.kiosk.bare
+            form: root.form
+            kiosk: root.kiosk
+            words: root.kiosk.words
         }
         IntroductionView {
             anchors.fill: parent
             visible: root.kiosk.screen === "introduction"
-            focus: visible && !root.kiosk.asksStillThere
+            focus: visible && root.kiosk.bare
             introduction: root.introduction
             attract: root.attract
-            words: root.words
+            words: root.kiosk.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
         }
         BoardView {
             anchors.fill: parent
-            visible: root.kiosk.screen === "game"
-            focus: visible && !root.kiosk.asksStillThere
+            visible: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
+            focus: visible && root.kiosk.bare
             board: root.board
+            words: root.kiosk.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
         }
         ResultView {
             anchors.fill: parent
             visible: root.kiosk.screen === "result"
-            focus: visible && !root.kiosk.asksStillThere
+            focus: visible && root.kiosk.bare
             result: root.result
-            words: root.words
+            words: root.kiosk.words
         }
-        QuestionView {
+        DebriefView {
             anchors.fill: parent
-            visible: root.kiosk.screen === "questions"
-            focus: visible && !root.kiosk.asksStillThere
-            question: root.question
-            words: root.words
+            visible: root.kiosk.screen === "debrief"
+            focus: visible && root.kiosk.bare
+            debrief: root.debrief
+            words: root.kiosk.words
+        }
+        ThanksView {
+            anchors.fill: parent
+            visible: root.kiosk.screen === "thanks"
+            focus: visible && root.kiosk.bare
+            thanks: root.thanks
+            words: root.kiosk.words
         }
     }
     SidePanel {
@@ -106,15 +146,15 @@ Window {
         visible: root.kiosk.asksStillThere
         focus: visible
         enabled: root.kiosk.settled
-        title: root.words["still-there-title"]
-        line: root.words["still-there-line"]
-        button: root.words["still-there-yes"]
+        title: root.kiosk.words["still-there-title"]
+        line: root.kiosk.words["still-there-line"]
+        button: root.kiosk.words["still-there-yes"]
         onConfirmed: root.kiosk.confirm()
     }
     CalmCard {
         anchors.fill: parent
-        visible: root.kiosk.screen === "pause"
-        title: root.words["pause-title"]
-        line: root.words["pause-line"]
+        visible: root.kiosk.paused || root.kiosk.screen === "pause"
+        title: root.kiosk.words["pause-title"]
+        line: root.kiosk.words["pause-line"]
     }
 }

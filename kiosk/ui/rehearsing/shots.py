@@ -76,7 +76,7 @@ def _moments(commands: tuple[Command, ...]) -> Iterable[str]:
                 yield _mark(row, column)
             case do.Express(mood=mood):
                 yield mood.value
-            case do.ShowQuestion(number=number):
+            case do.ShowItems(number=number):
                 yield f"question-{number}"
             case _ if type(command) in _NAMES:
                 yield _NAMES[type(command)]

@@ -21,10 +21,13 @@ QUIET_MODULES = 4
 """The white frame that a QR code must have to be found, in its own squares."""
 
 
+@QmlElement
 class ReadingScreen(QObject):
-    """Something to read, with one way on."""
+    """Something to read, with one way on.
 
-    changed = Signal()
+    A property's signal is declared in the class of the property: Qt does not find it in a base.
+    """
+
     continued = Signal()
     """The visitor goes on."""
 
@@ -34,8 +37,11 @@ class ReadingScreen(QObject):
         self.continued.emit()
 
 
+@QmlElement
 class PageScreen(ReadingScreen):
     """A title and some paragraphs."""
+
+    changed = Signal()
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -51,12 +57,12 @@ class PageScreen(ReadingScreen):
         self._page = None
         self.changed.emit()
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=changed)
     def title(self) -> str:
         """The title."""
         return "" if self._page is None else self._page.title
 
-    @Property(list, notify=ReadingScreen.changed)
+    @Property(list, notify=changed)
     def paragraphs(self) -> list[str]:
         """The paragraphs, in their order."""
         return [] if self._page is None else list(self._page.paragraphs)
@@ -79,6 +85,8 @@ class IntroductionScreen(ReadingScreen):
 class ResultScreen(ReadingScreen):
     """What the visitor achieved."""
 
+    changed = Signal()
+
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._catalogue = catalogue
@@ -100,17 +108,17 @@ class ResultScreen(ReadingScreen):
         self._pairs = self._moves = self._time = ""
         self.changed.emit()
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=changed)
     def pairs(self) -> str:
         """How many pairs were found."""
         return self._pairs
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=changed)
     def moves(self) -> str:
         """In how many moves."""
         return self._moves
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=changed)
     def time(self) -> str:
         """In what time."""
         return self._time
@@ -120,6 +128,9 @@ class ResultScreen(ReadingScreen):
 class DebriefScreen(PageScreen):
     """What the study was about, and the code to withdraw with, to be written down or photographed."""
 
+    given = Signal()
+    """Another code, contact or language."""
+
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._catalogue = catalogue
@@ -128,22 +139,23 @@ class DebriefScreen(PageScreen):
     def speak(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
         self._catalogue = catalogue
-        self.changed.emit()
+        self.given.emit()
 
     def give_contact(self, contact: str) -> None:
         """Tell whom to write to."""
         self._contact = contact
-        self.changed.emit()
+        self.given.emit()
 
     def give_code(self, code: str) -> None:
         """Show this code; with an empty one nothing is said about withdrawing."""
         if code != self._code:
             self._code = code
-            self.changed.emit()
+            self.given.emit()
 
     def clear(self) -> None:
         """Show no page and no code."""
         self._code = self._contact = ""
+        self.given.emit()
         super().clear()
 
     @property
@@ -156,12 +168,12 @@ class DebriefScreen(PageScreen):
             return f"mailto:{self._contact}?subject={quote(subject)}"
         return f"{subject}\n{self._contact}".rstrip()
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=given)
     def code(self) -> str:
         """The code; empty if there is none."""
         return self._code
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=given)
     def withdrawing(self) -> str:
         """What the code is for, in words."""
         if not self._code:
@@ -170,14 +182,14 @@ class DebriefScreen(PageScreen):
             return self._catalogue.text("debrief-withdraw-here")
         return self._catalogue.text("debrief-withdraw-by-mail", contact=self._contact)
 
-    @Property(str, notify=ReadingScreen.changed)
+    @Property(str, notify=given)
     def picture(self) -> str:
         """The QR code as a data address, one pixel for each of its squares, with its white frame."""
         if not self._code:
             return ""
         return str(segno.make(self.payload, micro=False).png_data_uri(scale=1, border=QUIET_MODULES))
 
-    @Property(int, notify=ReadingScreen.changed)
+    @Property(int, notify=given)
     def squares(self) -> int:
         """How many squares the picture is wide; 0 without one."""
         if not self._code:

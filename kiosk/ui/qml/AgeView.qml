@@ -1,0 +1,55 @@
+// Whether the visitor is old enough; both answers look the same.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+
+FocusScope {
+    id: view
+
+    required property AgeScreen age
+    required property var words
+
+    onVisibleChanged: yes.focus = true
+
+    Column {
+        anchors.centerIn: parent
+        spacing: 2 * Theme.gap
+
+        Line {
+            anchors.horizontalCenter: parent.horizontalCenter
+            room: Math.min(1100 * Theme.unit, view.width - 4 * Theme.gap)
+            text: view.age.question
+            font { pixelSize: Theme.title; bold: true }
+        }
+        Line {
+            anchors.horizontalCenter: parent.horizontalCenter
+            room: Math.min(1000 * Theme.unit, view.width - 4 * Theme.gap)
+            text: view.words["age-line"]
+            font.pixelSize: Theme.body
+            color: Theme.faintInk
+        }
+        Row {
+            anchors.horizontalCenter: parent.horizontalCenter
+            topPadding: Theme.gap
+            spacing: 2 * Theme.gap
+            BigButton {
+                id: yes
+                objectName: "age-yes"
+                width: Math.max(implicitWidth, no.implicitWidth, 280 * Theme.unit)
+                text: view.words["age-yes"]
+                font.pixelSize: Theme.heading
+                focus: true
+                onClicked: view.age.answer(true)
+            }
+            BigButton {
+                id: no
+                objectName: "age-no"
+                width: yes.width
+                text: view.words["age-no"]
+                font.pixelSize: Theme.heading
+                onClicked: view.age.answer(false)
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+// What can be agreed to. Nothing is ticked beforehand, and to decline is as easy as to agree.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+
+FocusScope {
+    id: view
+
+    required property ConsentScreen consent
+    required property var words
+
+    onVisibleChanged: home.focus = true
+    Keys.onPressed: event => pane.turn(event)
+
+    Column {
+        anchors.centerIn: parent
+        width: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
+        spacing: Theme.gap
+
+        Text {
+            id: title
+            width: parent.width
+            text: view.consent.title
+            font { pixelSize: Theme.heading; bold: true }
+            wrapMode: Text.WordWrap
+            color: Theme.ink
+        }
+        ScrollPane {
+            id: pane
+            width: parent.width
+            room: view.height - title.height - answers.height - 5 * Theme.gap
+            more: view.words["scroll-more"]
+            spacing: 0.7 * Theme.gap
+
+            Paragraphs {
+                width: parent.width
+                texts: view.consent.paragraphs
+            }
+            FocusScope {
+                id: home
+                width: parent.width
+                height: boxes.height
+                focus: true
+                Column {
+                    id: boxes
+                    // The boxes stand out of the text by their padding alone; their edges are the text's.
+                    x: -14 * Theme.unit
+                    width: parent.width + 14 * Theme.unit
+                    Repeater {
+                        id: purposes
+                        model: view.consent.purposes
+                        TickBox {
+                            required property int index
+                            required property var modelData
+                            objectName: "purpose-" + modelData.id
+                            width: boxes.width
+                            focus: index === 0
+                            text: modelData.text
+                            ticked: view.consent.ticks.includes(modelData.id)
+                            note: view.words[modelData.required ? "consent-required" : "consent-optional"]
+                            warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
+                            onClicked: view.consent.tick(modelData.id, !ticked)
+                        }
+                    }
+                }
+            }
+        }
+        Grid {
+            id: answers
+            // Side by side, or where texts are long, one above the other.
+            columns: agree.implicitWidth + decline.implicitWidth + columnSpacing <= parent.width ? 2 : 1
+            columnSpacing: 1.5 * Theme.gap
+            rowSpacing: 0.7 * Theme.gap
+            topPadding: 0.5 * Theme.gap
+            BigButton {
+                id: agree
+                objectName: "agree"
+                quiet: !view.consent.complete
+                text: view.words["consent-agree"]
+                onClicked: view.consent.agree()
+            }
+            BigButton {
+                id: decline
+                objectName: "decline"
+                quiet: true
+                text: view.words["consent-decline"]
+                onClicked: view.consent.decline()
+            }
+        }
+    }
+    Connections {
+        target: view.consent
+        function onMissed(purpose: string) {
+            for (let i = 0; i < purposes.count; i++) {
+                const box = purposes.itemAt(i) as TickBox
+                if (box.objectName === "purpose-" + purpose) {
+                    box.forceActiveFocus(Qt.TabFocusReason)
+                    pane.reveal(box)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+// What the study was about, and the code to withdraw with: to be written down, or photographed.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+
+FocusScope {
+    id: view
+
+    required property DebriefScreen debrief
+    required property var words
+
+    // Whole pixels for each square, so that their edges are sharp.
+    readonly property int square: Math.max(2, Math.round(290 * Theme.unit / Math.max(1, debrief.squares)))
+
+    onVisibleChanged: go.focus = true
+    Keys.onPressed: event => pane.turn(event)
+
+    Column {
+        anchors.centerIn: parent
+        width: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
+        spacing: 1.2 * Theme.gap
+
+        Text {
+            id: title
+            width: parent.width
+            text: view.debrief.title
+            font { pixelSize: Theme.heading; bold: true }
+            wrapMode: Text.WordWrap
+            color: Theme.ink
+        }
+        ScrollPane {
+            id: pane
+            width: parent.width
+            room: view.height - title.height - keepsake.height - go.height - 7 * Theme.gap
+            more: view.words["scroll-more"]
+            Paragraphs {
+                width: parent.width
+                texts: view.debrief.paragraphs
+            }
+        }
+        Rectangle {
+            id: keepsake
+            width: parent.width
+            height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
+            visible: view.debrief.code !== ""
+            radius: Theme.radius
+            color: Theme.white
+            border { color: Theme.sand; width: 3 * Theme.unit }
+
+            // On white even where the theme is dark: a camera needs it.
+            Rectangle {
+                id: qr
+                objectName: "qr"
+                anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
+                width: view.square * view.debrief.squares
+                height: width
+                color: "white"
+                Image {
+                    anchors.fill: parent
+                    source: view.debrief.picture
+                    smooth: false
+                    cache: false
+                    Accessible.ignored: true
+                }
+            }
+            Column {
+                id: told
+                anchors {
+                    left: qr.right; leftMargin: 1.5 * Theme.gap
+                    right: parent.right; rightMargin: Theme.gap
+                    verticalCenter: parent.verticalCenter
+                }
+                spacing: 0.3 * Theme.gap
+                Text {
+                    text: view.words["debrief-code"]
+                    font.pixelSize: Theme.small
+                    color: Theme.faintInk
+                }
+                Text {
+                    objectName: "code"
+                    width: parent.width
+                    text: view.debrief.code
+                    font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.body
+                    color: Theme.sea
+                }
+                Text {
+                    width: parent.width
+                    text: view.debrief.withdrawing
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
+            }
+        }
+        BigButton {
+            id: go
+            objectName: "continue"
+            text: view.words["debrief-continue"]
+            focus: true
+            onClicked: view.debrief.proceed()
+        }
+    }
+}

@@ -1,0 +1,105 @@
+// A page of a form: its items, one way on, and a keyboard while something is typed.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import "."
+import "form"
+
+FocusScope {
+    id: view
+
+    required property FormScreen form
+    required property KioskScreen kiosk
+    required property var words
+
+    readonly property bool alone: form.items.length === 1
+    readonly property bool dense: form.items.length > 4
+
+    Keys.onPressed: event => pane.turn(event)
+
+    Item {
+        id: place
+        anchors { left: parent.left; right: parent.right; top: parent.top; bottom: keyboard.visible ? keyboard.top : parent.bottom }
+
+        // To tap beside everything is to have done with typing.
+        TapHandler { onTapped: go.forceActiveFocus() }
+
+        Column {
+            id: group
+            anchors.centerIn: parent
+            width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
+            spacing: (view.alone && !keyboard.visible ? 2 : 0.8) * Theme.gap
+
+            Text {
+                id: progress
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: text !== ""
+                text: view.form.progress
+                font.pixelSize: Theme.small
+                color: Theme.faintInk
+            }
+            FocusScope {
+                id: home
+                width: parent.width
+                height: pane.height
+                focus: true
+                ScrollPane {
+                    id: pane
+                    width: parent.width
+                    room: place.height - (progress.visible ? progress.height + group.spacing : 0) - go.height - group.spacing - 2 * Theme.gap
+                    more: view.words["scroll-more"]
+                    spacing: (view.dense ? 10 : 18) * Theme.unit
+                    Repeater {
+                        id: boxes
+                        model: view.form.items
+                        FormItem {
+                            required property int index
+                            required property var modelData
+                            width: parent?.width ?? 0
+                            item: modelData
+                            form: view.form
+                            kiosk: view.kiosk
+                            words: view.words
+                            alone: view.alone
+                            dense: view.dense
+                            onEntered: field => keyboard.field = field
+                        }
+                    }
+                }
+            }
+            BigButton {
+                id: go
+                objectName: "continue"
+                anchors.horizontalCenter: parent.horizontalCenter
+                quiet: view.form.skips
+                text: view.words[quiet ? "form-skip" : view.form.last ? "form-finish" : "form-next"]
+                onClicked: view.form.proceed()
+                onActiveFocusChanged: if (activeFocus) keyboard.field = null
+            }
+        }
+    }
+    ScreenKeyboard {
+        id: keyboard
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
+        words: view.words
+        onDone: go.forceActiveFocus(Qt.TabFocusReason)
+    }
+    Connections {
+        target: view.form
+        // A new page begins at its top, for eyes and for the keyboard.
+        function onChanged() {
+            keyboard.field = null
+            pane.rewind()
+            go.focus = true
+        }
+        function onMissed(item: string) {
+            for (let i = 0; i < boxes.count; i++) {
+                const box = boxes.itemAt(i) as FormItem
+                if (box.item.id === item) {
+                    pane.reveal(box)
+                    box.take()
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+// Paragraphs to be read, in a calm column.
+pragma ComponentBehavior: Bound
+import QtQuick
+import "."
+
+Column {
+    id: paragraphs
+
+    required property list<string> texts
+    property real size: 0.9 * Theme.body
+
+    spacing: 0.7 * Theme.gap
+    Repeater {
+        model: paragraphs.texts
+        Text {
+            required property string modelData
+            width: paragraphs.width
+            text: modelData
+            font.pixelSize: paragraphs.size
+            lineHeight: 1.08
+            wrapMode: Text.WordWrap
+            color: Theme.ink
+        }
+    }
+}

@@ -1,0 +1,97 @@
+// A place for what may be longer than its room: it then scrolls by wheel, touch and keyboard, and says so in words.
+import QtQuick
+import QtQuick.Controls.Basic
+import "."
+
+Item {
+    id: pane
+
+    required property real room         // the height that there is
+    required property string more       // "there is more below"
+    property alias spacing: column.spacing
+    default property alias content: column.data
+
+    readonly property bool long: column.height > height + 1
+    readonly property real step: 0.8 * flick.height
+
+    height: Math.min(column.height, room)
+    // Every visitor begins at the top.
+    onVisibleChanged: flick.contentY = 0
+    onHeightChanged: flick.returnToBounds()
+
+    function scroll(by: real) {
+        flick.contentY = Math.max(0, Math.min(flick.contentHeight - flick.height, flick.contentY + by))
+    }
+    function rewind() {
+        flick.contentY = 0
+    }
+    function reveal(item: Item) {
+        const y = item.mapToItem(column, 0, 0).y
+        if (y < flick.contentY)
+            flick.contentY = y
+        else if (y + item.height > flick.contentY + flick.height)
+            flick.contentY = Math.max(0, Math.min(y, y + item.height - flick.height))
+    }
+    // For the keys of a view: those that scroll are used up, if there is anything to scroll.
+    function turn(event: var) {
+        const steps = { [Qt.Key_Down]: 0.25, [Qt.Key_Up]: -0.25, [Qt.Key_PageDown]: 1, [Qt.Key_PageUp]: -1 }
+        event.accepted = pane.long && event.key in steps
+        if (event.accepted)
+            scroll(steps[event.key] * pane.step)
+    }
+    function holds(item: Item): bool {
+        for (let above = item; above; above = above.parent)
+            if (above === column)
+                return true
+        return false
+    }
+
+    Flickable {
+        id: flick
+        anchors.fill: parent
+        contentWidth: width
+        contentHeight: column.height
+        interactive: pane.long
+        boundsBehavior: Flickable.StopAtBounds
+        flickableDirection: Flickable.VerticalFlick
+        // Nothing is cut off that fits: rings around buttons reach a little beyond them.
+        clip: pane.long
+        Column {
+            id: column
+            width: flick.width - (pane.long ? bar.width + Theme.gap : 0)
+        }
+        ScrollBar.vertical: ScrollBar {
+            id: bar
+            policy: pane.long ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
+            width: 18 * Theme.unit
+            padding: 2 * Theme.unit
+            contentItem: Rectangle { radius: width / 2; color: Theme.lightSea }
+            background: Rectangle { radius: width / 2; color: Theme.sand }
+        }
+    }
+    Button {
+        id: further
+        objectName: "more"
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom }
+        visible: pane.long && !flick.atYEnd
+        focusPolicy: Qt.NoFocus
+        horizontalPadding: Theme.gap
+        verticalPadding: 6 * Theme.unit
+        text: pane.more
+        onClicked: pane.scroll(pane.step)
+        contentItem: Text {
+            text: further.text
+            font { pixelSize: Theme.small; bold: true }
+            color: Theme.white
+        }
+        background: Rectangle { radius: height / 2; color: Theme.lightSea }
+    }
+    Connections {
+        target: pane.Window.window
+        function onActiveFocusItemChanged() {
+            const item = pane.Window.activeFocusItem
+            if (pane.visible && item && pane.holds(item))
+                pane.reveal(item)
+        }
+    }
+}

@@ -1,0 +1,75 @@
+// A box to tick, with its words. It shows the tick that it is told; a double click is one click.
+import QtQuick
+import QtQuick.Controls.Basic
+import QtQuick.Shapes
+import "."
+
+AbstractButton {
+    id: box
+
+    required property bool ticked
+    property string note: ""
+    property string warning: ""
+
+    focusPolicy: Qt.StrongFocus
+    padding: 14 * Theme.unit
+    font.pixelSize: 0.9 * Theme.body
+    Accessible.role: Accessible.CheckBox
+    Accessible.name: text
+    Accessible.description: warning || note
+    Accessible.checkable: true
+    Accessible.checked: ticked
+    onDoubleClicked: {}
+    Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+    Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
+
+    background: Rectangle {
+        radius: Theme.radius
+        color: box.hovered || box.down ? Theme.white : "transparent"
+        border { color: box.visualFocus ? Theme.ink : "transparent"; width: 4 * Theme.unit }
+    }
+    contentItem: Row {
+        spacing: Theme.gap
+        Rectangle {
+            id: mark
+            width: 48 * Theme.unit
+            height: width
+            radius: 10 * Theme.unit
+            color: box.ticked ? Theme.sea : Theme.white
+            border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
+            Shape {
+                anchors.fill: parent
+                visible: box.ticked
+                ShapePath {
+                    strokeColor: Theme.white
+                    strokeWidth: 6 * Theme.unit
+                    fillColor: "transparent"
+                    capStyle: ShapePath.RoundCap
+                    joinStyle: ShapePath.RoundJoin
+                    startX: 12 * Theme.unit; startY: 25 * Theme.unit
+                    PathLine { x: 21 * Theme.unit; y: 34 * Theme.unit }
+                    PathLine { x: 37 * Theme.unit; y: 15 * Theme.unit }
+                }
+            }
+        }
+        Column {
+            width: box.availableWidth - mark.width - parent.spacing
+            spacing: 2 * Theme.unit
+            Text {
+                width: parent.width
+                text: box.text
+                font: box.font
+                wrapMode: Text.WordWrap
+                color: Theme.ink
+            }
+            Text {
+                width: parent.width
+                visible: text !== ""
+                text: box.warning || box.note
+                font { pixelSize: Theme.small; bold: box.warning !== "" }
+                wrapMode: Text.WordWrap
+                color: box.warning ? Theme.deepAmber : Theme.faintInk
+            }
+        }
+    }
+}

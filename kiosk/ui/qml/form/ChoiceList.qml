@@ -1,0 +1,103 @@
+// Options to choose one or several from. It shows the choice that it is told.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQuick.Controls.Basic
+import ".."
+
+Flow {
+    id: list
+
+    required property string item
+    required property string label
+    required property var options
+    required property var chosen        // the ids of what is chosen
+    required property bool several
+    required property bool alone
+    signal picked(string option)
+
+    readonly property bool stacked: alone && options.length <= 6
+
+    spacing: 0.5 * Theme.gap
+    flow: stacked ? Flow.TopToBottom : Flow.LeftToRight
+
+    Repeater {
+        id: buttons
+        model: list.options
+        AbstractButton {
+            id: option
+            required property int index
+            required property var modelData
+            readonly property bool picked: list.chosen.includes(modelData.id)
+
+            function go(to: int) {
+                const other = buttons.itemAt(to) as AbstractButton
+                if (other)
+                    other.forceActiveFocus(Qt.TabFocusReason)
+            }
+            objectName: `option-${list.item}-${modelData.id}`
+            focusPolicy: list.several || picked || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
+            focus: index === 0
+            width: list.stacked ? list.width : Math.min(implicitWidth, list.width)
+            text: modelData.text
+            font.pixelSize: list.alone ? Theme.body : 0.9 * Theme.body
+            leftPadding: 22 * Theme.unit
+            rightPadding: 30 * Theme.unit
+            verticalPadding: (list.alone ? 16 : 10) * Theme.unit
+            spacing: 16 * Theme.unit
+            scale: down ? 0.97 : 1
+            Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
+            Accessible.name: `${list.label} ${text}`
+            Accessible.checkable: true
+            Accessible.checked: picked
+            onClicked: list.picked(modelData.id)
+            onDoubleClicked: {}
+            Keys.onLeftPressed: go(index - 1)
+            Keys.onRightPressed: go(index + 1)
+            Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+            Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
+
+            contentItem: Row {
+                spacing: option.spacing
+                // Round where there is one answer, square where there may be more.
+                Rectangle {
+                    id: mark
+                    anchors.verticalCenter: parent.verticalCenter
+                    width: 34 * Theme.unit
+                    height: width
+                    radius: list.several ? 7 * Theme.unit : width / 2
+                    color: Theme.white
+                    border { color: Theme.sea; width: 3 * Theme.unit }
+                    Rectangle {
+                        anchors.centerIn: parent
+                        width: 18 * Theme.unit
+                        height: width
+                        radius: list.several ? 3 * Theme.unit : width / 2
+                        color: Theme.sea
+                        visible: option.picked
+                    }
+                }
+                Text {
+                    anchors.verticalCenter: parent.verticalCenter
+                    width: Math.min(implicitWidth, list.width - mark.width - option.spacing - option.leftPadding - option.rightPadding)
+                    text: option.text
+                    font: option.font
+                    wrapMode: Text.WordWrap
+                    color: Theme.ink
+                }
+            }
+            background: Rectangle {
+                radius: Theme.radius
+                color: option.picked || option.hovered ? Theme.sand : Theme.white
+                border { color: Theme.sea; width: (option.picked ? 5 : 3) * Theme.unit }
+                Rectangle {
+                    anchors.fill: parent
+                    anchors.margins: -7 * Theme.unit
+                    radius: Theme.radius + 7 * Theme.unit
+                    color: "transparent"
+                    border { color: Theme.ink; width: 4 * Theme.unit }
+                    visible: option.visualFocus
+                }
+            }
+        }
+    }
+}

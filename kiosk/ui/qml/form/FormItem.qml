@@ -1,0 +1,150 @@
+// One item of a form: its text, its way to answer, and a word if it is missed.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+Rectangle {
+    id: box
+
+    required property var item          // as the form's object describes it
+    required property FormScreen form
+    required property KioskScreen kiosk
+    required property var words
+    required property bool alone
+    required property bool dense
+    signal entered(Item field)
+
+    readonly property var answer: form.answers[item.id]
+    readonly property bool missed: form.missing.includes(item.id)
+    readonly property real margin: alone ? 0 : (dense ? 12 : 20) * Theme.unit
+    readonly property var ways: ({
+        likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
+        integer: number, text: letters, page: null
+    })
+
+    // What is typed counts as done when the field is left, but not when a word over the screen takes the keyboard away.
+    function done() {
+        if (kiosk.bare)
+            form.finish(item.id)
+    }
+    function take() {
+        way.forceActiveFocus(Qt.TabFocusReason)
+    }
+
+    objectName: `item-${item.id}`
+    height: content.height + 2 * margin
+    radius: Theme.radius
+    color: alone ? "transparent" : Theme.white
+    border { color: missed ? Theme.deepAmber : Theme.sand; width: alone ? 0 : (missed ? 5 : 3) * Theme.unit }
+
+    Column {
+        id: content
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
+        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 12) * Theme.unit
+
+        Text {
+            width: parent.width
+            text: box.item.text
+            font {
+                pixelSize: box.item.kind === "page" ? Theme.body : box.alone ? Theme.heading : (box.dense ? 0.9 : 1) * Theme.body
+                bold: box.item.kind !== "page"
+            }
+            lineHeight: box.item.kind === "page" ? 1.15 : 1
+            horizontalAlignment: box.alone && box.item.kind !== "page" ? Text.AlignHCenter : Text.AlignLeft
+            wrapMode: Text.WordWrap
+            color: Theme.ink
+        }
+        Text {
+            width: parent.width
+            visible: box.missed
+            text: box.words["form-missing"]
+            horizontalAlignment: box.alone ? Text.AlignHCenter : Text.AlignLeft
+            font { pixelSize: Theme.small; bold: true }
+            wrapMode: Text.WordWrap
+            color: Theme.deepAmber
+        }
+        Loader {
+            id: way
+            anchors.horizontalCenter: parent.horizontalCenter
+            active: box.ways[box.item.kind] !== null
+            visible: active
+            focus: true
+            sourceComponent: box.ways[box.item.kind]
+        }
+    }
+
+    Component {
+        id: points
+        PointScale {
+            width: content.width
+            item: box.item.id
+            label: box.item.text
+            points: box.item.points
+            pictures: box.item.pictures
+            leftEnd: box.item.left
+            rightEnd: box.item.right
+            value: box.answer ?? 0
+            alone: box.alone
+            dense: box.dense
+            onChosen: point => box.form.rate(box.item.id, point)
+        }
+    }
+    Component {
+        id: line
+        SliderScale {
+            width: content.width
+            item: box.item.id
+            label: box.item.text
+            lowest: box.item.lowest
+            highest: box.item.highest
+            leftEnd: box.item.left
+            rightEnd: box.item.right
+            answered: box.answer !== undefined
+            alone: box.alone
+            onChosen: value => box.form.rate(box.item.id, value)
+        }
+    }
+    Component {
+        id: choice
+        ChoiceList {
+            width: box.alone ? Math.min(content.width, 860 * Theme.unit) : content.width
+            item: box.item.id
+            label: box.item.text
+            options: box.item.options
+            several: box.item.kind === "multiple"
+            chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
+            alone: box.alone
+            onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
+        }
+    }
+    Component {
+        id: number
+        NumberField {
+            item: box.item.id
+            label: box.item.text
+            lowest: box.item.lowest
+            highest: box.item.highest
+            range: box.item.range
+            less: box.words["form-less"]
+            more: box.words["form-more"]
+            onTyped: text => box.form.draft(box.item.id, text)
+            onDone: box.done()
+            onEntered: field => box.entered(field)
+        }
+    }
+    Component {
+        id: letters
+        TypedField {
+            id: field
+            objectName: `text-${box.item.id}`
+            width: Math.min(content.width, 1000 * Theme.unit)
+            label: box.item.text
+            placeholderText: box.words["form-type"]
+            maximumLength: box.item.longest
+            onTextChanged: box.form.draft(box.item.id, text)
+            onEditingFinished: box.done()
+            onActiveFocusChanged: if (activeFocus) box.entered(field)
+        }
+    }
+}

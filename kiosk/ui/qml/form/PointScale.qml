@@ -1,0 +1,123 @@
+// Points between two ends, as numbers or as pictures. Nothing is chosen beforehand.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQuick.Controls.Basic
+import ".."
+
+Item {
+    id: scale
+
+    required property string item
+    required property string label
+    required property int points
+    required property list<string> pictures
+    required property string leftEnd
+    required property string rightEnd
+    required property int value         // the chosen point, 0 for none
+    required property bool alone        // whether the page belongs to it
+    required property bool dense
+    signal chosen(int point)
+
+    readonly property bool pictured: pictures.length > 0
+    readonly property real wish: (alone ? 132 : dense ? 56 : 66) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real size: Math.min(wish, width / (points * 1.28))
+    readonly property real gap: size * (pictured ? 0.2 : 0.3)
+    readonly property real span: points * size + (points - 1) * gap
+    // The ends stand beside the points, where there is room for that, and else below them.
+    readonly property real beside: (width - span) / 2 - Theme.gap
+    readonly property bool below: alone || beside < 210 * Theme.unit * Theme.textSize
+
+    height: row.height + (below ? Math.max(lowest.height, highest.height) + 0.5 * Theme.gap : 0)
+
+    Text {
+        id: lowest
+        x: scale.below ? row.x : 0
+        y: scale.below ? row.height + 0.5 * Theme.gap : (row.height - height) / 2
+        width: scale.below ? scale.span / 2 - Theme.gap : scale.beside
+        text: scale.leftEnd
+        horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
+        font.pixelSize: Theme.small
+        wrapMode: Text.WordWrap
+        color: Theme.faintInk
+    }
+    Text {
+        id: highest
+        x: scale.below ? row.x + row.width - width : scale.width - width
+        y: lowest.y + (scale.below ? 0 : (lowest.height - height) / 2)
+        width: lowest.width
+        text: scale.rightEnd
+        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
+        font.pixelSize: Theme.small
+        wrapMode: Text.WordWrap
+        color: Theme.faintInk
+    }
+    Row {
+        id: row
+        anchors.horizontalCenter: parent.horizontalCenter
+        spacing: scale.gap
+        Repeater {
+            id: buttons
+            model: scale.points
+            AbstractButton {
+                id: point
+                required property int index
+                readonly property int number: index + 1
+                readonly property bool picked: scale.value === number
+
+                // The keyboard stops once at a scale, at its answer or its first point; arrows go on from there.
+                function go(to: int) {
+                    const other = buttons.itemAt(to) as AbstractButton
+                    if (other)
+                        other.forceActiveFocus(Qt.TabFocusReason)
+                }
+                objectName: `answer-${scale.item}-${number}`
+                focusPolicy: picked || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
+                focus: index === 0
+                width: scale.size
+                height: scale.size
+                scale: down ? 0.94 : 1
+                Accessible.role: Accessible.RadioButton
+                Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
+                Accessible.checked: picked
+                onClicked: scale.chosen(number)
+                onDoubleClicked: {}
+                Keys.onLeftPressed: go(index - 1)
+                Keys.onRightPressed: go(index + 1)
+                Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+                Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
+
+                contentItem: Item {
+                    Text {
+                        anchors.centerIn: parent
+                        visible: !scale.pictured
+                        text: point.number
+                        font { pixelSize: scale.alone ? Theme.heading : Math.min(Theme.body, 0.5 * scale.size); bold: true }
+                        color: point.picked ? Theme.white : Theme.ink
+                    }
+                    Image {
+                        anchors.centerIn: parent
+                        visible: scale.pictured
+                        width: 0.8 * scale.size
+                        height: width
+                        source: Qt.resolvedUrl(scale.pictures[point.index] ?? "")
+                        sourceSize: Qt.size(width, height)
+                    }
+                }
+                background: Rectangle {
+                    radius: scale.pictured ? Theme.radius : width / 2
+                    color: point.picked ? (scale.pictured ? Theme.sand : Theme.sea) : point.hovered ? Theme.sand : Theme.white
+                    border.color: Theme.sea
+                    border.width: (point.picked && scale.pictured ? 8 : 3) * Theme.unit
+                    Rectangle {
+                        anchors.fill: parent
+                        anchors.margins: -8 * Theme.unit
+                        radius: scale.pictured ? Theme.radius + 8 * Theme.unit : width / 2
+                        color: "transparent"
+                        border { color: Theme.ink; width: 4 * Theme.unit }
+                        visible: point.visualFocus
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+// Letters, accents and digits for a booth without a keyboard. It types into the field that it is told, and keeps no text.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQuick.Controls.Basic
+import ".."
+
+Rectangle {
+    id: keyboard
+
+    property TypedField field: null
+    required property var words
+    signal done()
+
+    property bool capitals: false
+    readonly property bool numbers: field !== null && field.digits
+    readonly property var rows: numbers ? ["1234567890"] : ["1234567890", "qwertyuiop", "asdfghjklñ", "zxcvbnmç'-", "àáèéìíòóùúü", ".,?!¿¡"]
+    readonly property real keyWidth: Math.min(96 * Theme.unit, (width - 2 * Theme.gap - 12 * gap) / (numbers ? 13.4 : 11))
+    readonly property real keyHeight: 60 * Theme.unit
+    readonly property real gap: 8 * Theme.unit
+
+    height: keys.height + 1.2 * Theme.gap
+    color: Theme.sand
+    visible: field !== null
+    onVisibleChanged: capitals = false
+
+    // Between the keys nothing happens, and nothing below is reached.
+    MouseArea { anchors.fill: parent }
+
+    component Key: AbstractButton {
+        id: key
+        property bool pressedIn: false
+        focusPolicy: Qt.NoFocus
+        width: Math.max(keyboard.keyWidth, implicitWidth)
+        height: keyboard.keyHeight
+        horizontalPadding: 14 * Theme.unit
+        scale: down ? 0.94 : 1
+        contentItem: Text {
+            text: key.text
+            font { pixelSize: Math.min(Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
+            color: key.pressedIn ? Theme.white : Theme.ink
+            horizontalAlignment: Text.AlignHCenter
+            verticalAlignment: Text.AlignVCenter
+        }
+        background: Rectangle {
+            radius: 10 * Theme.unit
+            color: key.pressedIn ? Theme.sea : Theme.white
+        }
+    }
+
+    Column {
+        id: keys
+        anchors.centerIn: parent
+        spacing: keyboard.gap
+        Repeater {
+            model: keyboard.rows
+            Row {
+                id: row
+                required property int index
+                required property string modelData
+                anchors.horizontalCenter: parent.horizontalCenter
+                spacing: keyboard.gap
+                Key {
+                    visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
+                    objectName: "key-shift"
+                    text: keyboard.words["keyboard-shift"]
+                    pressedIn: keyboard.capitals
+                    onClicked: keyboard.capitals = !keyboard.capitals
+                }
+                Repeater {
+                    model: row.modelData.length
+                    Key {
+                        required property int index
+                        readonly property string letter: row.modelData.charAt(index)
+                        objectName: "key-" + letter
+                        text: keyboard.capitals ? letter.toUpperCase() : letter
+                        onClicked: {
+                            keyboard.field.type(text)
+                            keyboard.capitals = false
+                        }
+                    }
+                }
+                Key {
+                    visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
+                    objectName: "key-space"
+                    width: Math.max(1.6 * keyboard.keyWidth, implicitWidth)
+                    text: keyboard.words["keyboard-space"]
+                    onClicked: keyboard.field.type(" ")
+                }
+                Key {
+                    visible: row.index === keyboard.rows.length - 1
+                    objectName: "key-delete"
+                    text: keyboard.words["keyboard-delete"]
+                    onClicked: keyboard.field.wipe()
+                }
+                Key {
+                    visible: row.index === keyboard.rows.length - 1
+                    objectName: "key-done"
+                    text: keyboard.words["keyboard-done"]
+                    onClicked: keyboard.done()
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+// A line between two ends. Its handle is not there until the visitor puts it somewhere.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQuick.Controls.Basic
+import ".."
+
+Item {
+    id: scale
+
+    required property string item
+    required property string label
+    required property int lowest
+    required property int highest
+    required property string leftEnd
+    required property string rightEnd
+    required property bool answered
+    required property bool alone
+    signal chosen(int value)
+
+    readonly property real beside: 230 * Theme.unit * Theme.textSize
+    readonly property bool below: alone || width < 4 * beside
+    readonly property real thickness: (alone ? 68 : 56) * Theme.unit
+
+    height: slider.height + (below ? Math.max(from.height, to.height) + 0.3 * Theme.gap : 0)
+
+    Text {
+        id: from
+        y: scale.below ? slider.height + 0.3 * Theme.gap : (slider.height - height) / 2
+        x: scale.below ? slider.x : 0
+        width: scale.below ? slider.width / 2 - Theme.gap : scale.beside
+        text: scale.leftEnd
+        horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
+        font.pixelSize: Theme.small
+        wrapMode: Text.WordWrap
+        color: Theme.faintInk
+    }
+    Text {
+        id: to
+        y: from.y
+        x: scale.below ? slider.x + slider.width - width : scale.width - width
+        width: from.width
+        text: scale.rightEnd
+        horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
+        font.pixelSize: Theme.small
+        wrapMode: Text.WordWrap
+        color: Theme.faintInk
+    }
+    Slider {
+        id: slider
+
+        // Where it is let go, or where a key has brought it; the first key begins in the middle.
+        function tell() {
+            scale.chosen(Math.round(value))
+        }
+        objectName: `slider-${scale.item}`
+        anchors.horizontalCenter: parent.horizontalCenter
+        width: scale.below ? Math.min(scale.width, 900 * Theme.unit) : scale.width - 2 * scale.beside - 2 * Theme.gap
+        height: scale.thickness
+        padding: 0
+        from: scale.lowest
+        to: scale.highest
+        stepSize: 1
+        value: (from + to) / 2
+        focusPolicy: Qt.StrongFocus
+        Accessible.name: scale.label
+        onPressedChanged: if (!pressed) tell()
+        Keys.onPressed: event => {
+            const ways = { [Qt.Key_Left]: -1, [Qt.Key_Right]: 1 }
+            const first = !scale.answered && (event.key in ways || event.key === Qt.Key_Space || event.key === Qt.Key_Return)
+            event.accepted = first || event.key in ways
+            if (!event.accepted)
+                return
+            if (!first)
+                value = Math.max(from, Math.min(to, value + ways[event.key] * (event.isAutoRepeat ? 3 : 1)))
+            tell()
+        }
+
+        background: Rectangle {
+            x: 0
+            y: (slider.height - height) / 2
+            width: slider.width
+            height: 14 * Theme.unit
+            radius: height / 2
+            color: Theme.white
+            border { color: Theme.sea; width: 3 * Theme.unit }
+            Rectangle {
+                anchors.fill: parent
+                anchors.margins: -22 * Theme.unit
+                radius: height / 2
+                color: "transparent"
+                border { color: Theme.ink; width: 4 * Theme.unit }
+                visible: slider.visualFocus
+            }
+        }
+        handle: Rectangle {
+            objectName: `handle-${scale.item}`
+            x: slider.visualPosition * (slider.width - width)
+            y: (slider.height - height) / 2
+            width: scale.thickness * 0.8
+            height: width
+            radius: width / 2
+            visible: scale.answered || slider.pressed
+            color: Theme.sea
+            border { color: Theme.white; width: 4 * Theme.unit }
+        }
+    }
+}

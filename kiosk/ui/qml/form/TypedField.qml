@@ -1,0 +1,40 @@
+// A line to type in, with keys of a keyboard or with those on the screen.
+import QtQuick
+import QtQuick.Controls.Basic
+import ".."
+
+TextField {
+    id: field
+
+    required property string label
+    property bool digits: false
+
+    // What the keys on the screen do.
+    function type(letters: string) {
+        insert(cursorPosition, letters)
+    }
+    function wipe() {
+        if (selectedText !== "")
+            remove(selectionStart, selectionEnd)
+        else
+            remove(cursorPosition - 1, cursorPosition)
+    }
+    font.pixelSize: Theme.body
+    color: Theme.ink
+    placeholderTextColor: Theme.faintInk
+    selectionColor: Theme.sea
+    selectedTextColor: Theme.white
+    padding: 16 * Theme.unit
+    leftPadding: 24 * Theme.unit
+    rightPadding: 24 * Theme.unit
+    focusPolicy: Qt.StrongFocus
+    activeFocusOnTab: true
+    inputMethodHints: digits ? Qt.ImhDigitsOnly | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
+    Accessible.name: label
+
+    background: Rectangle {
+        radius: Theme.radius
+        color: Theme.white
+        border { color: field.activeFocus ? Theme.ink : Theme.sea; width: (field.activeFocus ? 5 : 3) * Theme.unit }
+    }
+}
