@@ -22,7 +22,7 @@ consent-decline = Play without taking part
 
 ## Age
 
-age-question = Are you { $adult } years old or older?
+age-question = Are you { $adult } or older?
 age-line = You can play either way. If you are younger, nothing about you is stored.
 age-yes = Yes
 age-no = No

@@ -18,13 +18,13 @@ FocusScope {
 
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
-            room: Math.min(1100 * Theme.unit, view.width - 4 * Theme.gap)
+            room: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
             text: view.age.question
             font { pixelSize: Theme.title; bold: true }
         }
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
-            room: Math.min(1000 * Theme.unit, view.width - 4 * Theme.gap)
+            room: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
             text: view.words["age-line"]
             font.pixelSize: Theme.body
             color: Theme.faintInk

@@ -80,10 +80,20 @@ FocusScope {
             font.pixelSize: Theme.body
             color: Theme.faintInk
         }
-        Flow {
+        Grid {
+            id: starts
             anchors.horizontalCenter: parent.horizontalCenter
-            width: Math.min(implicitWidth, view.width - 2 * Theme.gap)
-            spacing: 1.5 * Theme.gap
+            // All in one row; or where that is too narrow, one above the other.
+            readonly property real wish: {
+                let sum = 0
+                for (let i = 0; i < ways.count; i++)
+                    sum += (ways.itemAt(i)?.width ?? 0) + columnSpacing
+                return sum
+            }
+            columns: wish <= view.width - 2 * Theme.gap ? ways.count : 1
+            columnSpacing: 1.5 * Theme.gap
+            rowSpacing: 0.7 * Theme.gap
+            horizontalItemAlignment: Grid.AlignHCenter
             Repeater {
                 id: ways
                 model: view.attract.ways

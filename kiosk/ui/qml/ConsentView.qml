@@ -15,8 +15,8 @@ FocusScope {
 
     Column {
         anchors.centerIn: parent
-        width: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
-        spacing: Theme.gap
+        width: Math.min(1240 * Theme.unit, view.width - 4 * Theme.gap)
+        spacing: 0.8 * Theme.gap
 
         Text {
             id: title
@@ -29,9 +29,9 @@ FocusScope {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.height - title.height - answers.height - 5 * Theme.gap
+            room: view.height - title.height - answers.height - 4 * Theme.gap
             more: view.words["scroll-more"]
-            spacing: 0.7 * Theme.gap
+            spacing: 0.5 * Theme.gap
 
             Paragraphs {
                 width: parent.width
@@ -45,8 +45,8 @@ FocusScope {
                 Column {
                     id: boxes
                     // The boxes stand out of the text by their padding alone; their edges are the text's.
-                    x: -14 * Theme.unit
-                    width: parent.width + 14 * Theme.unit
+                    x: -8 * Theme.unit
+                    width: parent.width + 8 * Theme.unit
                     Repeater {
                         id: purposes
                         model: view.consent.purposes

@@ -11,7 +11,7 @@ Item {
     property alias spacing: column.spacing
     default property alias content: column.data
 
-    readonly property bool long: column.height > height + 1
+    readonly property bool long: column.height > room + 1
     readonly property real step: 0.8 * flick.height
 
     height: Math.min(column.height, room)
@@ -48,7 +48,8 @@ Item {
 
     Flickable {
         id: flick
-        anchors.fill: parent
+        width: parent.width
+        height: parent.height - (pane.long ? further.height + 0.3 * Theme.gap : 0)
         contentWidth: width
         contentHeight: column.height
         interactive: pane.long
@@ -73,7 +74,10 @@ Item {
         id: further
         objectName: "more"
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom }
-        visible: pane.long && !flick.atYEnd
+        // Its place is kept at the end too, so that nothing moves when it goes.
+        visible: pane.long
+        opacity: flick.atYEnd ? 0 : 1
+        enabled: !flick.atYEnd
         focusPolicy: Qt.NoFocus
         horizontalPadding: Theme.gap
         verticalPadding: 6 * Theme.unit

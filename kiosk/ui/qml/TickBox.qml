@@ -12,7 +12,7 @@ AbstractButton {
     property string warning: ""
 
     focusPolicy: Qt.StrongFocus
-    padding: 14 * Theme.unit
+    padding: 8 * Theme.unit
     font.pixelSize: 0.9 * Theme.body
     Accessible.role: Accessible.CheckBox
     Accessible.name: text
@@ -54,7 +54,6 @@ AbstractButton {
         }
         Column {
             width: box.availableWidth - mark.width - parent.spacing
-            spacing: 2 * Theme.unit
             Text {
                 width: parent.width
                 text: box.text

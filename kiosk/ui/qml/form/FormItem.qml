@@ -44,7 +44,9 @@ Rectangle {
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 12) * Theme.unit
 
         Text {
-            width: parent.width
+            x: (parent.width - width) / 2
+            // A page of text is as narrow as it can be, and stands in the middle as a whole.
+            width: box.item.kind === "page" ? Math.min(implicitWidth, parent.width) : parent.width
             text: box.item.text
             font {
                 pixelSize: box.item.kind === "page" ? Theme.body : box.alone ? Theme.heading : (box.dense ? 0.9 : 1) * Theme.body
@@ -66,7 +68,7 @@ Rectangle {
         }
         Loader {
             id: way
-            anchors.horizontalCenter: parent.horizontalCenter
+            x: box.alone ? (parent.width - width) / 2 : 0
             active: box.ways[box.item.kind] !== null
             visible: active
             focus: true
@@ -101,6 +103,7 @@ Rectangle {
             leftEnd: box.item.left
             rightEnd: box.item.right
             answered: box.answer !== undefined
+            given: box.answer ?? 0
             alone: box.alone
             onChosen: value => box.form.rate(box.item.id, value)
         }

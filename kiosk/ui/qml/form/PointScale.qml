@@ -19,9 +19,9 @@ Item {
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : dense ? 56 : 66) * Theme.unit * (pictured ? 1.25 : 1)
-    readonly property real size: Math.min(wish, width / (points * 1.28))
-    readonly property real gap: size * (pictured ? 0.2 : 0.3)
+    readonly property real wish: (alone ? 132 : dense ? 58 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real size: Math.min(wish, width / (points * 1.45))
+    readonly property real gap: size * (pictured ? 0.25 : alone ? 0.25 : 0.42)
     readonly property real span: points * size + (points - 1) * gap
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real beside: (width - span) / 2 - Theme.gap

@@ -14,6 +14,7 @@ Item {
     required property string leftEnd
     required property string rightEnd
     required property bool answered
+    required property int given
     required property bool alone
     signal chosen(int value)
 
@@ -21,10 +22,10 @@ Item {
     readonly property bool below: alone || width < 4 * beside
     readonly property real thickness: (alone ? 68 : 56) * Theme.unit
 
-    height: slider.height + (below ? Math.max(from.height, to.height) + 0.3 * Theme.gap : 0)
+    height: slider.height + (below ? Math.max(lower.height, upper.height) + 0.3 * Theme.gap : 0)
 
     Text {
-        id: from
+        id: lower
         y: scale.below ? slider.height + 0.3 * Theme.gap : (slider.height - height) / 2
         x: scale.below ? slider.x : 0
         width: scale.below ? slider.width / 2 - Theme.gap : scale.beside
@@ -35,10 +36,10 @@ Item {
         color: Theme.faintInk
     }
     Text {
-        id: to
-        y: from.y
+        id: upper
+        y: lower.y
         x: scale.below ? slider.x + slider.width - width : scale.width - width
-        width: from.width
+        width: lower.width
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
@@ -60,7 +61,7 @@ Item {
         from: scale.lowest
         to: scale.highest
         stepSize: 1
-        value: (from + to) / 2
+        value: scale.answered ? scale.given : (scale.lowest + scale.highest) / 2
         focusPolicy: Qt.StrongFocus
         Accessible.name: scale.label
         onPressedChanged: if (!pressed) tell()
@@ -71,7 +72,7 @@ Item {
             if (!event.accepted)
                 return
             if (!first)
-                value = Math.max(from, Math.min(to, value + ways[event.key] * (event.isAutoRepeat ? 3 : 1)))
+                ways[event.key] > 0 ? increase() : decrease()
             tell()
         }
 
