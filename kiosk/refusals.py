@@ -45,6 +45,23 @@ _SAID_OF_WHAT_IS_ABOVE = frozenset({"missing", "extra_forbidden"})
 """What is told of the table that lacks a key or has one too many."""
 
 
+_NOT_TOML: Mapping[str, str] = {
+    "Invalid value": "this is no value; text stands in quotes, and true and false are written small",
+    "Cannot overwrite a value": "a key is there twice",
+    "Cannot declare": "a section is there twice",
+    "Unescaped": "a \\ has no place in a text in double quotes; write paths with /",
+}
+"""How tomllib's shortest messages begin, and what they mean."""
+
+
+def not_toml(error: Exception) -> str:
+    """Why a text is no TOML, and where."""
+    said = str(error)
+    _, bracket, place = said.rpartition(" (")
+    meant = next((words for begins, words in _NOT_TOML.items() if said.startswith(begins)), None)
+    return f"{meant}{bracket}{place}" if meant else said
+
+
 def refusals(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
     """A sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
     errors = error.errors()

@@ -26,7 +26,7 @@ from pydantic import (
 )
 
 from kiosk import BadInput
-from kiosk.refusals import refusals
+from kiosk.refusals import not_toml, refusals
 
 STAGES = (
     "about",
@@ -75,7 +75,7 @@ def _toml(name: str, path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise BadInput(f"{name} is not UTF-8; save it with that encoding") from error
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise BadInput(f"{name} is not TOML: {error}") from error
+        raise BadInput(f"{name} is not TOML: {not_toml(error)}") from error
 
 
 @dataclass(frozen=True)

@@ -126,4 +126,5 @@ def bring_in(csv: Path, name: str, version: str, out: Path, note: str | None, pe
     )
     read = read_items(csv, heading)
     write_questionnaire(read, out)
-    click.echo(f"{len(read.items)} items written to {out}")
+    items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
+    click.echo(f"{items} written to {out}")

@@ -14,7 +14,7 @@ from kiosk.store.migrations import MIGRATIONS, SCHEMA
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import StartTapped, Status
-from kiosk.study.measures import Measures
+from kiosk.study.after.measures import Measures
 
 MUSEUM = Path(__file__).parent / "museum"
 

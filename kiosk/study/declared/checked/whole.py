@@ -5,9 +5,9 @@ All faults are found, not only the first: whoever sets up a study mends them in 
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import combinations
 from pathlib import Path
 from typing import TypeVar
 
@@ -103,7 +103,8 @@ class _Look:
         _, model = found.get(MODEL_LANGUAGE) or (None, Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE))
         for folder, catalogue in found.values():
             lacking = sorted(name for name in model.messages - catalogue.messages if not name.startswith(f"{CARD}-"))
-            self.faults += (f"the sentences in {folder} lack the message {name!r}" for name in lacking)
+            if lacking:
+                self.faults.append(f"the sentences in {folder} lack {', '.join(lacking)}")
         return {language: catalogue for language, (_, catalogue) in found.items()}
 
     def sheets(self) -> dict[str, Information]:
@@ -122,10 +123,12 @@ class _Look:
         settings = self._settings
         names = (("about_you", settings.about_you), *(("questionnaires", name) for name in settings.questionnaires))
         asked = tuple(read for key, name in names if (read := self._questionnaire(key, name)))
-        ids = {"questionnaires": [each.id for each in asked], "items": [it.id for each in asked for it in each.items]}
-        for what, given in ids.items():
-            twice = (name for name, count in Counter(given).items() if count > 1)
-            self.faults += (f"{settings.name}: questionnaires: two {what} have the id {name!r}" for name in twice)
+        for one, other in combinations(asked, 2):
+            both = [item.id for item in one.items if item.id in {item.id for item in other.items}]
+            if one.id == other.id:
+                self._blame("questionnaires", f"two of them have the id {one.id!r}")
+            elif both:
+                self._blame("questionnaires", f"{one.id!r} and {other.id!r} both have the items {', '.join(both)}")
         return asked
 
     def _questionnaire(self, key: str, name: str) -> Questionnaire | None:

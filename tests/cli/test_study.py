@@ -1,0 +1,231 @@
+"""A study is checked as a whole before anybody sits down, and what is wrong is said at once and in words."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from kiosk.cli.front import main
+from kiosk.settings import ASSETS, Settings
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.declared.questionnaire import Order, Questionnaire
+from kiosk.study.declared.reference import as_page, as_study_file
+from tests.cli.bad_studies import OWN, QUESTIONS, SENTENCES, SHEETS, STUDIES, TOLD, Bad
+
+PAPER = ASSETS / "studies" / "paper.toml"
+PAGE = Path(__file__).parents[2] / "docs" / "study-file.md"
+TABLE = "id,kind,scale,text_en,lowest_en,highest_en\none,likert,S,How?,little,much\n"
+
+
+def called(monkeypatch: pytest.MonkeyPatch, *arguments: str | Path) -> int:
+    """The exit code of a command."""
+    monkeypatch.setattr(sys, "argv", ["recollect", *map(str, arguments)])
+    with pytest.raises(SystemExit) as left:
+        main()
+    return int(left.value.code or 0)
+
+
+def files(folder: Path) -> dict[Path, bytes]:
+    """Everything in a folder."""
+    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+@pytest.mark.parametrize("bad", STUDIES.values(), ids=STUDIES.keys())
+def test_a_study_that_cannot_be_run_is_refused_in_its_own_sentences(
+    bad: Bad, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = bad.write(tmp_path)
+    before = files(tmp_path)
+    assert called(monkeypatch, "study", "check", study) == 2
+    said = capsys.readouterr()
+    assert said.err.splitlines() == [f"recollect: {sentence}" for sentence in bad.sentences(study)]
+    assert said.out == ""
+    assert files(tmp_path) == before
+
+
+def test_every_sentence_names_a_file(tmp_path: Path) -> None:
+    said = [sentence for bad in STUDIES.values() for sentence in bad.sentences(tmp_path / "study.toml")]
+    assert len(said) > 70
+    assert [sentence for sentence in said if str(tmp_path) not in sentence and str(ASSETS) not in sentence] == []
+
+
+def test_faults_are_also_told_to_programs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bad = STUDIES["everything at once"]
+    study = bad.write(tmp_path)
+    assert called(monkeypatch, "study", "check", study, "--json") == 2
+    said = capsys.readouterr()
+    assert json.loads(said.out) == {"faults": bad.sentences(study)}
+    assert said.err == ""
+
+
+@pytest.mark.parametrize("path", ["none.toml", "."])
+def test_a_study_file_that_cannot_be_read_is_refused(
+    path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert called(monkeypatch, "study", "check", tmp_path / path) == 2
+    assert f"the study file {tmp_path / path} cannot be read: " in capsys.readouterr().err
+
+
+GOOD = {
+    "empty": Bad("", ()),
+    "saved with a mark before it": Bad("\ufefftitle = 'A study'", ()),
+    "own questionnaire": Bad(OWN, (), {"own.toml": QUESTIONS}),
+    "own questionnaire by its stem": Bad('about_you = "own"', (), {"own.toml": QUESTIONS}),
+    "own sheets": Bad(TOLD, (), SHEETS),
+    "own sentences": Bad(
+        "languages = ['de']\nabout_you = 'own.toml'\nquestionnaires = ['other.toml']\n" + TOLD,
+        (),
+        SENTENCES
+        | {"sheets/de.toml": SHEETS["sheets/en.toml"], "own.toml": QUESTIONS.replace("en =", "de =")}
+        | {"other.toml": QUESTIONS.replace("en =", "de =").replace('"o', '"another-o')},
+    ),
+    "own policy": Bad(
+        "[assistance]\npolicy = 'mine.json'",
+        (),
+        {"mine.json": (ASSETS.parent / "policies" / "default.json").read_text("utf-8")},
+    ),
+    "nobody helps": Bad("[assistance]\npolicy = 'none'\ncondition = 'no_assistance'\n[allocation]\nquotas = {}", ()),
+    "three to one": Bad("[allocation]\nquotas = { tom = 30, notom = 10 }\nblock = 8", ()),
+    "no practice": Bad("stages = ['game']\n[practice]\ndeck = 'animals'", ()),
+}
+
+
+@pytest.mark.parametrize("good", GOOD.values(), ids=GOOD.keys())
+def test_a_study_that_can_be_run_is_told_in_short(
+    good: Bad, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert called(monkeypatch, "study", "check", good.write(tmp_path), "--json") == 0
+    assert json.loads(capsys.readouterr().out)["faults"] == []
+
+
+def test_the_table_says_what_the_study_is(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert called(monkeypatch, "study", "check", PAPER) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    for words in (
+        "en, it, es",
+        "about, consent, age",
+        "tom 28, notom 28",
+        "social-intelligence 16, trust 4",
+        "minutes 9",
+    ):
+        assert words in said
+
+
+def test_what_may_not_be_meant_is_said_and_refuses_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "toys").mkdir()
+    for number in range(12):
+        (tmp_path / "toys" / f"toy{number}.svg").touch()
+    study = tmp_path / "study.toml"
+    study.write_text("languages = ['en']\nstages = ['game']\n[game]\ndeck = 'toys'\n", "utf-8")
+    assert called(monkeypatch, "study", "check", study, "--json") == 0
+    cautions = json.loads(capsys.readouterr().out)["cautions"]
+    assert [caution.split(":")[0] for caution in cautions] == [
+        "without the stage 'consent', nobody is asked before their sitting is stored",
+        "without the stage 'age', nobody is asked whether they are old enough",
+        "without the stage 'debrief', nobody sees the code with which to withdraw",
+        "consent.text",
+        "consent.contact is empty, so visitors are not told whom to write to",
+        "the deck 'toys' has cards without a name in 'en'",
+    ]
+
+
+def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = Bad(TOLD + '\ncontact = "the lab"', (), SHEETS).write(tmp_path)
+    assert called(monkeypatch, "study", "check", study) == 0
+    assert "caution" not in capsys.readouterr().out
+
+
+# What is printed
+
+
+def test_the_documented_example_is_printed_from_the_declarations(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert called(monkeypatch, "study", "example") == 0
+    printed = capsys.readouterr().out
+    assert printed == as_study_file(Settings())
+    assert PAPER.read_text("utf-8") == printed, "write the output of `recollect study example` into it"
+
+
+def test_the_documented_example_sets_every_key_to_what_it_is_without_it() -> None:
+    read = Settings.read(PAPER)
+    assert read.model_dump() == Settings().model_dump()
+    assert read.sha256 == Settings().sha256
+    assert read_study(read).languages == ("en", "it", "es")
+
+
+def test_the_documented_example_names_every_key() -> None:
+    given = tomllib.loads(PAPER.read_text("utf-8"))
+    unset = {"allocation": {"seed"}, "robot": {"port"}}
+    for key, field in Settings.model_fields.items():
+        assert key in given
+        if isinstance(given[key], dict):
+            assert set(given[key]) == set(type(field.default).model_fields) - unset.get(key, set())
+
+
+def test_settings_other_than_the_defaults_come_back_from_their_file(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text('title = "A \\"second\\" study"\nstages = ["game"]\n[allocation]\nquotas = {}\nseed = 7', "utf-8")
+    settings = Settings.read(study)
+    (tmp_path / "again.toml").write_text(as_study_file(settings), "utf-8")
+    assert Settings.read(tmp_path / "again.toml").model_dump() == settings.model_dump()
+
+
+def test_the_reference_of_every_key_is_printed_from_the_declarations(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert called(monkeypatch, "study", "reference") == 0
+    printed = capsys.readouterr().out
+    assert printed == as_page(Settings)
+    assert PAGE.read_text("utf-8") == printed, "write the output of `recollect study reference` into it"
+    assert (
+        "| `rate` | How fast it speaks, in words per minute. | whole number, at least 80, at most 300 | `150` |"
+        in printed
+    )
+
+
+# Bringing in
+
+
+def test_a_table_becomes_a_questionnaire(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "table.csv").write_text(TABLE, "utf-8")
+    out = tmp_path / "own.toml"
+    options = ("--id", "own", "--version", "3", "--out", out, "--per-page", "4", "--shuffled")
+    assert called(monkeypatch, "study", "import", tmp_path / "table.csv", *options) == 0
+    assert capsys.readouterr().out == f"1 item written to {out}\n"
+    read = Questionnaire.read(out)
+    assert (read.id, read.version, read.note) == ("own", "3", "Brought in from table.csv.")
+    assert (read.per_page, read.order) == (4, Order.SHUFFLED)
+    assert read.items[0].text == {"en": "How?"}
+    assert set(files(tmp_path)) == {tmp_path / "table.csv", out}
+
+
+@pytest.mark.parametrize(
+    ("table", "out", "said"),
+    [
+        (TABLE.replace("likert", "stars"), "own.toml", "the table {here}/table.csv, row 2, column kind: "),
+        (TABLE, "table.csv", "{here}/table.csv is there already; choose another name"),
+        (TABLE, "none/own.toml", "{here}/none/own.toml cannot be written: "),
+    ],
+)
+def test_a_table_that_cannot_be_brought_in_leaves_everything_as_it_was(
+    table: str, out: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "table.csv").write_text(table, "utf-8")
+    before = files(tmp_path)
+    options = ("--id", "own", "--version", "1", "--out", tmp_path / out)
+    assert called(monkeypatch, "study", "import", tmp_path / "table.csv", *options) == 2
+    assert said.replace("{here}", str(tmp_path)) in capsys.readouterr().err
+    assert files(tmp_path) == before
