@@ -91,7 +91,7 @@ def test_the_plan_of_a_sitting_is_kept_whole(tmp_path: Path) -> None:
         *(driver.plan.settings, driver.plan.condition),
         driver.plan.policy,
     )
-    assert (kept.questionnaire, kept.deck) == (driver.plan.questionnaire, driver.plan.deck)
+    assert (kept.questionnaires, kept.deck) == (driver.plan.questionnaires, driver.plan.deck)
     assert kept.catalogue.sources == driver.plan.catalogue.sources
 
 

@@ -79,7 +79,7 @@ def test_the_study_file_says_where_the_robot_is(tmp_path: Path) -> None:
     assert "the study file names no robot" in str(result.exception)
     with FurhatFake() as fake:
         study.write_text(
-            f'language = "es"\n[robot]\nkind = "furhat"\nhost = "127.0.0.1"\nport = {fake.port}\n', "utf-8"
+            f'languages = ["es"]\n[robot]\nkind = "furhat"\nhost = "127.0.0.1"\nport = {fake.port}\n', "utf-8"
         )
         code, _ = tried("--study", study)
     assert (code, fake.voice) == (0, "Lucia")

@@ -85,6 +85,9 @@ class BodyFake:
     def attend(self, place: Place | None) -> None:
         self.did.append(("attend", place))
 
+    def speak(self, language: str) -> None:
+        self.did.append(("speak", language))
+
     def appear(self) -> None:
         self.did.append(("appear",))
 
@@ -111,6 +114,9 @@ class RobotFake:
     def connect(self) -> Found:
         self._do("connect")
         return Found((), (), RobotVoice("Amy", "en-GB"))
+
+    def speak(self, language: str) -> None:
+        self._do(f"speak {language}")
 
     def say(self, saying: Saying) -> None:
         saying.started()

@@ -60,7 +60,7 @@ def stage() -> Iterator[Stage]:
 def robot_helps(stage: Stage) -> Stage:
     """The same, in a sitting that began with the robot."""
     stage.begin_to_look()
-    stage.bodies.begin()
+    stage.bodies.begin("en")
     return stage
 
 
@@ -165,7 +165,7 @@ def test_what_came_due_during_a_sitting_is_done_right_after_it(robot_helps: Stag
 
 def test_a_robot_that_comes_back_during_a_sitting_waits_for_its_end(stage: Stage) -> None:
     stage.bodies.take_robot(stage.body)
-    stage.bodies.begin()
+    stage.bodies.begin("en")
     stage.settle()
     assert stage.helps(BodyName.AVATAR)
     stage.bodies.rest()

@@ -13,8 +13,8 @@ from kiosk.store.database import FILE
 from kiosk.store.migrations import MIGRATIONS, SCHEMA
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.events import StartTapped, Status
 from kiosk.study.after.measures import Measures
+from kiosk.study.events import StartTapped, Status
 
 MUSEUM = Path(__file__).parent / "museum"
 

@@ -159,7 +159,12 @@ def test_what_a_sitting_followed_can_be_rebuilt(folder: Path, provenance: Proven
     plan = provenance.plan
     assert seed == provenance.seed
     assert (rebuilt.settings, rebuilt.condition, rebuilt.policy) == (plan.settings, plan.condition, plan.policy)
-    assert (rebuilt.questionnaire, rebuilt.deck) == (plan.questionnaire, plan.deck)
+    assert (rebuilt.about_you, rebuilt.questionnaires) == (plan.about_you, plan.questionnaires)
+    assert (rebuilt.information, rebuilt.deck, rebuilt.practice_deck) == (
+        plan.information,
+        plan.deck,
+        plan.practice_deck,
+    )
     assert (rebuilt.catalogue.language, rebuilt.catalogue.sources) == (plan.catalogue.language, plan.catalogue.sources)
 
 

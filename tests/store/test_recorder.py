@@ -24,9 +24,9 @@ from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
 from kiosk.study import events as happened
-from kiosk.study.events import Unstored
 from kiosk.study.condition import Condition
-from kiosk.study.events import Event, Status
+from kiosk.study.declared.questionnaire import QUESTIONNAIRES
+from kiosk.study.events import Event, Status, Unstored
 from tests.store.writer import GONE
 from tests.study.driver import Driver, notes, replay
 
@@ -164,7 +164,10 @@ def test_a_sitting_s_row_says_what_it_followed(folder: Path, provenance: Provena
     assert row["settings_sha256"] == plan.settings.sha256
     assert kept[row["settings_sha256"]] == plan.settings.model_dump_json()
     assert kept[row["policy_source"]] == plan.policy.to_json()
-    assert kept[row["questionnaire_source"]] == plan.questionnaire.model_dump_json()
+    assert kept[row["questionnaire_source"]] == QUESTIONNAIRES.dump_json(plan.questionnaires).decode()
+    assert kept[row["about_you_source"]] == plan.about_you.model_dump_json()
+    assert kept[row["information_source"]] == plan.information.model_dump_json()
+    assert tuple(json.loads(row["practice_deck"])) == plan.practice_deck
     assert json.loads(kept[row["sentences_source"]]) == plan.catalogue.sources
     assert row["started_at"].endswith("+00:00")
 
@@ -172,7 +175,7 @@ def test_a_sitting_s_row_says_what_it_followed(folder: Path, provenance: Provena
 def test_sittings_are_numbered_and_share_what_they_followed(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         assert [recorder.begin(provenance, [START]).sitting for _ in range(3)] == [1, 2, 3]
-    assert rows(folder, "SELECT count(*) FROM source") == [(4,)]
+    assert rows(folder, "SELECT count(*) FROM source") == [(6,)]
     assert rows(folder, "SELECT sitting, seq FROM event WHERE type = 'StartTapped'") == [(1, 1), (2, 1), (3, 1)]
 
 
