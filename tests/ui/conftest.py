@@ -20,14 +20,21 @@ from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.reading import Archive, archive
-from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.recorder import Recorder
+from kiosk.study.condition import Condition
+from kiosk.study.declared.checked.whole import read_study
 from kiosk.ui.app import App
-from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.clock import VirtualClock
+from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, find, lay_out, middle
+from kiosk.ui.window import Display, Mode, Pace
+
+SHORT = Settings.model_validate(
+    {"stages": ["introduction", "game", "result", "questions"], "questionnaires": ["trust"], "languages": ["en"]}
+)
+"""A study of the game and little else, for what is about the game."""
 
 
 @pytest.fixture(scope="session")
@@ -88,7 +95,7 @@ class Booth:
 
     def start_game(self) -> None:
         """Go from attract to the game."""
-        self.click("start")
+        self.click("start-en")
         self.click("continue")
 
     def rehearse(self, seed: int) -> None:
@@ -105,12 +112,11 @@ def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
     with ExitStack() as built:
 
         def make(seed: int = 1, condition: str = "tom", settings: Settings | None = None) -> Booth:
-            plan = make_plan(settings or Settings(), condition)
             data = Path(mkdtemp(dir=tmp_path))
             recorder = built.enter_context(Recorder(data))
-            provenance = Provenance(plan, seed, "avatar", "a test", simulated=True)
-            app = App(plan, Mode(Display.NOWHERE, Pace.VIRTUAL), recorder, lambda: provenance)
-            built.enter_context(app)
+            origin = Origin("a test", simulated=True, seed=lambda: seed, condition=Condition.named(condition))
+            desk = Desk(read_study(settings or SHORT), recorder, origin)
+            app = built.enter_context(App(Mode(Display.NOWHERE, Pace.VIRTUAL), recorder, desk))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             return Booth(app, data)
 

@@ -23,8 +23,11 @@ Window {
     required property url cardShadow
     required property real textSize
     required property int motion
+    // A replay drives the screens from a bar below them; a kiosk has none.
+    property ReplayBar replay: null
 
     readonly property bool wide: width >= height
+    readonly property real room: height - (replay === null ? 0 : controls.height)
 
     width: 1920
     height: 1080
@@ -37,8 +40,8 @@ Window {
     Binding {
         target: Theme
         property: "unit"
-        value: root.wide ? Math.min(root.width / 1920, root.height / 1080)
-                         : Math.min(root.width / 1080, root.height / 1920)
+        value: root.wide ? Math.min(root.width / 1920, root.room / 1080)
+                         : Math.min(root.width / 1080, root.room / 1920)
     }
     Binding { target: Theme; property: "textSize"; value: root.textSize }
     Binding { target: Theme; property: "motion"; value: root.motion }
@@ -52,7 +55,7 @@ Window {
     Item {
         id: stage
         width: root.wide ? root.width * 0.715 : root.width
-        height: root.wide ? root.height : root.height * 0.64
+        height: root.wide ? root.room : root.room * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.settled && root.kiosk.bare
 
@@ -138,7 +141,7 @@ Window {
         x: root.wide ? stage.width : root.width * 0.12
         y: root.wide ? 0 : stage.height
         width: root.wide ? root.width - stage.width - Theme.gap : root.width * 0.76
-        height: root.wide ? root.height : root.height - stage.height
+        height: root.wide ? root.room : root.room - stage.height
         avatar: root.avatar
     }
     CalmCard {
@@ -156,5 +159,12 @@ Window {
         visible: root.kiosk.paused || root.kiosk.screen === "pause"
         title: root.kiosk.words["pause-title"]
         line: root.kiosk.words["pause-line"]
+    }
+    Loader {
+        id: controls
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
+        height: root.replay === null ? 0 : 48
+        active: root.replay !== null
+        sourceComponent: ReplayControls { replay: root.replay }
     }
 }

@@ -1,6 +1,5 @@
 // Below a replay: where it is, and the keys that drive it.
 import QtQuick
-import QtQuick.Controls.Basic
 import Recollect
 import "."
 
@@ -22,7 +21,7 @@ Rectangle {
 
     component Words: Text {
         anchors.verticalCenter: parent.verticalCenter
-        font.pixelSize: Theme.small * 0.85
+        font.pixelSize: 20
         color: Theme.paper
     }
 
@@ -30,7 +29,7 @@ Rectangle {
         anchors { left: parent.left; leftMargin: Theme.gap; verticalCenter: parent.verticalCenter }
         height: parent.height
         spacing: Theme.gap
-        Words { text: bar.replay.runs ? "▶" : "❚❚"; width: Theme.small * 1.2 }
+        Words { text: bar.replay.runs ? "▶" : "❚❚"; width: 28 }
         Words { text: bar.replay.title; font.bold: true }
         Words { text: bar.replay.place; color: bar.replay.differs ? Theme.amber : Theme.paper }
         Words { visible: bar.replay.differs; text: "differs from the record"; color: Theme.amber; font.bold: true }

@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import Self
 
 from PySide6.QtCore import QObject
+from PySide6.QtQuick import QQuickWindow
 
 from kiosk import BadInput
 from kiosk.robot.bodies import Bodies
@@ -21,6 +22,7 @@ from kiosk.ui.performer import Performer
 from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.replaying.player import Player
 from kiosk.ui.screens.avatar import AvatarBody
+from kiosk.ui.screens.every import Screens
 from kiosk.ui.voice import Voice
 from kiosk.ui.window import Mode, Window
 
@@ -78,6 +80,16 @@ class Replay:
         """Close the window."""
         self._loop.close()
         self._window.close()
+
+    @property
+    def screens(self) -> Screens:
+        """Everything that can be shown."""
+        return self._window.screens
+
+    @property
+    def window(self) -> QQuickWindow:
+        """Qt's own window."""
+        return self._window.shown
 
     def run(self) -> None:
         """Play until whoever watches has seen enough."""

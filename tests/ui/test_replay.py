@@ -1,0 +1,172 @@
+"""A stored sitting, played again: what stands on the screen is what stood there, forwards, back and at any speed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from kiosk.cli.front import recollect
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study import events as happened
+from kiosk.study.after.replay import Step, first_difference, replayed
+from kiosk.study.commands import TurnUp
+from kiosk.ui.rehearsing.rehearsal import lay_out
+from kiosk.ui.replaying.replay import Replay
+from kiosk.ui.window import Display, Mode, Pace
+from tests.samples import whole
+from tests.study.driver import Driver, with_memory
+
+SEED = 5
+
+
+@pytest.fixture(scope="module")
+def played() -> Driver:
+    """A whole sitting, of which everything is known."""
+    driver = Driver(whole(game={"rows": 2, "columns": 4}), SEED)
+    driver.whole_sitting(with_memory(3))
+    return driver
+
+
+@pytest.fixture
+def folder(played: Driver, tmp_path: Path) -> Path:
+    """The data folder in which it is stored."""
+    with Recorder(tmp_path / "data") as recorder:
+        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", simulated=True), played.events)
+    return tmp_path / "data"
+
+
+@pytest.fixture
+def steps(played: Driver) -> tuple[Step, ...]:
+    """Its steps."""
+    return replayed(played.plan, SEED, played.events)
+
+
+@pytest.fixture
+def replay(played: Driver, steps: tuple[Step, ...], qtbot: QtBot) -> Iterator[Replay]:
+    """The replay, standing before the first step."""
+    with Replay(Mode(Display.NOWHERE, Pace.WALL, 32), played.plan, steps, "Sitting 1") as replay:
+        qtbot.waitUntil(lambda: replay.window.isExposed() and replay.window.isActive())
+        yield replay
+
+
+def seen(replay: Replay) -> tuple[object, ...]:
+    """What stands on the screens."""
+    screens = replay.screens
+    return (screens.kiosk.shown, screens.board.unmatched, screens.board.closed, screens.avatar.bubble)
+
+
+def test_every_step_leads_to_what_was_recorded(steps: tuple[Step, ...], played: Driver) -> None:
+    assert [step.event for step in steps] == played.world
+    assert all(step.agrees for step in steps)
+    assert first_difference(steps, played.events) is None
+
+
+def test_a_record_that_was_tampered_with_is_told_by_its_place(played: Driver) -> None:
+    at = next(i for i, event in enumerate(played.events) if isinstance(event, happened.CardFlipped))
+    flipped = played.events[at]
+    assert isinstance(flipped, happened.CardFlipped)
+    forged = happened.CardFlipped(**{**vars(flipped), "card": "a card that never was"})
+    events = [*played.events[:at], forged, *played.events[at + 1 :]]
+    assert first_difference(replayed(played.plan, SEED, events), events) == at
+
+
+def test_an_event_that_has_no_place_today_ends_the_replay_there(played: Driver) -> None:
+    events = [*played.events[:4], happened.StartTapped(at_ms=10), *played.events[4:]]
+    assert first_difference(replayed(played.plan, SEED, events), events) == 5
+
+
+def test_the_screens_go_through_every_stage(replay: Replay) -> None:
+    shown = []
+    while not replay.player.over:
+        replay.player.step()
+        shown.append(replay.screens.kiosk.shown)
+    assert list(dict.fromkeys(shown)) == [
+        *("about", "consent", "age", "form", "introduction", "practice", "game", "result"),
+        *("debrief", "thanks"),
+    ]
+
+
+def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[Step, ...]) -> None:
+    flip = next(i for i, step in enumerate(steps) if any(isinstance(c, TurnUp) for c in step.commands))
+    replay.player.go_to(flip)
+    before = seen(replay)
+    replay.player.step()
+    assert seen(replay) != before
+    replay.player.go_to(flip)
+    assert seen(replay) == before
+
+
+def test_it_plays_by_itself_to_the_end_and_stays_there(replay: Replay, qtbot: QtBot) -> None:
+    replay.player.run()
+    qtbot.waitUntil(lambda: replay.player.over, timeout=60_000)
+    assert not replay.player.runs
+    assert replay.screens.kiosk.shown == "thanks"
+
+
+def test_it_is_driven_by_keys(replay: Replay) -> None:
+    def press(key: Qt.Key) -> None:
+        QTest.keyClick(replay.window, key)
+
+    lay_out(replay.window)
+    press(Qt.Key.Key_Right)
+    press(Qt.Key.Key_Right)
+    assert replay.player.played == 2
+    press(Qt.Key.Key_Left)
+    assert replay.player.played == 1
+    press(Qt.Key.Key_End)
+    assert replay.player.over
+    press(Qt.Key.Key_Home)
+    assert replay.player.played == 0
+    press(Qt.Key.Key_Down)
+    assert replay.player.speed == 16
+    press(Qt.Key.Key_Space)
+    assert replay.player.runs
+    press(Qt.Key.Key_Space)
+    assert not replay.player.runs
+
+
+def test_nobody_who_watches_can_play_or_see_the_code(replay: Replay) -> None:
+    replay.player.go_to(len(replay.player.steps))
+    assert replay.screens.debrief.property("code") == "· · ·"
+    replay.player.go_to(0)
+    before = seen(replay)
+    replay.screens.attract.started.emit("en")
+    assert seen(replay) == before
+
+
+def test_without_a_screen_it_saves_pictures(folder: Path, tmp_path: Path, qtbot: QtBot) -> None:
+    del qtbot
+    frames = tmp_path / "frames"
+    result = CliRunner().invoke(
+        recollect, ["replay", "1", "--data", str(folder), "--headless", "--frames", str(frames), "--json"]
+    )
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout.splitlines()[-1])
+    assert told["differs_at"] is None
+    pictures = sorted(frames.iterdir())
+    assert len(pictures) == told["pictures"] > 30
+    assert any("-consent-" in picture.name for picture in pictures)
+
+
+def test_a_sitting_that_is_not_there_is_refused_in_words(folder: Path) -> None:
+    result = CliRunner().invoke(recollect, ["replay", "7", "--data", str(folder), "--headless"])
+    assert str(result.exception) == "there is no sitting 7"
+
+
+def test_the_end_that_was_put_to_a_sitting_after_a_crash_is_no_part_of_its_story(
+    played: Driver, tmp_path: Path
+) -> None:
+    cut = played.events[: len(played.events) // 2]
+    with Recorder(tmp_path) as recorder:
+        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", simulated=True), cut)
+    with Recorder(tmp_path), archive(tmp_path) as stored:
+        assert stored.story(1) == cut
+        assert stored.events(1)[:-1] == cut
