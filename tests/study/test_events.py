@@ -15,8 +15,21 @@ from kiosk.assistant.hint import Reason
 from kiosk.assistant.mdp import Action, Card, Outcome, Phase
 from kiosk.game import Position, Refusal
 from kiosk.study import events as happened
-from kiosk.study.events import Event, SessionEvent, Stage, Status, Timer, WorldEvent, from_record, to_record
-from tests.samples import plan
+from kiosk.study.declared.questionnaire import Answer
+from kiosk.study.events import (
+    BodyName,
+    Event,
+    PracticeEnd,
+    SessionEvent,
+    Stage,
+    Status,
+    Timer,
+    Unstored,
+    WorldEvent,
+    from_record,
+    to_record,
+)
+from tests.samples import whole
 from tests.study.driver import Driver, with_memory
 
 
@@ -48,6 +61,11 @@ def test_a_tap_shows_that_somebody_is_there_and_a_clock_does_not() -> None:
     assert {kind.__name__ for kind in kinds(WorldEvent) if kind.by_visitor} == {
         "StartTapped",
         "ContinueTapped",
+        "PurposeTicked",
+        "AgreeTapped",
+        "DeclineTapped",
+        "AgeTapped",
+        "SkipTapped",
         "CardTapped",
         "AnswerGiven",
         "StillHereTapped",
@@ -91,14 +109,28 @@ def test_a_record_can_be_read_without_the_program() -> None:
 @pytest.mark.parametrize(
     ("closed_set", "names"),
     [
-        (Stage, "attract introduction game result questions over"),
-        (Timer, "turn_back mark reading speech_deadline mood finish idle still_there"),
-        (Status, "completed abandoned interrupted"),
+        (
+            Stage,
+            "attract about consent age about_you introduction practice game result questions debrief thanks over",
+        ),
+        (Timer, "turn_back mark reading speech_deadline mood finish practice thanks idle still_there"),
+        (Status, "completed abandoned stopped interrupted"),
+        (Unstored, "declined under_age left"),
+        (PracticeEnd, "found left time"),
+        (BodyName, "avatar furhat furhat-realtime"),
         (Card, "first second"),
     ],
 )
 def test_the_names_in_the_records_are_fixed_for_ever(closed_set: Any, names: str) -> None:
     assert [member.value for member in closed_set] == names.split()
+
+
+@pytest.mark.parametrize("value", [None, 3, "owl", "", (), ("en",), ("en", "it")])
+def test_an_answer_is_a_number_a_text_some_options_or_none(value: Answer | None) -> None:
+    given_one = happened.AnswerGiven(at_ms=1, item="age", value=value)
+    record = json.loads(json.dumps(to_record(given_one)))
+    assert record["value"] == (list(value) if isinstance(value, tuple) else value)
+    assert from_record(record) == given_one
 
 
 def test_why_a_tap_was_ignored_and_why_a_hint_was_given_are_told_by_name() -> None:
@@ -126,6 +158,11 @@ def test_why_a_tap_was_ignored_and_why_a_hint_was_given_are_told_by_name() -> No
         {"type": "CardTapped", "at_ms": 1, "position": {"row": 1}},
         {"type": "StageEntered", "at_ms": 1, "stage": "moon"},
         {"type": "TimerEnded", "at_ms": 1, "timer": "TURN_BACK"},
+        {"type": "AnswerGiven", "at_ms": 1, "item": "age"},
+        {"type": "AnswerGiven", "at_ms": 1, "item": "age", "value": True},
+        {"type": "AnswerGiven", "at_ms": 1, "item": "age", "value": 1.5},
+        {"type": "AnswerGiven", "at_ms": 1, "item": "age", "value": ["en", 1]},
+        {"type": "AgeTapped", "at_ms": 1},
     ],
     ids=str,
 )
@@ -135,7 +172,7 @@ def test_anything_else_is_refused(record: dict[str, Any]) -> None:
 
 
 def test_a_whole_sitting_comes_back_from_its_records() -> None:
-    driver = Driver(plan())
+    driver = Driver(whole())
     driver.whole_sitting(with_memory(1))
     text = json.dumps([to_record(event) for event in driver.events])
     assert [from_record(record) for record in json.loads(text)] == driver.events

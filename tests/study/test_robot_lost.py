@@ -7,9 +7,9 @@ import pytest
 from kiosk.assistant.mdp import Action
 from kiosk.study import commands as do
 from kiosk.study import events as happened
+from kiosk.study.after.utterances import Utterances, body_changes, utterances
 from kiosk.study.events import BodyName, Stage, Status, Timer
 from kiosk.study.stages import UnexpectedEvent
-from kiosk.study.after.utterances import Utterances, body_changes, utterances
 from tests.samples import always, plan
 from tests.study.driver import Driver, Voice, replay, with_memory
 

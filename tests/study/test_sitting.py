@@ -2,74 +2,34 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import pytest
 
 from kiosk import BadInput
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mdp import Action, Card
-from kiosk.game import Position, Refusal
-from kiosk.settings import Game, Timing
+from kiosk.assistant.mdp import Action
+from kiosk.settings import STAGES, Game, Practice
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Mood, Record, Wait
+from kiosk.study.commands import Mood, Record
 from kiosk.study.condition import Condition
-from kiosk.study.events import Stage, Status, Timer
+from kiosk.study.events import Stage, Status
 from kiosk.study.session import Session
-from tests.samples import ENGLISH, always, mixed, plan
-from tests.study.driver import SPEECH_LAG, SPEECH_TIME, Driver, View, Voice, at_random, notes, with_memory
+from tests.samples import ENGLISH, SHORT, always, plan, whole
+from tests.study.driver import Driver, Voice, at_random, driven_to, notes, with_memory
+from tests.study.table import playing, seen
 
-UNDERWAY = [Stage.INTRODUCTION, Stage.GAME, Stage.RESULT, Stage.QUESTIONS]
-ONLY_SECOND = always(Action.SUG_CARD, Gate(opening=0, patience=99, first_patience=99))
-"""Names the mate before every second card, and says nothing before a first one."""
-
-
-def playing(action: Action = Action.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: int) -> Driver:
-    """A game that has just begun, in which the assistant always does the same."""
-    driver = Driver(plan(policy=always(action), timing=Timing(**timing)), seed, voice)
-    driver.to_the_game()
-    return driver
-
-
-def a_pair(driver: Driver) -> tuple[Position, Position]:
-    """Two cards alike that are still closed."""
-    dealt = driver.noted(happened.BoardDealt)[0]
-    closed = driver.view.closed
-    cards = dict(
-        zip((Position(r, c) for r in range(dealt.rows) for c in range(dealt.columns)), dealt.cards, strict=True)
-    )
-    return closed[0], next(place for place in closed[1:] if cards[place] == cards[closed[0]])
-
-
-def another(driver: Driver, *not_these: Position) -> Position:
-    """A closed card that is none of these."""
-    return next(place for place in driver.view.closed if place not in not_these)
-
-
-def miss(driver: Driver) -> tuple[Position, Position]:
-    """Flip two different cards."""
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    second = another(driver, mate)
-    driver.flip(second)
-    return first, second
-
-
-def seen(driver: Driver, *what: str) -> tuple[object, ...]:
-    """What the view shows under these names."""
-    return tuple(getattr(driver.view, name) for name in what)
+UNDERWAY = list(Stage)[1:-1]
 
 
 # The course
 
 
-def test_a_sitting_goes_through_every_stage_once() -> None:
-    driver = Driver(plan(), 2)
+@pytest.mark.parametrize("stages", [SHORT, STAGES])
+def test_a_sitting_goes_through_every_stage_once(stages: tuple[str, ...]) -> None:
+    driver = Driver(plan(stages=stages), 2)
     assert driver.stage is Stage.ATTRACT
     driver.whole_sitting(with_memory(2))
-    stages = [event.stage for event in driver.noted(happened.StageEntered)]
-    assert stages == [*UNDERWAY, Stage.OVER]
+    entered = [event.stage for event in driver.noted(happened.StageEntered)]
+    assert [stage.value for stage in entered] == [*stages, "over"]
     assert [event.status for event in driver.noted(happened.SittingEnded)] == [Status.COMPLETED]
     assert driver.view.ended is Status.COMPLETED
     assert isinstance(driver.events[-1], happened.SittingEnded)
@@ -79,7 +39,7 @@ def test_a_sitting_goes_through_every_stage_once() -> None:
 @pytest.mark.parametrize("voice", Voice)
 @pytest.mark.parametrize("condition", Condition)
 def test_a_sitting_comes_to_its_end_whatever_the_body_does(voice: Voice, condition: Condition) -> None:
-    driver = Driver(plan(condition), 3, voice)
+    driver = Driver(whole(condition), 3, voice)
     driver.whole_sitting(at_random(3))
     assert driver.view.ended is Status.COMPLETED
     assert driver.session.measures.pairs == 12
@@ -87,7 +47,7 @@ def test_a_sitting_comes_to_its_end_whatever_the_body_does(voice: Voice, conditi
 
 
 def test_what_is_written_stands_before_what_is_done() -> None:
-    driver = Driver(plan(), 2)
+    driver = Driver(whole(), 2)
     driver.whole_sitting(at_random(2))
     for step in driver.steps:
         kinds = [isinstance(command, Record) for command in step.commands]
@@ -106,7 +66,7 @@ def test_leaving_a_stage_takes_its_sentence_with_it() -> None:
 
 @pytest.mark.parametrize("voice", Voice)
 def test_nothing_of_a_sitting_is_left_when_it_is_over(voice: Voice) -> None:
-    driver = Driver(plan(), 2, voice)
+    driver = Driver(whole(), 2, voice)
     driver.whole_sitting(at_random(2))
     assert seen(driver, "speaking", "bubble", "mark", "mood", "still_there") == (None, None, None, Mood.IDLE, False)
     assert not driver.running
@@ -123,525 +83,7 @@ def test_the_introduction_can_be_left_while_it_is_spoken() -> None:
 def test_the_board_is_shown_without_telling_what_lies_where() -> None:
     driver = playing()
     shown = next(command for command in driver.commands if isinstance(command, do.ShowBoard))
-    assert shown == do.ShowBoard(rows=4, columns=6, pairs=12)
-
-
-# Flips
-
-
-def test_a_tap_turns_a_card_up() -> None:
-    driver = playing()
-    commands = driver.flip(Position(1, 2))
-    flipped = driver.noted(happened.CardFlipped)[0]
-    assert (flipped.number, flipped.move, flipped.position, flipped.matched) == (1, 1, Position(1, 2), None)
-    assert do.TurnUp(Position(1, 2), flipped.card) in commands
-    assert driver.view.held is None
-
-
-def test_a_pair_is_shown_and_the_board_stays_open() -> None:
-    driver = playing()
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    commands = driver.flip(mate)
-    assert driver.noted(happened.CardFlipped)[1].matched is True
-    assert do.ShowPair((mate, first)) in commands
-    assert do.ShowProgress(1, 1) in commands
-    assert seen(driver, "found", "held") == ({first, mate}, None)
-    assert driver.running.keys() == {Timer.IDLE}
-
-
-def test_two_different_cards_are_shown_for_a_while_and_turn_back() -> None:
-    driver = playing(turn_back=1500)
-    first, second = miss(driver)
-    assert driver.view.held is Wait.TURNING_BACK
-    shown_at = driver.now
-    commands = driver.wait()
-    assert (driver.now, driver.world[-1]) == (
-        shown_at + 1500,
-        happened.TimerEnded(at_ms=shown_at + 1500, timer=Timer.TURN_BACK),
-    )
-    assert commands.index(do.TurnBack((first, second))) < commands.index(do.OpenBoard())
-    assert seen(driver, "held", "up") == (None, {})
-    assert do.ShowProgress(0, 1) in driver.commands
-
-
-@pytest.mark.parametrize("which", ["open", "closed"])
-def test_taps_while_two_cards_turn_back_are_ignored(which: str) -> None:
-    driver = playing()
-    first, second = miss(driver)
-    place = first if which == "open" else another(driver, first, second)
-    before = driver.session.measures
-    assert driver.tap(place) == (
-        Record(happened.TapIgnored(at_ms=driver.now, position=place, why=Refusal.TURNING_BACK)),
-        do.StartTimer(Timer.IDLE, 120_000),
-    )
-    assert driver.session.measures == before
-    driver.wait_until_open()
-    assert driver.view.up == {}
-
-
-def test_taps_that_the_rules_forbid_are_ignored_and_say_why() -> None:
-    driver = playing()
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    driver.tap(first)
-    driver.tap(Position(-1, 10**12))
-    driver.flip(mate)
-    driver.tap(mate)
-    why = [event.why for event in driver.noted(happened.TapIgnored)]
-    assert why == [Refusal.OPEN, Refusal.OUTSIDE, Refusal.FOUND]
-    assert driver.session.measures.flips == 2
-
-
-def test_the_last_pair_is_looked_at_before_the_result() -> None:
-    driver = playing(finish=2500)
-    while len(driver.view.found) < 24:
-        for place in a_pair(driver):
-            driver.flip(place)
-    at = driver.now
-    assert driver.stage is Stage.GAME
-    assert not driver.view.closed
-    driver.tap(Position(0, 0))
-    assert driver.noted(happened.TapIgnored)[-1].why is Refusal.FOUND
-    driver.wait()
-    assert (driver.now, driver.stage) == (at + 2500, Stage.RESULT)
-    assert driver.noted(happened.GameFinished)[0].at_ms == driver.now
-
-
-# Hints
-
-
-def test_a_decision_is_taken_before_every_flip() -> None:
-    driver = playing(Action.SUG_ROW)
-    driver.play(with_memory(1))
-    decided = [event.flip for event in driver.noted(happened.AssistanceDecided)]
-    flipped = [event.number for event in driver.noted(happened.CardFlipped)]
-    assert decided == flipped == list(range(1, len(flipped) + 1))
-    order = [
-        (type(event).__name__, number)
-        for event in driver.events
-        if (number := getattr(event, "flip", None) or getattr(event, "number", None))
-        and isinstance(event, happened.AssistanceDecided | happened.CardFlipped)
-    ]
-    assert order == [(kind, number) for number in flipped for kind in ("AssistanceDecided", "CardFlipped")]
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_what_is_recorded_of_a_decision_is_what_it_was(seed: int) -> None:
-    policy = mixed(seed, Gate(opening=2, patience=2, first_patience=4))
-    driver = Driver(plan(policy=policy), seed)
-    driver.to_the_game()
-    driver.play(at_random(seed))
-    decisions = driver.noted(happened.AssistanceDecided)
-    hints = {hint.flip: hint for hint in driver.noted(happened.HintGiven)}
-    for before, decision in pairwise(decisions):
-        assert decision.last is before.action
-        assert decision.card is (Card.SECOND if decision.flip % 2 == 0 else Card.FIRST)
-        assert decision.action is Action.NO_HELP or decision.gate.is_open
-        assert (decision.flip in hints) is (decision.action is not Action.NO_HELP)
-    assert {decision.gate.name for decision in decisions} >= {"OPEN", "OPENING", "DOING_WELL"}
-    assert {decision.game.name for decision in decisions} == {"BEGINNING", "MIDDLE", "END"}
-    for hint in hints.values():
-        decision = decisions[hint.flip - 1]
-        assert (hint.action, hint.card) == (decision.action, decision.card)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_what_is_recorded_of_a_hint_is_true_of_what_this_visitor_has_seen(seed: int) -> None:
-    driver = Driver(plan(policy=mixed(seed)), seed)
-    driver.to_the_game()
-    driver.play(at_random(seed))
-    dealt = driver.noted(happened.BoardDealt)[0]
-    name_at = {Position(*divmod(number, dealt.columns)): name for number, name in enumerate(dealt.cards)}
-    flipped: list[Position] = []
-    utterances = [1]
-    for event in driver.events:
-        if isinstance(event, happened.CardFlipped):
-            flipped.append(event.position)
-            assert event.card == name_at[event.position]
-        if isinstance(event, happened.HintGiven):
-            mate = next(p for p in name_at if name_at[p] == event.name and p != event.target)
-            assert name_at[event.target] == event.name
-            assert (event.seen, event.mate_seen) == (flipped.count(event.target), flipped.count(mate))
-            assert event.row == (None if event.action is Action.SUG_COL else event.target.row)
-            assert event.column == (None if event.action is Action.SUG_ROW else event.target.column)
-            assert event.flip == len(flipped) + 1
-            utterances.append(event.utterance)
-    assert utterances == list(range(1, len(utterances) + 1))
-
-
-def test_without_assistance_nothing_is_decided_and_nothing_said() -> None:
-    driver = Driver(plan(Condition.NO_ASSISTANCE, always(Action.SUG_CARD)), 1)
-    driver.to_the_game()
-    driver.play(with_memory(1))
-    assert not driver.noted(happened.AssistanceDecided)
-    assert not driver.noted(happened.HintGiven)
-    spoken = [command for command in driver.commands if isinstance(command, do.Speak)]
-    assert len(spoken) == 2
-
-
-def test_a_hint_holds_the_board_and_is_shown_as_it_is_recorded() -> None:
-    driver = playing(Action.SUG_CARD)
-    hint = driver.noted(happened.HintGiven)[0]
-    assert driver.view.held is Wait.SPEAKING
-    assert (driver.view.bubble, driver.view.speaking) == (hint.sentence, hint.utterance)
-    assert driver.view.mark is None
-
-
-def test_taps_while_the_assistant_speaks_are_ignored() -> None:
-    driver = playing(Action.SUG_CARD)
-    before = driver.session.measures
-    for place in (Position(0, 0), Position(-5, 0)):
-        assert driver.tap(place) == (
-            Record(happened.TapIgnored(at_ms=driver.now, position=place, why=None)),
-            do.StartTimer(Timer.IDLE, 120_000),
-        )
-    assert driver.session.measures == before
-    assert driver.view.held is Wait.SPEAKING
-    driver.wait_until_open()
-    assert driver.view.up == {}
-
-
-@pytest.mark.parametrize(
-    ("action", "row", "column"),
-    [(Action.SUG_ROW, True, False), (Action.SUG_COL, False, True), (Action.SUG_CARD, True, True)],
-)
-def test_the_mark_shows_no_more_than_the_hint_gives_away(action: Action, *, row: bool, column: bool) -> None:
-    driver = playing(action)
-    target = driver.noted(happened.HintGiven)[0].target
-    driver.wait_until_open()
-    assert driver.view.mark == (target.row if row else None, target.column if column else None)
-
-
-@pytest.mark.parametrize("delay", [0, 1000, 1900])
-def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
-    driver = playing(Action.SUG_CARD, mark_delay=delay)
-    given_at = driver.now
-    while driver.view.mark is None:
-        driver.wait()
-    assert driver.now == given_at + SPEECH_LAG + delay
-    assert driver.view.held is Wait.SPEAKING
-
-
-def test_the_mark_comes_with_the_end_of_a_short_sentence() -> None:
-    driver = playing(Action.SUG_CARD, mark_delay=9000)
-    given_at = driver.now
-    driver.wait_until_open()
-    assert driver.now == given_at + SPEECH_TIME
-    assert driver.view.mark is not None
-    assert Timer.MARK not in driver.running
-
-
-@pytest.mark.parametrize("voice", Voice)
-@pytest.mark.parametrize("delay", [0, 700, 3500, 60_000])
-def test_no_flip_can_be_made_in_ignorance_of_the_mark(voice: Voice, delay: int) -> None:
-    driver = Driver(plan(timing=Timing(mark_delay=delay, mark_delay_silent=delay)), 4, voice)
-    driver.to_the_game()
-    driver.play(with_memory(4))
-    marked = {event.flip for event in driver.noted(happened.HintMarked)}
-    assert marked == {event.flip for event in driver.noted(happened.HintGiven)}
-    assert len(driver.noted(happened.HintMarked)) == len(marked) == len(driver.noted(happened.BoardOpened))
-    view = View()
-    for command in driver.commands:
-        view.obey([command])
-        if isinstance(command, do.OpenBoard) and view.bubble:
-            assert view.mark is not None
-    names = [type(event).__name__ for event in driver.events]
-    course = [name for name in names if name in ("HintGiven", "HintMarked", "BoardOpened")]
-    assert course == ["HintGiven", "HintMarked", "BoardOpened"] * len(marked)
-
-
-def test_the_next_flip_clears_the_mark_and_the_bubble() -> None:
-    driver = Driver(plan(policy=ONLY_SECOND), 1)
-    driver.to_the_game()
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    driver.wait_until_open()
-    assert driver.view.mark == (mate.row, mate.column)
-    commands = driver.flip(mate)
-    up = next(command for command in commands if isinstance(command, do.TurnUp))
-    assert commands.index(do.ClearMark()) < commands.index(up)
-    assert commands.index(do.ClearBubble()) < commands.index(up)
-    assert seen(driver, "mark", "bubble") == (None, None)
-
-
-def test_a_flip_without_a_hint_clears_nothing() -> None:
-    commands = playing().flip(Position(0, 0))
-    assert do.ClearMark() not in commands
-    assert do.ClearBubble() not in commands
-
-
-# The body
-
-
-def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
-    driver = playing(Action.SUG_ROW)
-    given_at = driver.now
-    driver.wait_until_open()
-    assert driver.now == given_at + SPEECH_TIME
-    assert driver.running.keys() == {Timer.IDLE}
-
-
-def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.FAILS, reading=50, mark_delay_silent=600)
-    given_at, sentence = driver.now, str(driver.view.bubble)
-    driver.wait()
-    assert driver.running.keys() == {Timer.IDLE, Timer.READING, Timer.MARK}
-    driver.wait()
-    assert (driver.now, driver.view.mark is not None) == (given_at + 600, True)
-    driver.wait_until_open()
-    assert driver.now == given_at + max(1500, 50 * len(sentence))
-    assert driver.view.bubble == sentence
-
-
-def test_a_sentence_that_breaks_off_gives_what_is_left_of_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.BREAKS_OFF, reading=50)
-    given_at, sentence = driver.now, str(driver.view.bubble)
-    driver.wait_until_open()
-    assert driver.now == given_at + max(SPEECH_TIME, 1500, 50 * len(sentence))
-
-
-def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT, speech_deadline=100, speech_deadline_least=1000)
-    given_at, sentence = driver.now, str(driver.view.bubble)
-    driver.wait_until_open()
-    assert driver.now == given_at + max(1000, 100 * len(sentence))
-    assert driver.steps[-1].commands[0:2] == (
-        Record(happened.HintMarked(at_ms=driver.now, flip=1)),
-        Record(happened.BoardOpened(at_ms=driver.now)),
-    )
-    assert do.StopSpeaking() in driver.steps[-1].commands
-    assert driver.view.bubble == sentence
-
-
-def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
-    driver.wait_until_open()
-    late = driver.view
-    for event in (
-        happened.SpeechStarted(at_ms=driver.now, utterance=2),
-        happened.SpeechFinished(at_ms=driver.now, utterance=2),
-        happened.SpeechFailed(at_ms=driver.now, utterance=2, why="late"),
-    ):
-        assert driver.send(event) == ()
-    assert driver.view == late
-
-
-@pytest.mark.parametrize("utterance", [-1, 0, 1, 3, 10**20])
-def test_another_sentence_s_end_does_not_open_the_board(utterance: int) -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
-    assert driver.noted(happened.HintGiven)[0].utterance == 2
-    for event in (
-        happened.SpeechStarted(at_ms=driver.now, utterance=utterance),
-        happened.SpeechFinished(at_ms=driver.now, utterance=utterance),
-        happened.SpeechFailed(at_ms=driver.now, utterance=utterance, why="no sound"),
-    ):
-        assert driver.send(event) == ()
-    assert driver.view.held is Wait.SPEAKING
-
-
-# Faces
-
-
-def test_a_helped_second_flip_that_matches_makes_the_assistant_happy_for_a_while() -> None:
-    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(mood=300)), 1)
-    driver.to_the_game()
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    assert seen(driver, "mood") == (Mood.IDLE,)
-    driver.flip(mate)
-    assert seen(driver, "mood") == (Mood.HAPPY,)
-    driver.spend(299)
-    assert seen(driver, "mood") == (Mood.HAPPY,)
-    driver.spend(1)
-    assert seen(driver, "mood") == (Mood.IDLE,)
-
-
-def test_a_hint_that_was_not_followed_makes_it_confused() -> None:
-    driver = Driver(plan(policy=ONLY_SECOND), 1)
-    driver.to_the_game()
-    miss(driver)
-    assert driver.view.mood is Mood.CONFUSED
-
-
-def test_a_hint_that_was_followed_in_vain_makes_it_sad() -> None:
-    policy = always(Action.SUG_ROW, Gate(opening=0, patience=99, first_patience=99))
-    driver = Driver(plan(policy=policy), 1)
-    driver.to_the_game()
-    first, mate = a_pair(driver)
-    driver.flip(first)
-    driver.flip(next(p for p in driver.view.closed if p.row == mate.row and p not in (first, mate)))
-    assert driver.view.mood is Mood.SAD
-
-
-def test_a_second_flip_without_a_hint_leaves_the_face_as_it_is() -> None:
-    driver = playing()
-    for place in a_pair(driver):
-        driver.flip(place)
-    assert not [command for command in driver.commands if isinstance(command, do.Express)]
-
-
-def test_a_hint_for_the_first_card_alone_leaves_the_face_as_it_is() -> None:
-    driver = playing(Action.SUG_CARD)
-    driver.flip(Position(0, 0))
-    assert driver.view.mood is Mood.IDLE
-
-
-# Result and questions
-
-
-def test_the_result_tells_moves_pairs_and_time() -> None:
-    driver = Driver(plan(), 2)
-    driver.to_the_game()
-    driver.play(with_memory(2))
-    flips = driver.noted(happened.CardFlipped)
-    assert driver.view.result == do.ShowResult(
-        pairs=12, moves=len(flips) // 2, time_ms=flips[-1].at_ms - flips[0].at_ms
-    )
-    assert (driver.view.screen, driver.view.mood) == ("result", Mood.HAPPY)
-
-
-@pytest.mark.parametrize(
-    ("moves", "message"),
-    [(12, "few"), (24, "few"), (25, "some"), (29, "some"), (30, "many"), (31, "many")],
-)
-def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> None:
-    driver = playing()
-    for _ in range(moves - 12):
-        miss(driver)
-    while driver.view.closed:
-        for place in a_pair(driver):
-            driver.flip(place)
-    driver.wait_until_open()
-    assert driver.session.measures.moves == moves
-    assert driver.view.bubble in ENGLISH.wordings(f"result-speech-{message}", moves=moves)
-
-
-def test_the_questions_come_one_by_one() -> None:
-    driver = Driver(plan(), 2)
-    driver.to_the_game()
-    driver.play(with_memory(2))
-    driver.go_on()
-    assert driver.view.mood is Mood.LISTENING
-    for number, item in enumerate(("enjoyed", "helped", "understood"), 1):
-        assert driver.view.question == do.ShowQuestion("closing", item, points=5, number=number, of=3)
-        assert driver.answer(5)[-1] == do.ShowAnswer(5)
-        driver.answer(number)
-        assert driver.view.answer == number
-        driver.go_on()
-    assert driver.view.ended is Status.COMPLETED
-    answers = [(event.item, event.value) for event in driver.world if isinstance(event, happened.AnswerGiven)]
-    assert answers == [
-        ("enjoyed", 5),
-        ("enjoyed", 1),
-        ("helped", 5),
-        ("helped", 2),
-        ("understood", 5),
-        ("understood", 3),
-    ]
-
-
-def test_a_question_may_be_passed_over() -> None:
-    driver = Driver(plan(), 2)
-    driver.to_the_game()
-    driver.play(with_memory(2))
-    for _ in range(4):
-        assert driver.view.ended is None
-        driver.go_on()
-    assert driver.view.ended is Status.COMPLETED
-
-
-# Nobody there
-
-
-@pytest.mark.parametrize(("stage", "after"), [(stage, 45_000) for stage in UNDERWAY if stage is not Stage.GAME])
-def test_whoever_does_nothing_is_asked_whether_they_are_still_there(stage: Stage, after: int) -> None:
-    driver = driven_to(stage)
-    at = driver.now
-    driver.spend(after - 1)
-    assert not driver.view.still_there
-    driver.spend(1)
-    assert driver.view.still_there
-    assert (driver.now, driver.stage) == (at + after, stage)
-
-
-def test_in_the_game_they_may_think_for_longer() -> None:
-    driver = playing()
-    driver.spend(119_999)
-    assert not driver.view.still_there
-    driver.spend(1)
-    assert driver.view.still_there
-
-
-def driven_to(stage: Stage) -> Driver:
-    """A sitting that has just reached this stage."""
-    driver = Driver(plan(policy=always(Action.NO_HELP)), 1)
-    for way in (driver.start, driver.go_on, lambda: driver.play(with_memory(1)), driver.go_on):
-        way()
-        if driver.stage is stage:
-            break
-    return driver
-
-
-@pytest.mark.parametrize("stage", UNDERWAY)
-def test_whoever_does_not_answer_has_left_and_the_sitting_is_abandoned_there(stage: Stage) -> None:
-    driver = driven_to(stage)
-    while not driver.view.still_there:
-        driver.wait()
-    asked_at = driver.now
-    driver.spend(19_999)
-    assert driver.stage is stage
-    driver.spend(1)
-    assert (driver.now, driver.view.ended) == (asked_at + 20_000, Status.ABANDONED)
-    assert [type(event).__name__ for event in driver.events[-3:]] == ["VisitorLeft", "StageEntered", "SittingEnded"]
-    assert not driver.running
-
-
-@pytest.mark.parametrize("stage", UNDERWAY)
-def test_whoever_answers_goes_on_where_they_were(stage: Stage) -> None:
-    driver = driven_to(stage)
-    while not driver.view.still_there:
-        driver.wait()
-    driver.send(happened.StillHereTapped(at_ms=driver.now))
-    assert (driver.view.still_there, driver.stage) == (False, stage)
-    assert driver.running.keys() == {Timer.IDLE}
-    assert driver.running[Timer.IDLE] == driver.now + (120_000 if stage is Stage.GAME else 45_000)
-
-
-def test_any_tap_is_an_answer_too() -> None:
-    driver = playing()
-    while not driver.view.still_there:
-        driver.wait()
-    commands = driver.tap(Position(0, 0))
-    assert not driver.view.still_there
-    assert do.StopTimer(Timer.STILL_THERE) in commands
-    assert Timer.STILL_THERE not in driver.running
-
-
-def test_every_tap_starts_the_idle_time_anew() -> None:
-    driver = playing(Action.SUG_CARD, Voice.IS_SILENT)
-    driver.spend(1000)
-    driver.tap(Position(0, 0))
-    assert driver.running[Timer.IDLE] == driver.now + 120_000
-
-
-def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:
-    driver = playing(Action.SUG_CARD)
-    until = driver.running[Timer.IDLE]
-    driver.wait_until_open()
-    assert driver.running[Timer.IDLE] == until
-
-
-def test_a_stage_that_ends_by_itself_takes_the_question_with_it() -> None:
-    driver = playing(idle_game=1000, finish=1500)
-    while len(driver.view.found) < 24:
-        for place in a_pair(driver):
-            driver.flip(place)
-    driver.spend(1000)
-    assert driver.view.still_there
-    driver.spend(500)
-    assert driver.stage is Stage.RESULT
-    assert not driver.view.still_there
+    assert shown == do.ShowBoard(rows=4, columns=6, pairs=12, deck="animals", practice=False)
 
 
 @pytest.mark.parametrize("stage", UNDERWAY)
@@ -659,6 +101,8 @@ def test_a_program_that_is_closed_interrupts_the_sitting(stage: Stage) -> None:
 def test_a_deck_with_too_few_cards_is_refused_in_words() -> None:
     with pytest.raises(BadInput, match="a board of 6 x 6 needs 18 different cards, not 12"):
         Session(plan(game=Game(rows=6, columns=6)), 1)
+    with pytest.raises(BadInput, match="from the deck 'fruit': a board of 4 x 4 needs 8 different cards, not 6"):
+        Session(plan(practice=Practice(rows=4, columns=4)), 1)
 
 
 def test_a_board_with_an_odd_number_of_cards_is_refused_in_words() -> None:

@@ -68,12 +68,8 @@ class View:
             case do.ShowIntroduction():
                 self.screen = "introduction"
             case do.ShowBoard(rows=rows, columns=columns, deck=deck, practice=practice):
-                self.screen, self.rows, self.columns, self.deck = (
-                    "practice" if practice else "board",
-                    rows,
-                    columns,
-                    deck,
-                )
+                self.screen = "practice" if practice else "board"
+                self.rows, self.columns, self.deck = rows, columns, deck
                 self.up, self.found, self.held, self.mark, self.progress = {}, set(), None, None, (0, 0)
             case do.ShowResult():
                 self.screen, self.result = "result", command

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from kiosk.assistant.hint import Reason
 from kiosk.assistant.mdp import Action, Card
 from kiosk.game import Position
 from kiosk.study import events as happened
-from kiosk.study.events import Event, Stage
 from kiosk.study.after.measures import Measures, followed, measure
+from kiosk.study.events import Event, Stage
 from tests.samples import plan
 from tests.study.driver import Driver, Voice, at_random
 
@@ -47,8 +49,24 @@ def opened(at_ms: int) -> Event:
     return happened.BoardOpened(at_ms=at_ms)
 
 
+def entered(stage: Stage, at_ms: int = 0) -> Event:
+    """The sitting goes on to a stage."""
+    return happened.StageEntered(at_ms=at_ms, stage=stage)
+
+
+def paused(since: int, until: int) -> list[Event]:
+    """The experimenter stops the sitting from then to then."""
+    return [happened.PauseAsked(at_ms=since), happened.PauseEnded(at_ms=until)]
+
+
+def measured(game: list[Event]) -> Measures:
+    """The measures of a sitting whose game went like this."""
+    return measure([entered(Stage.GAME), *game])
+
+
 def test_nothing_measures_nothing() -> None:
     nothing = measure([])
+    assert measured([]) == nothing
     assert nothing == Measures()
     assert (nothing.flips, nothing.moves, nothing.pairs, nothing.hints, nothing.completion_ms) == (0, 0, 0, 0, 0)
     assert (nothing.assistance_per_flip, nothing.followed) == (None, None)
@@ -64,7 +82,7 @@ def test_a_game_without_help() -> None:
         flip(7000, 5),
         flip(9000, 6, matched=True),
     ]
-    assert measure(events) == Measures(
+    assert measured(events) == Measures(
         flips=6,
         moves=3,
         pairs=2,
@@ -76,7 +94,7 @@ def test_a_game_without_help() -> None:
         first_followed=None,
         first_led_to_match=None,
     )
-    assert measure(events).per_match_ms == 4000.0
+    assert measured(events).per_match_ms == 4000.0
 
 
 def test_a_game_with_help_of_every_kind() -> None:
@@ -97,7 +115,7 @@ def test_a_game_with_help_of_every_kind() -> None:
         flip(17_000, 5, position=Position(1, 3)),  # beside the card: not followed, though its move will match
         flip(20_000, 6, matched=True, position=elsewhere),
     ]
-    measures = measure(events)
+    measures = measured(events)
     assert (measures.flips, measures.moves, measures.pairs, measures.hints) == (6, 3, 2, 4)
     assert measures.completion_ms == 20_000 - 5000
     assert measures.completion_without_speech_ms == 15_000 - (1000 + 4000 + 1000)
@@ -109,66 +127,124 @@ def test_a_game_with_help_of_every_kind() -> None:
 
 
 def test_second_card_hints_alone_say_nothing_about_first_cards() -> None:
-    measures = measure([flip(0, 1), hint(0, 2), opened(10), flip(20, 2, matched=True)])
+    measures = measured([flip(0, 1), hint(0, 2), opened(10), flip(20, 2, matched=True)])
     assert (measures.followed, measures.first_followed, measures.first_led_to_match) == (1.0, None, None)
 
 
 @pytest.mark.parametrize(("one", "two", "led"), [(True, False, 0.0), (False, True, 1.0)])
 def test_a_hint_leads_to_the_match_of_its_own_move(*, one: bool, two: bool, led: float) -> None:
     before = [flip(0, 1), flip(1, 2, matched=one)]
-    measures = measure([*before, hint(2, 3), opened(3), flip(4, 3), flip(5, 4, matched=two)])
+    measures = measured([*before, hint(2, 3), opened(3), flip(4, 3), flip(5, 4, matched=two)])
     assert (measures.first_followed, measures.first_led_to_match) == (1.0, led)
 
 
 def test_a_hint_that_nobody_followed_led_to_nothing() -> None:
-    measures = measure([hint(0, 1), opened(5), flip(9, 1, position=Position(0, 0)), flip(10, 2, matched=True)])
+    measures = measured([hint(0, 1), opened(5), flip(9, 1, position=Position(0, 0)), flip(10, 2, matched=True)])
     assert (measures.followed, measures.first_followed, measures.first_led_to_match) == (0.0, 0.0, 0.0)
 
 
 def test_a_hint_without_its_flip_counts_as_given_and_not_as_followed() -> None:
-    measures = measure([flip(0, 1), flip(9, 2, matched=True), hint(9, 3)])
+    measures = measured([flip(0, 1), flip(9, 2, matched=True), hint(9, 3)])
     assert (measures.hints, measures.followed, measures.first_led_to_match) == (1, 0.0, 0.0)
     assert measures.assistance_per_flip == pytest.approx(2 / 2)
     assert measures.completion_without_speech_ms == measures.completion_ms == 9
 
 
 def test_a_followed_hint_whose_move_was_never_completed_led_to_no_match() -> None:
-    measures = measure([hint(0, 1), opened(5), flip(9, 1)])
+    measures = measured([hint(0, 1), opened(5), flip(9, 1)])
     assert (measures.flips, measures.moves, measures.first_followed, measures.first_led_to_match) == (1, 0, 1.0, 0.0)
 
 
 def test_a_hint_before_any_flip_has_no_flips_to_be_shared_among() -> None:
-    measures = measure([hint(0, 1)])
+    measures = measured([hint(0, 1)])
     assert (measures.hints, measures.assistance_per_flip, measures.followed) == (1, None, 0.0)
 
 
 def test_an_unfinished_game_is_timed_to_its_last_match() -> None:
-    measures = measure(
+    measures = measured(
         [flip(100, 1), flip(300, 2, matched=True), hint(300, 3), opened(800), flip(900, 3), flip(999, 4, matched=False)]
     )
     assert (measures.completion_ms, measures.completion_without_speech_ms, measures.per_match_ms) == (200, 200, 200.0)
 
 
 def test_without_a_match_no_time_is_completed() -> None:
-    measures = measure([flip(100, 1), flip(300, 2, matched=False)])
+    measures = measured([flip(100, 1), flip(300, 2, matched=False)])
     assert (measures.completion_ms, measures.completion_without_speech_ms, measures.per_match_ms) == (0, 0, None)
 
 
 def test_a_hint_before_the_first_flip_does_not_stop_a_clock_that_has_not_begun() -> None:
-    measures = measure([hint(0, 1), opened(4000), flip(5000, 1), flip(9000, 2, matched=True)])
+    measures = measured([hint(0, 1), opened(4000), flip(5000, 1), flip(9000, 2, matched=True)])
     assert (measures.completion_ms, measures.completion_without_speech_ms) == (4000, 4000)
 
 
 def test_what_happened_in_other_stages_does_not_matter() -> None:
+    practice: list[Event] = [flip(10, 1), flip(20, 2, matched=True), flip(30, 3), flip(40, 4, matched=False)]
     game: list[Event] = [flip(100, 1), flip(300, 2, matched=True)]
     around: list[Event] = [
         happened.StartTapped(at_ms=0),
-        happened.StageEntered(at_ms=0, stage=Stage.GAME),
+        entered(Stage.PRACTICE),
+        *practice,
+        entered(Stage.GAME, 50),
         *game,
         happened.SpeechFinished(at_ms=350, utterance=1),
+        entered(Stage.QUESTIONS, 400),
         happened.AnswerGiven(at_ms=400, item="enjoyed", value=5),
     ]
-    assert measure(around) == measure(game)
+    assert measure(around) == measured(game)
+    assert measure([entered(Stage.PRACTICE), *practice]) == Measures()
+
+
+# Pauses
+
+
+GAME: list[Event] = [flip(1000, 1), hint(1000, 2), opened(3000), flip(5000, 2, matched=True)]
+"""4 s from the first flip to the last match, 2 s of them held by a hint."""
+
+
+@pytest.mark.parametrize(
+    ("since", "until", "with_speech", "without"),
+    [
+        (3200, 4200, 3000, 1000),  # after the hint
+        (1500, 2500, 3000, 2000),  # within the time of the hint
+        (2000, 4000, 2000, 1000),  # beginning with the hint still held
+        (500, 2000, 3000, 2000),  # beginning before the first flip
+        (0, 900, 4000, 2000),  # all before the first flip
+        (4500, 9000, 3500, 1500),  # ending after the last match
+        (6000, 9000, 4000, 2000),  # all after the last match
+        (0, 9000, 0, 0),  # all the game: nothing can be flipped, but a stored one is measured all the same
+        (1000, 5000, 0, 0),
+    ],
+)
+def test_no_clock_counts_a_pause(since: int, until: int, with_speech: int, without: int) -> None:
+    measures = measured(sorted([*GAME, *paused(since, until)], key=lambda event: event.at_ms))
+    assert (measures.completion_ms, measures.completion_without_speech_ms) == (with_speech, without)
+
+
+def test_two_pauses_are_both_left_out() -> None:
+    measures = measured(sorted([*GAME, *paused(1500, 2000), *paused(3500, 4500)], key=lambda event: event.at_ms))
+    assert (measures.completion_ms, measures.completion_without_speech_ms) == (2500, 1000)
+
+
+def test_a_pause_that_nobody_ended_lasts_to_the_last_match() -> None:
+    measures = measured(sorted([*GAME, happened.PauseAsked(at_ms=4000)], key=lambda event: event.at_ms))
+    assert (measures.completion_ms, measures.completion_without_speech_ms) == (3000, 1000)
+
+
+def test_a_pause_from_the_practice_into_the_game_takes_nothing_from_its_clock() -> None:
+    before: list[Event] = [entered(Stage.PRACTICE), happened.PauseAsked(at_ms=100), entered(Stage.GAME, 200)]
+    assert measure([*before, happened.PauseEnded(at_ms=900), *GAME]) == measured(GAME)
+
+
+@given(st.lists(st.tuples(st.integers(0, 9000), st.integers(0, 9000)), max_size=4))
+def test_pauses_take_as_much_from_a_clock_as_the_moments_in_which_they_lasted(spans: list[tuple[int, int]]) -> None:
+    times = sorted({moment // 10 * 10 for span in spans for moment in span})
+    apart = list(zip(times[::2], times[1::2], strict=False))
+    events = sorted([*GAME, *(event for span in apart for event in paused(*span))], key=lambda event: event.at_ms)
+    stopped = {ms for since, until in apart for ms in range(since, until, 10)}
+    held = set(range(1000, 3000, 10))
+    measures = measured(events)
+    assert measures.completion_ms == 10 * len(set(range(1000, 5000, 10)) - stopped)
+    assert measures.completion_without_speech_ms == 10 * len(set(range(1000, 5000, 10)) - stopped - held)
 
 
 @pytest.mark.parametrize(
