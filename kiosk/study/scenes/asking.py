@@ -8,6 +8,7 @@ from random import Random
 
 from kiosk.study import commands as do
 from kiosk.study import events as happened
+from kiosk.study.after.answers import meant
 from kiosk.study.commands import Mood, Script
 from kiosk.study.declared.questionnaire import Answer, Item, Order, Page, Questionnaire
 from kiosk.study.events import WorldEvent
@@ -101,7 +102,7 @@ class Asking(Scene):
             script.note(happened.QuestionsFinished(at_ms=script.at_ms))
 
     def _lacks(self, item: Item) -> bool:
-        return not isinstance(item, Page) and item.required and self._answers.get(item.id) in (None, "", ())
+        return not isinstance(item, Page) and item.required and meant(self._answers.get(item.id)) is None
 
     def _show(self, script: Script) -> None:
         self._answers.clear()
