@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -21,16 +20,7 @@ from kiosk.study.plan import Plan
 SHORT = ("introduction", "game", "result", "questions")
 """The stages around a game, with nothing to be decided beforehand."""
 
-
-def _catalogue(folder: Path) -> Catalogue:
-    """A shipped catalogue, with something to say in every stage."""
-    shipped = Catalogue(folder)
-    unsaid = [message for message in ("practice-speech", "thanks-speech") if message not in shipped]
-    spoken = "".join(f"{message} =\n    .a = {message}, one.\n    .b = {message}, two.\n" for message in unsaid)
-    return Catalogue(folder, shipped.sources | {"samples.ftl": spoken}) if unsaid else shipped
-
-
-CATALOGUES = {folder.name: _catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
+CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
 ENGLISH = CATALOGUES["en"]
 
 

@@ -13,6 +13,7 @@ from random import Random
 from typing import Self, TypeVar
 
 from kiosk.game import Position
+from kiosk.settings import Game
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Record
@@ -295,8 +296,8 @@ class Driver:
 
 
 def driven_to(stage: Stage, plan: Plan | None = None, seed: int = 5, voice: Voice = Voice.SPEAKS) -> Driver:
-    """A sitting that has just reached this stage, of all that there are unless the plan has others."""
-    driver = Driver(plan or whole(), seed, voice)
+    """A sitting that has just reached this stage, of all that there are unless the plan has others; a small game."""
+    driver = Driver(plan or whole(game=Game(rows=2, columns=3)), seed, voice)
     driver.to(stage)
     return driver
 

@@ -2,76 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from itertools import permutations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from kiosk import BadInput
 from kiosk.game import Position
+from kiosk.settings import STAGES, Game
+from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.events import Stage, Timer, WorldEvent
-from kiosk.study.stages import TABLE, UnexpectedEvent, next_stage
-from tests.samples import CLOSING, plan
-from tests.study.driver import Driver, Step, with_memory
+from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
+from kiosk.study.stages import BEFORE_DECIDING, TABLE, Course, Turn, UnexpectedEvent, diagram, turn
+from tests.samples import plan
+from tests.study.driver import Driver, Step, driven_to, notes
+
+UNDERWAY = list(Stage)[1:-1]
 
 EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
     type(event): event
     for event in (
         happened.StartTapped(at_ms=9),
         happened.ContinueTapped(at_ms=9),
+        happened.PurposeTicked(at_ms=9, purpose="share", ticked=True),
+        happened.AgreeTapped(at_ms=9),
+        happened.DeclineTapped(at_ms=9),
+        happened.AgeTapped(at_ms=9, adult=True),
+        happened.SkipTapped(at_ms=9),
         happened.CardTapped(at_ms=9, position=Position(0, 0)),
-        happened.AnswerGiven(at_ms=9, item=CLOSING.items[0].id, value=1),
+        happened.AnswerGiven(at_ms=9, item="enjoyed", value=1),
         happened.StillHereTapped(at_ms=9),
         happened.TimerEnded(at_ms=9, timer=Timer.IDLE),
         happened.SpeechStarted(at_ms=9, utterance=1),
         happened.SpeechFinished(at_ms=9, utterance=1),
         happened.SpeechFailed(at_ms=9, utterance=1, why="no sound"),
         happened.RobotLost(at_ms=9, why="the plug"),
+        happened.RepeatAsked(at_ms=9),
+        happened.PauseAsked(at_ms=9),
+        happened.PauseEnded(at_ms=9),
+        happened.EndAsked(at_ms=9, reason="the fair is closing"),
+        happened.SittingResumed(at_ms=9, body=BodyName.AVATAR),
         happened.KioskClosed(at_ms=9),
     )
 }
 """An event of every kind that comes from outside."""
 
-ANYWHERE = {"TimerEnded", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotLost", "KioskClosed"}
+ANYWHERE = {
+    *("TimerEnded", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotLost"),
+    *("PauseAsked", "EndAsked", "KioskClosed"),
+}
+KEPT = {"SittingResumed"}
+"""What needs a record that can be gone on with; a game is never gone on with."""
+
 EXPECTED = {
     Stage.ATTRACT: {"StartTapped"},
-    Stage.INTRODUCTION: {"ContinueTapped"} | ANYWHERE,
+    Stage.ABOUT: {"ContinueTapped"} | ANYWHERE,
+    Stage.CONSENT: {"PurposeTicked", "AgreeTapped", "DeclineTapped"} | ANYWHERE,
+    Stage.AGE: {"AgeTapped"} | ANYWHERE,
+    Stage.ABOUT_YOU: {"ContinueTapped"} | ANYWHERE | KEPT,
+    Stage.INTRODUCTION: {"ContinueTapped"} | ANYWHERE | KEPT,
+    Stage.PRACTICE: {"CardTapped", "SkipTapped"} | ANYWHERE | KEPT,
     Stage.GAME: {"CardTapped"} | ANYWHERE,
-    Stage.RESULT: {"ContinueTapped"} | ANYWHERE,
-    Stage.QUESTIONS: {"ContinueTapped", "AnswerGiven"} | ANYWHERE,
+    Stage.RESULT: {"ContinueTapped"} | ANYWHERE | KEPT,
+    Stage.QUESTIONS: {"ContinueTapped", "AnswerGiven"} | ANYWHERE | KEPT,
+    Stage.DEBRIEF: {"ContinueTapped"} | ANYWHERE | KEPT,
+    Stage.THANKS: {"ContinueTapped"} | ANYWHERE | KEPT,
     Stage.OVER: set[str](),
 }
-"""What each stage takes, as long as nobody was asked whether they are still there."""
-
-
-def driven_to(stage: Stage) -> Driver:
-    """A sitting that has just reached this stage."""
-    driver = Driver(plan(), 5)
-    ways: list[Callable[[], object]] = [
-        driver.start,
-        driver.go_on,
-        lambda: driver.play(with_memory(1)),
-        driver.go_on,
-        driver.questions,
-    ]
-    for reached, way in zip(list(Stage)[1:], ways, strict=True):
-        if driver.stage is stage:
-            break
-        way()
-        assert driver.stage is reached
-    return driver
+"""What each stage takes as it begins: nobody was asked whether they are still there, and nothing is paused."""
 
 
 def finished(driver: Driver) -> list[Step]:
     """Every step of this sitting, from here on to its end."""
-    remaining: dict[Stage, Callable[[], object]] = {
-        Stage.ATTRACT: driver.start,
-        Stage.INTRODUCTION: driver.go_on,
-        Stage.GAME: lambda: driver.play(with_memory(1)),
-        Stage.RESULT: driver.go_on,
-        Stage.QUESTIONS: driver.questions,
-    }
-    while driver.stage in remaining:
-        remaining[driver.stage]()
+    driver.to(Stage.OVER)
     return driver.steps
 
 
@@ -95,18 +99,17 @@ def test_a_stage_takes_what_it_has_a_place_for_and_refuses_the_rest(stage: Stage
     assert finished(driver) == finished(twin)
 
 
-@pytest.mark.parametrize("stage", list(Stage)[1:-1])
+@pytest.mark.parametrize("stage", UNDERWAY)
 def test_being_still_there_has_a_place_only_when_it_was_asked(stage: Stage) -> None:
     driver = driven_to(stage)
-    while not driver.view.still_there:
-        driver.wait()
-    assert driver.stage is stage
+    driver.send(happened.TimerEnded(at_ms=driver.now, timer=Timer.IDLE))
+    assert driver.view.still_there
     driver.send(happened.StillHereTapped(at_ms=driver.now))
     with pytest.raises(UnexpectedEvent):
         driver.send(happened.StillHereTapped(at_ms=driver.now))
 
 
-@pytest.mark.parametrize("stage", list(Stage)[1:-1])
+@pytest.mark.parametrize("stage", UNDERWAY)
 @pytest.mark.parametrize("timer", Timer)
 def test_a_wait_ends_only_if_it_was_asked_for(stage: Stage, timer: Timer) -> None:
     driver, twin = driven_to(stage), driven_to(stage)
@@ -134,22 +137,34 @@ def test_an_answer_fits_the_question_that_is_asked(item: str, value: int) -> Non
     assert finished(driver) == finished(twin)
 
 
+# The table
+
+
 def test_no_stage_is_left_but_by_the_table() -> None:
     ways = {
-        (stage.value, event.__name__, after.value)
+        (stage.value, kind.__name__, step)
         for stage, row in TABLE.items()
-        for event, after in row.items()
-        if after is not stage
+        for kind, step in row.items()
+        if step is not Turn.STAY
     }
-    underway = ("introduction", "game", "result", "questions")
     assert ways == {
-        ("attract", "StartTapped", "introduction"),
-        ("introduction", "ContinueTapped", "game"),
-        ("game", "GameFinished", "result"),
-        ("result", "ContinueTapped", "questions"),
-        ("questions", "QuestionsFinished", "over"),
-        *((stage, "VisitorLeft", "over") for stage in underway),
-        *((stage, "KioskClosed", "over") for stage in underway),
+        ("attract", "StartTapped", Turn.ON),
+        ("about", "ContinueTapped", Turn.ON),
+        ("consent", "ConsentGiven", Turn.ON),
+        ("consent", "DeclineTapped", Turn.ON),
+        ("age", "AgeTapped", Turn.ON),
+        ("about_you", "QuestionsFinished", Turn.ON),
+        ("introduction", "ContinueTapped", Turn.ON),
+        ("practice", "PracticeFinished", Turn.ON),
+        ("game", "GameFinished", Turn.ON),
+        ("result", "ContinueTapped", Turn.ON),
+        ("questions", "QuestionsFinished", Turn.ON),
+        ("debrief", "ContinueTapped", Turn.ON),
+        ("thanks", "ContinueTapped", Turn.ON),
+        ("thanks", "Thanked", Turn.ON),
+        *((stage.value, "VisitorLeft", Turn.OVER) for stage in UNDERWAY),
+        *((stage.value, "EndAsked", Turn.OVER) for stage in UNDERWAY),
+        *((stage.value, "KioskClosed", Turn.OVER) for stage in UNDERWAY),
     }
 
 
@@ -161,5 +176,125 @@ def test_the_table_has_a_row_for_every_stage_and_cannot_be_changed() -> None:
 
 
 def test_what_a_stage_does_not_list_leads_nowhere() -> None:
-    assert next_stage(Stage.GAME, happened.BoardOpened(at_ms=1)) is Stage.GAME
-    assert next_stage(Stage.GAME, happened.VisitorLeft(at_ms=1)) is Stage.OVER
+    assert turn(Stage.GAME, happened.BoardOpened(at_ms=1)) is Turn.STAY
+    assert turn(Stage.GAME, happened.VisitorLeft(at_ms=1)) is Turn.OVER
+    assert turn(Stage.GAME, happened.GameFinished(at_ms=1)) is Turn.ON
+    assert turn(Stage.OVER, happened.GameFinished(at_ms=1)) is Turn.STAY
+
+
+def test_the_diagram_draws_where_declining_leads() -> None:
+    drawn = diagram().splitlines()
+    assert "    consent --> age: ConsentGiven" in drawn
+    assert "    consent --> introduction: DeclineTapped" in drawn
+    assert "    age --> about_you: AgeTapped" in drawn
+    assert "    age --> introduction: AgeTapped" in drawn
+    assert "    thanks --> over: Thanked" in drawn
+
+
+# The order of the stages
+
+DECIDED = ("consent", "age")
+MUST_COME_BEFORE = [
+    *(("about", after) for after in (*DECIDED, "game")),
+    *((decided, after) for decided in DECIDED for after in ("about_you", "introduction", "practice", "game")),
+    *((decided, after) for decided in DECIDED for after in ("result", "questions", "debrief", "thanks")),
+    *(("introduction", after) for after in ("practice", "game")),
+    ("practice", "game"),
+    *(("game", after) for after in ("result", "debrief", "thanks")),
+    *((before, after) for before in ("about_you", "result", "questions") for after in ("debrief", "thanks")),
+    ("debrief", "thanks"),
+]
+"""Every pair of stages whose order is not the study's to choose, among those that stand with a game."""
+
+
+def allowed(names: tuple[str, ...]) -> bool:
+    """Whether these names are a course, by nothing but the pairs."""
+    before = {(one, another) for index, one in enumerate(names) for another in names[index + 1 :]}
+    return "game" in names and not any((late, early) in before for early, late in MUST_COME_BEFORE)
+
+
+def course(names: tuple[str, ...]) -> Course | None:
+    """The course of these names, or None if it is refused."""
+    try:
+        return Course.of(names)
+    except BadInput:
+        return None
+
+
+@given(st.permutations(STAGES), st.integers(1, len(STAGES)))
+def test_a_course_is_refused_for_a_pair_in_the_wrong_order_and_for_nothing_else(names: list[str], length: int) -> None:
+    chosen = tuple(names[:length])
+    assert (course(chosen) is not None) is allowed(chosen)
+
+
+def test_of_three_stages_the_same_holds_in_every_order() -> None:
+    for chosen in permutations(STAGES, 3):
+        assert (course(chosen) is not None) is allowed(chosen), chosen
+
+
+@pytest.mark.parametrize(
+    ("names", "sentence"),
+    [
+        ((), "stages: without the stage 'game' there is nothing to study"),
+        (("about", "thanks"), "stages: without the stage 'game' there is nothing to study"),
+        (("game", "lunch"), f"stages: there is no stage 'lunch'; there are {', '.join(STAGES)}"),
+        (("attract", "game"), f"stages: there is no stage 'attract'; there are {', '.join(STAGES)}"),
+        (("game", "over"), f"stages: there is no stage 'over'; there are {', '.join(STAGES)}"),
+        (("game", "consent"), "stages: 'consent' must come before 'game'"),
+        (("introduction", "age", "game"), "stages: 'age' must come before 'introduction'"),
+        (("consent", "about", "game"), "stages: 'about' must come before 'consent'"),
+        (("practice", "introduction", "game"), "stages: 'introduction' must come before 'practice'"),
+        (("result", "game"), "stages: 'game' must come before 'result'"),
+        (("game", "debrief", "questions"), "stages: 'questions' must come before 'debrief'"),
+        (("game", "thanks", "about_you"), "stages: 'about_you' must come before 'thanks'"),
+    ],
+)
+def test_an_order_that_cannot_be_is_refused_in_words(names: tuple[str, ...], sentence: str) -> None:
+    with pytest.raises(BadInput) as refused:
+        Course.of(names)
+    assert str(refused.value) == sentence
+    with pytest.raises(BadInput, match="stages: "):
+        Driver(plan(stages=names or ("about",)))
+
+
+@st.composite
+def courses(draw: st.DrawFn) -> tuple[str, ...]:
+    """Any stages in any order that is allowed: each put somewhere among those that are there already, if it can be."""
+    chosen: tuple[str, ...] = ("game",)
+    for name in draw(st.lists(st.sampled_from(STAGES), unique=True)):
+        if name not in chosen:
+            places = [(*chosen[:place], name, *chosen[place:]) for place in range(len(chosen) + 1)]
+            chosen = draw(st.sampled_from([place for place in places if allowed(place)] or [chosen]))
+    return chosen
+
+
+@given(names=courses())
+def test_a_course_leads_through_every_stage_once(names: tuple[str, ...]) -> None:
+    entered, here = [], Course.of(names).after(Stage.ATTRACT, kept=True)
+    while here is not Stage.OVER:
+        entered.append(here.value)
+        here = Course.of(names).after(here, kept=True)
+    assert tuple(entered) == names
+
+
+@given(names=courses())
+def test_a_sitting_follows_any_course_to_its_end_and_is_kept_once(names: tuple[str, ...]) -> None:
+    driver = Driver(plan(stages=names, game=Game(rows=2, columns=2)), 3)
+    driver.to(Stage.OVER)
+    entered = [event.stage for event in driver.noted(happened.StageEntered)]
+    assert [stage.value for stage in entered] == [*names, "over"]
+    assert driver.view.ended is Status.COMPLETED
+    assert len(driver.view.kept) == 1
+    first = next(stage for stage in entered if stage not in BEFORE_DECIDING)
+    kept_in = next(step for step in driver.steps if do.KeepSitting() in step.commands)
+    assert happened.StageEntered(at_ms=kept_in.event.at_ms, stage=first) in notes(kept_in.commands)
+
+
+@given(names=courses())
+def test_what_is_not_kept_goes_on_without_what_needs_a_record(names: tuple[str, ...]) -> None:
+    needs = {"consent", "age", "about_you", "questions", "debrief"}
+    entered, here = [], Course.of(names).after(Stage.ATTRACT, kept=False)
+    while here is not Stage.OVER:
+        entered.append(here.value)
+        here = Course.of(names).after(here, kept=False)
+    assert entered == [name for name in names if name not in needs]
