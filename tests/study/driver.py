@@ -190,6 +190,11 @@ class Driver:
         while self.stage is here and (self.view.held is not None or not self.view.closed):
             self.wait()
 
+    def be_away(self) -> None:
+        """Do nothing any more, until the sitting is given up; the stage may end by itself first."""
+        while self.stage is not Stage.OVER:
+            self.wait()
+
     # Whole stretches
 
     def to_the_game(self) -> None:
