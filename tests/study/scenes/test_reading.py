@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from kiosk.settings import Timing
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Mood
-from tests.samples import ENGLISH, plan
-from tests.study.driver import Driver, with_memory
+from kiosk.study.events import Stage, Status
+from tests.samples import ENGLISH, INFORMATION, plan, whole
+from tests.study.driver import Driver, driven_to, with_memory
 from tests.study.table import a_pair, miss, playing
 
 
@@ -37,3 +39,51 @@ def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> Non
     driver.wait_until_open()
     assert driver.session.measures.moves == moves
     assert driver.view.bubble in ENGLISH.wordings(f"result-speech-{message}", moves=moves)
+
+
+# Debrief and thanks
+
+
+def test_the_study_is_explained_before_the_thanks() -> None:
+    driver = driven_to(Stage.DEBRIEF)
+    assert do.ShowDebrief(INFORMATION.debrief) in driver.steps[-1].commands
+    assert driver.view.mood is Mood.IDLE
+    driver.go_on()
+    assert (driver.stage, driver.view.mood) == (Stage.THANKS, Mood.HAPPY)
+    assert driver.view.bubble in ENGLISH.wordings("thanks-speech")
+
+
+def test_thanks_end_by_themselves() -> None:
+    driver = driven_to(Stage.THANKS, whole(timing=Timing(thanks=5000)))
+    came = driver.now
+    driver.spend(4999)
+    assert driver.stage is Stage.THANKS
+    driver.spend(1)
+    assert (driver.now, driver.view.ended) == (came + 5000, Status.COMPLETED)
+    assert driver.noted(happened.Thanked) == [happened.Thanked(at_ms=driver.now)]
+
+
+def test_thanks_end_with_a_tap() -> None:
+    driver = driven_to(Stage.THANKS)
+    driver.go_on()
+    assert driver.view.ended is Status.COMPLETED
+    assert driver.noted(happened.Thanked) == []
+    assert driver.running == {}
+
+
+@pytest.mark.parametrize(
+    ("stage", "mood"),
+    [
+        (Stage.ABOUT_YOU, Mood.LISTENING),
+        (Stage.INTRODUCTION, Mood.IDLE),
+        (Stage.PRACTICE, Mood.IDLE),
+        (Stage.GAME, Mood.IDLE),
+        (Stage.RESULT, Mood.HAPPY),
+        (Stage.QUESTIONS, Mood.LISTENING),
+        (Stage.DEBRIEF, Mood.IDLE),
+        (Stage.THANKS, Mood.HAPPY),
+        (Stage.OVER, Mood.IDLE),
+    ],
+)
+def test_every_stage_begins_with_its_own_face(stage: Stage, mood: Mood) -> None:
+    assert driven_to(stage).view.mood is mood
