@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from kiosk.assistant.mdp import Action
 from kiosk.game import Position
-from kiosk.settings import Idle, Timing
+from kiosk.settings import Idle, Practice, Timing
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.events import Stage, Status, Timer
+from kiosk.study.stages import UnexpectedEvent
 from tests.samples import always, whole
-from tests.study.driver import Voice, driven_to
+from tests.study.driver import SPEECH_TIME, Driver, Voice, driven_to, with_memory
+from tests.study.examples import EXAMPLES
 from tests.study.table import a_pair, playing
 
 LONG_ENOUGH = {
@@ -117,3 +121,116 @@ def test_a_stage_that_ends_by_itself_takes_the_question_with_it() -> None:
     driver.spend(500)
     assert driver.stage is Stage.RESULT
     assert not driver.view.still_there
+
+
+# Pauses
+
+TAPS = [event for event in EXAMPLES.values() if event.by_visitor and not isinstance(event, happened.StartTapped)]
+
+
+def at(driver: Driver, event: happened.WorldEvent) -> happened.WorldEvent:
+    """The event, now."""
+    return replace(event, at_ms=driver.now)
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+@pytest.mark.parametrize("event", TAPS, ids=lambda event: type(event).__name__)
+def test_while_the_sitting_is_paused_a_visitor_can_do_nothing(stage: Stage, event: happened.WorldEvent) -> None:
+    driver = driven_to(stage, LASTING)
+    assert driver.pause()[-1] == do.ShowPause()
+    steps = len(driver.steps)
+    with pytest.raises(UnexpectedEvent):
+        driver.send(at(driver, event))
+    assert (driver.stage, driver.view.paused, len(driver.steps)) == (stage, True, steps)
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+def test_in_a_pause_nobody_is_asked_and_afterwards_the_idle_time_starts_anew(stage: Stage) -> None:
+    driver = driven_to(stage, LASTING)
+    driver.spend(LONG_ENOUGH[stage] - 1)
+    driver.pause()
+    assert not driver.running.keys() & {Timer.IDLE, Timer.STILL_THERE}
+    driver.spend(200_000)
+    assert (driver.stage, driver.view.still_there) == (stage, False)
+    driver.end_pause()
+    assert not driver.view.paused
+    assert driver.running[Timer.IDLE] == driver.now + LONG_ENOUGH[stage]
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+def test_a_pause_takes_the_question_away(stage: Stage) -> None:
+    driver = driven_to(stage, LASTING)
+    while not driver.view.still_there:
+        driver.wait()
+    driver.pause()
+    assert not driver.view.still_there
+    driver.spend(60_000)
+    assert (driver.stage, driver.view.ended) == (stage, None)
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+def test_a_pause_begins_and_ends_once(stage: Stage) -> None:
+    driver = driven_to(stage, LASTING)
+    with pytest.raises(UnexpectedEvent):
+        driver.end_pause()
+    for _ in range(2):
+        driver.pause()
+        with pytest.raises(UnexpectedEvent):
+            driver.pause()
+        driver.end_pause()
+        with pytest.raises(UnexpectedEvent):
+            driver.end_pause()
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+@pytest.mark.parametrize("status", [Status.STOPPED, Status.INTERRUPTED])
+def test_a_paused_sitting_can_be_ended_and_leaves_no_cover_behind(stage: Stage, status: Status) -> None:
+    driver = driven_to(stage, LASTING)
+    driver.pause()
+    if status is Status.STOPPED:
+        driver.end()
+    else:
+        driver.send(happened.KioskClosed(at_ms=driver.now))
+    assert (driver.view.ended, driver.view.paused, driver.running) == (status, False, {})
+
+
+def test_a_pause_lasts_across_a_change_of_the_stage() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(policy=always(Action.NO_HELP), practice=Practice(longest=5000)))
+    driver.pause()
+    driver.spend(6000)
+    assert (driver.stage, driver.view.paused) == (Stage.GAME, True)
+    assert Timer.IDLE not in driver.running
+    with pytest.raises(UnexpectedEvent):
+        driver.tap(driver.view.closed[0])
+    driver.end_pause()
+    assert driver.running[Timer.IDLE] == driver.now + LONG_ENOUGH[Stage.GAME]
+    driver.play(with_memory(1))
+    first, *_, last = driver.noted(happened.CardFlipped)
+    assert driver.session.measures.completion_ms == last.at_ms - first.at_ms
+
+
+def test_thanks_that_end_in_a_pause_end_the_sitting_and_leave_no_cover_behind() -> None:
+    driver = driven_to(Stage.THANKS)
+    driver.pause()
+    driver.spend(12_000)
+    assert (driver.view.ended, driver.view.paused, driver.running) == (Status.COMPLETED, False, {})
+
+
+@pytest.mark.parametrize("wait", [0, 500, 2500])
+def test_both_clocks_of_the_game_leave_a_pause_out(wait: int) -> None:
+    """A pause of a minute, begun while a hint is still said, at its end, or after it, as against no pause at all."""
+    paused, straight = (playing(Action.SUG_CARD, seed=3) for _ in range(2))
+    for driver in (paused, straight):
+        driver.flip(driver.view.closed[0])
+        driver.spend(wait)
+    held = paused.view.held is not None
+    paused.pause()
+    paused.spend(60_000)
+    paused.end_pause()
+    for driver in (paused, straight):
+        driver.play(with_memory(3))
+    one, other = paused.session.measures, straight.session.measures
+    assert one.flips == other.flips
+    assert one.completion_without_speech_ms == other.completion_without_speech_ms
+    # A hint that is heard within the pause holds the board no longer after it.
+    assert other.completion_ms - one.completion_ms == (SPEECH_TIME - wait if held else 0)

@@ -9,44 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk import BadInput
-from kiosk.game import Position
 from kiosk.settings import STAGES, Game
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
+from kiosk.study.events import Stage, Status, Timer, WorldEvent
 from kiosk.study.stages import BEFORE_DECIDING, TABLE, Course, Turn, UnexpectedEvent, diagram, turn
 from tests.samples import plan
 from tests.study.driver import Driver, Step, driven_to, notes
+from tests.study.examples import EXAMPLES
 
 UNDERWAY = list(Stage)[1:-1]
-
-EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
-    type(event): event
-    for event in (
-        happened.StartTapped(at_ms=9),
-        happened.ContinueTapped(at_ms=9),
-        happened.PurposeTicked(at_ms=9, purpose="share", ticked=True),
-        happened.AgreeTapped(at_ms=9),
-        happened.DeclineTapped(at_ms=9),
-        happened.AgeTapped(at_ms=9, adult=True),
-        happened.SkipTapped(at_ms=9),
-        happened.CardTapped(at_ms=9, position=Position(0, 0)),
-        happened.AnswerGiven(at_ms=9, item="enjoyed", value=1),
-        happened.StillHereTapped(at_ms=9),
-        happened.TimerEnded(at_ms=9, timer=Timer.IDLE),
-        happened.SpeechStarted(at_ms=9, utterance=1),
-        happened.SpeechFinished(at_ms=9, utterance=1),
-        happened.SpeechFailed(at_ms=9, utterance=1, why="no sound"),
-        happened.RobotLost(at_ms=9, why="the plug"),
-        happened.RepeatAsked(at_ms=9),
-        happened.PauseAsked(at_ms=9),
-        happened.PauseEnded(at_ms=9),
-        happened.EndAsked(at_ms=9, reason="the fair is closing"),
-        happened.SittingResumed(at_ms=9, body=BodyName.AVATAR),
-        happened.KioskClosed(at_ms=9),
-    )
-}
-"""An event of every kind that comes from outside."""
 
 ANYWHERE = {
     *("TimerEnded", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotLost"),
