@@ -1,48 +1,67 @@
-"""A rehearsal: a simulated visitor plays a whole sitting through the real window, with real mouse events.
+"""A rehearsal: a simulated visitor goes through a whole sitting at the real window, with real mouse events.
 
-It looks only at what the screens show and acts only by clicking, so whatever stops a visitor stops it too.
+It looks only at what the screens show and acts only with its hand, so whatever stops a visitor stops it too.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from random import Random
 
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtQuick import QQuickItem, QQuickWindow
-from PySide6.QtTest import QTest
-
+from kiosk.study import commands as do
 from kiosk.study.commands import Command
+from kiosk.study.declared.questionnaire import Item
 from kiosk.study.events import Stage, WorldEvent
 from kiosk.ui.app import App
+from kiosk.ui.rehearsing.filling import Errand, Filling
+from kiosk.ui.rehearsing.hand import Hand, Stuck
 from kiosk.ui.rehearsing.pulse import Pulse
 from kiosk.ui.rehearsing.shots import Shots
-from kiosk.ui.rehearsing.visitor import View, Visitor
+from kiosk.ui.rehearsing.visitor import Character, Manner, View, Visitor
 
 LONGEST_MS = 2 * 60 * 60 * 1000
 """A sitting that takes longer than two hours has got stuck."""
 
+_DECIDING = ("attract", "consent", "age")
+"""Where even the hasty look at what they tap."""
 
-class Stuck(Exception):
-    """The visitor cannot go on; the message says where, and what was looked for."""
+_LINGERING = frozenset({Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS})
+"""Stages that whoever leaves them leaves in the middle."""
+
+
+_USUAL = Character()
 
 
 class Rehearsal:
     """One sitting of one simulated visitor."""
 
-    def __init__(self, app: App, seed: int, shots: Shots | None = None) -> None:
-        """Play on this kiosk; the same seed plays the same way. ``shots`` takes pictures on the way."""
+    def __init__(self, app: App, seed: int, shots: Shots | None = None, visitor: Character = _USUAL) -> None:
+        """Go through it on this kiosk; the same seed does the same things. ``shots`` takes pictures on the way."""
         self.pulse = Pulse()
         self._app = app
-        self._visitor = Visitor(Random(f"{seed}/visitor"))
+        self._manner = visitor.manner
+        self._leaves_in = visitor.leaves_in if visitor.manner is Manner.LEAVES else None
+        self._language = visitor.language or app.screens.resting.language
+        chance = Random(f"{seed}/visitor")
+        self._chance = chance
+        self._visitor = Visitor(chance)
+        self._hand = Hand(app.window)
+        self._filling = Filling(self._hand, chance, hasty=visitor.manner is Manner.HASTY)
+        self._page: object = None
+        self._errands: deque[Errand] = deque()
         self._shots = shots
+        self._stage = Stage.ATTRACT
+        self._acts = 0
+        self._practises: bool | None = None
         self._began = self._over = False
         self._begun_ms = app.clock.now_ms()
         self._stuck: Stuck | None = None
         app.conductor.witness = self._watch
 
     def run(self) -> None:
-        """Play the sitting to its end; raises Stuck if it has none."""
-        self._photograph("attract")
+        """Go through the sitting to its end; raises Stuck if it has none."""
+        if self._shots is not None:
+            self._shots.take("attract")
         self._think()
         self.pulse.start()
         self._app.run()
@@ -57,87 +76,121 @@ class Rehearsal:
         if self._over:
             return
         try:
-            self._click_what_comes_next()
+            self._check_time()
+            if not self._is_gone():
+                self._do_what_comes_next()
         except Stuck as stuck:
-            self._stuck = stuck
+            self._stuck = Stuck(f"{stuck}, on the screen {self._app.screens.kiosk.shown}")
             self._app.quit()
             return
         self._think()
 
-    def _click_what_comes_next(self) -> None:
+    def _check_time(self) -> None:
         if self._app.clock.now_ms() > self._begun_ms + LONGEST_MS:
-            raise Stuck(f"after two hours the sitting is still at the screen {self._app.screens.kiosk.shown}")
-        match self._app.screens.kiosk.shown:
-            case "pause":
-                raise Stuck("the kiosk shows its calm screen, because of a failure of the disk or a fault of ours")
-            case _ if not self._app.screens.kiosk.takes_input:
-                return
+            raise Stuck("the sitting has taken two hours")
+
+    def _is_gone(self) -> bool:
+        patience = 1 if self._stage in _LINGERING else 0
+        return self._stage is self._leaves_in and self._acts >= patience
+
+    def _do_what_comes_next(self) -> None:
+        kiosk = self._app.screens.kiosk
+        if kiosk.shown == "pause":
+            raise Stuck("there was a failure of the disk, or a fault of ours")
+        if not kiosk.takes_input:
+            return
+        self._acts += 1
+        if kiosk.covered:
+            self._answer_the_cover()
+        elif self._manner is Manner.HASTY and kiosk.shown not in _DECIDING and self._visitor.tosses():
+            self._hand.tap_anywhere(self._chance)
+        else:
+            self._go_on(kiosk.shown)
+
+    def _answer_the_cover(self) -> None:
+        if self._hand.sees("still-here"):
+            self._click("still-here")
+
+    def _go_on(self, shown: str) -> None:
+        match shown:
             case "attract" if not self._began and self._app.bodies.settled:
                 self._began = True
-                self._click("start")
-            case "introduction" | "result":
+                self._click(f"start-{self._language}")
+            case "about" | "introduction" | "result" | "debrief":
                 self._click("continue")
-            case "questions":
-                self._answer()
-            case "game" if self._app.screens.board.accepts_taps:
-                self._flip()
+            case "thanks" if self._visitor.tosses():
+                self._click("continue")
+            case "consent":
+                self._decide()
+            case "age":
+                self._click("age-no" if self._manner is Manner.UNDER_AGE else "age-yes")
+            case "form":
+                self._fill_in()
+            case "practice" | "game":
+                self._play(shown)
 
-    def _flip(self) -> None:
+    def _decide(self) -> None:
+        """Agree, once all that has to be is ticked; the hasty try it before."""
+        consent = self._app.screens.consent
+        if self._manner is Manner.DECLINES:
+            self._click("decline")
+        elif self._manner is Manner.HASTY and self._page is not consent:
+            self._page = consent
+            self._click("agree")
+        elif consent.needed:
+            self._click(f"purpose-{min(consent.needed)}")
+        else:
+            self._click("agree")
+
+    def _fill_in(self) -> None:
+        items = self._app.screens.form.shown
+        if items is not self._page:
+            self._page = items
+            self._errands = deque(self._filling.errands(self._wanted()))
+        if self._errands:
+            with self.pulse.aside():
+                self._errands.popleft()()
+        else:
+            self._click("continue")
+
+    def _wanted(self) -> tuple[Item, ...]:
+        """The items that this visitor answers."""
+        items = self._app.screens.form.shown
+        if self._manner is not Manner.HASTY:
+            return items
+        return tuple(item for item in items if getattr(item, "required", False))
+
+    def _will_practise(self) -> bool:
+        if self._practises is None:
+            likes = self._leaves_in is Stage.PRACTICE or self._visitor.tosses()
+            self._practises = self._manner is not Manner.HASTY and likes
+        return self._practises
+
+    def _play(self, shown: str) -> None:
         board = self._app.screens.board
-        if board.closed:
+        if shown == "practice" and not self._will_practise():
+            self._click("skip")
+        elif board.accepts_taps and board.closed:
             row, column = board.marked
             first = next(iter(board.unmatched.values()), None)
             position = self._visitor.choose(View(board.closed, first, row, column))
             self._click(f"card-{board.location(position)}")
 
-    def _answer(self) -> None:
-        question = self._app.screens.question
-        if question.answer is None:
-            self._click(f"answer-{self._visitor.answer(question.scale)}")
-        else:
-            self._click("continue")
-
     def _watch(self, _: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+        if stage is not self._stage:
+            self._stage, self._acts = stage, 0
+        if any(isinstance(command, do.ShowBoard) for command in commands):
+            self._visitor.sit_down()
         self._visitor.see(self._app.screens.board.unmatched)
         if self._shots is not None:
             with self.pulse.aside():
-                self._shots.watch(commands)
+                self._shots.watch(commands, stage)
         if stage is Stage.OVER:
             self._over = True
             self._app.quit()
 
-    def _photograph(self, moment: str) -> None:
-        if self._shots is not None:
-            self._shots.take(moment)
-
     def _click(self, name: str) -> None:
-        """Press and release the left button in the middle of the item of this name."""
-        window = self._app.window
-        if self._app.screens.kiosk.shown != "game" or find(window.contentItem(), name) is None:
-            with self.pulse.aside():
-                lay_out(window)
-        item = find(window.contentItem(), name)
-        if item is None:
-            raise Stuck(f"there is no {name!r} on the screen {self._app.screens.kiosk.shown}")
-        if not window.geometry().translated(-window.position()).contains(middle(item)):
-            raise Stuck(f"{name!r} lies outside the window on the screen {self._app.screens.kiosk.shown}")
-        QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, middle(item))
-
-
-def lay_out(window: QQuickWindow) -> None:
-    """See that everything is where it belongs: Qt Quick places items only when it draws."""
-    window.grabWindow()
-
-
-def middle(item: QQuickItem) -> QPoint:
-    """Where the middle of an item is in its window."""
-    return item.mapToScene(QPointF(item.width() / 2, item.height() / 2)).toPoint()
-
-
-def find(item: QQuickItem, name: str) -> QQuickItem | None:
-    """The visible item of this object name; delegates are no children of their view for Qt's own search."""
-    if not item.isVisible():
-        return None
-    if item.objectName() == name:
-        return item
-    return next((found for child in item.childItems() if (found := find(child, name)) is not None), None)
+        """Click on the item of this name, or click it twice if in a hurry."""
+        with self.pulse.aside():
+            act = self._hand.double_click if self._manner is Manner.HASTY else self._hand.click
+        act(name)

@@ -10,6 +10,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import BadInput
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
+from kiosk.study.events import Stage
 from kiosk.ui.clock import Clock
 
 
@@ -32,9 +33,9 @@ class Shots:
         self._settle_ms = settle_ms
         self._taken: list[str] = []
 
-    def watch(self, commands: tuple[Command, ...]) -> None:
-        """Take a picture if these commands were the first to bring their moment."""
-        for moment in _moments(commands):
+    def watch(self, commands: tuple[Command, ...], stage: Stage) -> None:
+        """Take a picture if these commands, which led to this stage, were the first to bring their moment."""
+        for moment in _moments(commands, stage):
             if moment not in self._taken:
                 self._taken.append(moment)
                 self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
@@ -57,19 +58,29 @@ class Shots:
 
 
 _NAMES: dict[type[Command], str] = {
+    do.ShowAbout: "about",
+    do.ShowConsent: "consent",
+    do.ShowTicks: "ticks",
+    do.ShowAgeQuestion: "age",
+    do.ShowMissing: "missing",
     do.ShowIntroduction: "introduction",
-    do.ShowBoard: "board",
     do.TurnUp: "card",
     do.ShowPair: "pair",
     do.ShowResult: "result",
     do.ShowAnswer: "answer",
+    do.ShowDebrief: "debrief",
+    do.ShowThanks: "thanks",
+    do.AskStillThere: "still-there",
+    do.ShowPause: "pause",
 }
 
 
-def _moments(commands: tuple[Command, ...]) -> Iterable[str]:
+def _moments(commands: tuple[Command, ...], stage: Stage) -> Iterable[str]:
     """What these commands have brought, in names for files."""
     for command in commands:
         match command:
+            case do.ShowBoard(practice=practice):
+                yield "practice" if practice else "board"
             case do.HoldBoard(wait=wait):
                 yield wait.value.replace("_", "-")
             case do.ShowMark(row=row, column=column):
@@ -77,7 +88,7 @@ def _moments(commands: tuple[Command, ...]) -> Iterable[str]:
             case do.Express(mood=mood):
                 yield mood.value
             case do.ShowItems(number=number):
-                yield f"question-{number}"
+                yield f"{'about-you' if stage is Stage.ABOUT_YOU else 'items'}-{number}"
             case _ if type(command) in _NAMES:
                 yield _NAMES[type(command)]
 

@@ -7,14 +7,40 @@ card with (1 - forgetting) ^ age, drawn anew for every move, the age in flips si
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from random import Random
 
 from kiosk.game import Position
+from kiosk.study.events import Stage
 
 FORGETTING = 0.15
 FOLLOWING = 0.9
 """How often it follows a hint; the study's people did in .86 (noToM) and .92 (ToM) of the cases."""
 THINKING_MS = (500, 1_600)
+
+
+class Manner(Enum):
+    """What kind of visitor it is."""
+
+    COMPLETES = "completes"
+    """Agrees, answers everything, and stays to the end."""
+    DECLINES = "declines"
+    """Plays without taking part."""
+    UNDER_AGE = "under age"
+    """Agrees, but is too young."""
+    LEAVES = "leaves"
+    """Walks away in some stage, without a word."""
+    HASTY = "hasty"
+    """Clicks twice, taps everywhere, and skips all that can be skipped."""
+
+
+@dataclass(frozen=True)
+class Character:
+    """A visitor's manner, where one who leaves does so, and the language they choose: by default the study's first."""
+
+    manner: Manner = Manner.COMPLETES
+    leaves_in: Stage = Stage.GAME
+    language: str = ""
 
 
 @dataclass(frozen=True)
@@ -48,9 +74,15 @@ class Visitor:
         """How long it thinks before it clicks, in ms."""
         return self._rng.randint(*THINKING_MS)
 
-    def answer(self, points: int) -> int:
-        """Its answer to a question, from 1."""
-        return self._rng.randint(1, points)
+    def tosses(self) -> bool:
+        """Whether a coin it tosses falls on its right side."""
+        return self._rng.random() < 1 / 2
+
+    def sit_down(self) -> None:
+        """Begin with a board that nothing is known of."""
+        self._seen.clear()
+        self._recalled = {}
+        self._flips = 0
 
     def choose(self, view: View) -> Position:
         """The closed card that it turns next."""

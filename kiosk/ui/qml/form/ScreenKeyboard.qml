@@ -26,7 +26,8 @@ Rectangle {
     // Between the keys nothing happens, and nothing below is reached.
     MouseArea { anchors.fill: parent }
 
-    component Key: AbstractButton {
+    // Not named Key: outside of QML, that name belongs to something else.
+    component ScreenKey: AbstractButton {
         id: key
         property bool pressedIn: false
         focusPolicy: Qt.NoFocus
@@ -59,7 +60,7 @@ Rectangle {
                 required property string modelData
                 anchors.horizontalCenter: parent.horizontalCenter
                 spacing: keyboard.gap
-                Key {
+                ScreenKey {
                     visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
                     objectName: "key-shift"
                     text: keyboard.words["keyboard-shift"]
@@ -68,7 +69,7 @@ Rectangle {
                 }
                 Repeater {
                     model: row.modelData.length
-                    Key {
+                    ScreenKey {
                         required property int index
                         readonly property string letter: row.modelData.charAt(index)
                         objectName: "key-" + letter
@@ -79,20 +80,20 @@ Rectangle {
                         }
                     }
                 }
-                Key {
+                ScreenKey {
                     visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
                     objectName: "key-space"
                     width: Math.max(1.6 * keyboard.keyWidth, implicitWidth)
                     text: keyboard.words["keyboard-space"]
                     onClicked: keyboard.field.type(" ")
                 }
-                Key {
+                ScreenKey {
                     visible: row.index === keyboard.rows.length - 1
                     objectName: "key-delete"
                     text: keyboard.words["keyboard-delete"]
                     onClicked: keyboard.field.wipe()
                 }
-                Key {
+                ScreenKey {
                     visible: row.index === keyboard.rows.length - 1
                     objectName: "key-done"
                     text: keyboard.words["keyboard-done"]
