@@ -14,9 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-from rich.progress import Progress as Bar
 
 from kiosk import BadInput
 from kiosk.assistant.gate import NO_GATE, Gate
@@ -24,12 +21,12 @@ from kiosk.assistant.mdp import STATES, Action, State
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
 from kiosk.cli import evidence
+from kiosk.cli.progress import progress_bar
 from kiosk.study.condition import Condition, target_rule
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Alpha, Averaging, Decisions, Epsilon, Learner, Recipe
 from kiosk.training.players import ChancePlayer, Counting, MemoryPlayer, Player, TextPlayer
 from kiosk.training.rewards import Reward
-from kiosk.training.simulation import Progress
 
 STOPPED = 130
 """The exit code after Ctrl-C."""
@@ -98,27 +95,6 @@ def _one_number(forgetting: tuple[float, float]) -> float:
     if forgetting[0] != forgetting[1]:
         raise BadInput("the text player's --forgetting is one number, not a range")
     return forgetting[0]
-
-
-@contextmanager
-def progress_bar(what: str, total: int, *, hidden: bool) -> Iterator[Progress]:
-    """A bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
-    columns = (
-        TextColumn(what),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.fields[rate]}"),
-        TimeRemainingColumn(),
-    )
-    console = Console(stderr=True)
-    with Bar(*columns, console=console, disable=hidden or not console.is_terminal, transient=True) as bar:
-        task = bar.add_task(what, total=total, rate="")
-
-        def done(number: int) -> None:
-            speed = bar.tasks[0].speed
-            bar.update(task, completed=number, rate=f"{speed:,.0f}/s" if speed else "")
-
-        yield done
 
 
 @contextmanager

@@ -4,41 +4,53 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import click
 from rich.console import Console
 from rich.table import Table
 
 from kiosk.cli.options import data_option, json_option
-from kiosk.store.reading import archive
+from kiosk.store.reading import Sitting, archive
 
 MS_PER_SECOND = 1000
-WIDTH = 100
+WIDTH = 150
 """Characters that a line of the list may need."""
 
+_WORDS = ("condition", "body", "status", "stage", "allotted")
 _COUNTS = ("pairs", "moves", "flips", "hints")
 
 
 @click.command()
 @data_option
+@click.option("--codes", is_flag=True, help="Show the participants' codes as well; they are the visitors' own.")
 @json_option
-def sittings(data: Path, *, as_json: bool) -> None:
-    """List the stored sittings: when, in which condition, how they ended."""
+def sittings(data: Path, *, codes: bool, as_json: bool) -> None:
+    """List the stored sittings: when, in which condition, how and where they ended."""
     with archive(data) as stored:
-        rows = [sitting.to_json() | {"started_at": sitting.started_at} for sitting in stored.sittings()]
+        rows = [_row(sitting, with_code=codes) for sitting in stored.sittings()]
     if as_json:
         click.echo(json.dumps(rows))
         return
     table = Table(box=None)
-    for heading in ("sitting", "started (UTC)", "condition", "body", "status", "visitor", *_COUNTS):
+    own = ("participant", "code") if codes else ("participant",)
+    for heading in ("sitting", *own, "started (UTC)", *_WORDS, "visitor", *_COUNTS):
         table.add_column(heading, no_wrap=True, justify="right" if heading in _COUNTS else "left")
     for row in rows:
         started = row["started_at"][:16].replace("T", " ")
         visitor = "simulated" if row["simulated"] else "person"
-        words = (str(row[key]) for key in ("condition", "body", "status"))
-        table.add_row(str(row["sitting"]), started, *words, visitor, *(str(row[key]) for key in _COUNTS))
+        cells = (row["sitting"], *(row[key] for key in own), started, *(row[key] for key in _WORDS), visitor)
+        table.add_row(*(_word(cell) for cell in cells), *(str(row[key]) for key in _COUNTS))
     # Where nobody looks, or the window is narrow, lines may be long, but no word is cut.
     Console(width=max(Console().width, WIDTH)).print(table)
+
+
+def _row(sitting: Sitting, *, with_code: bool) -> dict[str, Any]:
+    return sitting.to_json() | {"started_at": sitting.started_at} | ({"code": sitting.code} if with_code else {})
+
+
+def _word(value: object) -> str:
+    return "-" if value is None else str(value)
 
 
 @click.command()

@@ -16,6 +16,7 @@ from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
 from kiosk.settings import Settings
 from kiosk.store.database import in_use, open_for_reading
+from kiosk.store.people.counting import Counts, counts
 from kiosk.store.people.participants import participant_of
 from kiosk.study.after.measures import Measures, measure
 from kiosk.study.allocation import Allotted
@@ -88,6 +89,10 @@ class Archive:
     def sitting(self, number: int) -> Sitting:
         """One sitting; raises BadInput if there is none of this number."""
         return self._sitting(self._row(number))
+
+    def counts(self, *, simulated: bool) -> Counts:
+        """How many came, by condition and by what became of them: people, or rehearsals."""
+        return counts(self._database.conn, simulated=simulated, in_use=self._unended is None)
 
     def records(self, number: int) -> list[dict[str, Any]]:
         """Every event of a sitting as JSON values: seq, at_ms, type, origin, and its own fields."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -9,6 +12,8 @@ import pytest
 from kiosk.store.recorder import Provenance
 from tests.samples import mixed, plan
 from tests.study.driver import Driver, with_memory
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -29,3 +34,16 @@ def played(provenance: Provenance) -> Driver:
     driver = Driver(provenance.plan, provenance.seed)
     driver.whole_sitting(with_memory(4))
     return driver
+
+
+@pytest.fixture(scope="module")
+def writer() -> Iterator[subprocess.Popen[str]]:
+    """A program that has sittings written by processes that do not stop."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "tests.store.writer"],
+        cwd=ROOT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as program:
+        yield program

@@ -7,9 +7,7 @@ import os
 import signal
 import sqlite3
 import subprocess
-import sys
 import time
-from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from random import Random
@@ -31,7 +29,6 @@ from tests.store.writer import GONE
 from tests.study.driver import Driver, notes, replay
 
 A_TOMBSTONE = "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
-ROOT = Path(__file__).parents[2]
 START = happened.StartTapped(at_ms=0)
 
 
@@ -459,19 +456,6 @@ def test_a_database_is_not_migrated_under_a_recorder_that_is_at_work(folder: Pat
 
 
 # Killed in the middle
-
-
-@pytest.fixture(scope="module")
-def writer() -> Iterator[subprocess.Popen[str]]:
-    """A program that has sittings written by processes that do not stop."""
-    with subprocess.Popen(
-        [sys.executable, "-m", "tests.store.writer"],
-        cwd=ROOT,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as program:
-        yield program
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs a system that can fork")

@@ -8,46 +8,20 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from kiosk import BadInput
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
 from kiosk.study.allocation import Allotted, Place, places
 from kiosk.study.condition import Condition
-from kiosk.study.events import Event, Status
+from kiosk.study.events import Event
+from tests.store.visitors import BEGUN, FINISHED, LEFT, rows, seated
 
 FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
 EIGHT = {Condition.TOM: 8, Condition.NOTOM: 8}
 THREE = {Condition.TOM: 3, Condition.NOTOM: 3}
-BEGUN = (happened.StartTapped(at_ms=0),)
-LEFT = (*BEGUN, happened.SittingEnded(at_ms=5, status=Status.ABANDONED))
-FINISHED = (*BEGUN, happened.GameFinished(at_ms=5))
-COMPLETED = (*FINISHED, happened.SittingEnded(at_ms=9, status=Status.COMPLETED))
-
-
-def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
-    """What stands in the database of a folder."""
-    with closing(sqlite3.connect(folder / FILE)) as connection:
-        return connection.execute(query).fetchall()
-
-
-def seated(
-    recorder: Recorder,
-    provenance: Provenance,
-    events: Sequence[Event] = COMPLETED,
-    *,
-    allotted: Allotted = Allotted.LIST,
-    simulated: bool = True,
-) -> Place | None:
-    """Have somebody play in the next place, or without one, and say which place it was."""
-    place = recorder.next_place(simulated=simulated) if allotted is Allotted.LIST else None
-    plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
-    recorder.begin(replace(provenance, plan=plan, place=place, allotted=allotted, simulated=simulated), events)
-    return place
 
 
 # Fixed

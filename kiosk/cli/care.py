@@ -1,0 +1,111 @@
+"""Commands that look after what is stored: copies, checks, participants who withdraw, folders that are merged."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from kiosk.cli.options import data_option, json_option
+from kiosk.cli.progress import progress_bar
+from kiosk.store.care import backup as copies
+from kiosk.store.care import merge as merging
+from kiosk.store.care import verify as checking
+from kiosk.store.care import withdraw as withdrawing
+from kiosk.store.care.verify import Check, Finding
+from kiosk.store.recorder import StoreFailed
+
+SOMETHING_WRONG = 1
+"""The exit code when something is found, or the disk fails."""
+
+
+@contextmanager
+def _disk_in_words() -> Iterator[None]:
+    try:
+        yield
+    except StoreFailed as failure:
+        raise click.ClickException(str(failure)) from failure
+
+
+@click.command()
+@data_option
+@click.option("--to", type=click.Path(path_type=Path), help="Where copies are kept; by default in the data folder.")
+@click.option(
+    "--keep", type=click.IntRange(min=1), default=copies.KEPT, show_default=True, help="How many copies are kept."
+)
+@json_option
+def backup(data: Path, to: Path | None, keep: int, *, as_json: bool) -> None:
+    """Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed."""
+    into = to or data / copies.FOLDER
+    with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
+        copy = copies.back_up(data, into, keep, tell)
+    told = {"backup": str(copy), "bytes": copy.stat().st_size, "kept": len(copies.backups(into))}
+    click.echo(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
+
+
+@click.command()
+@data_option
+@json_option
+def verify(data: Path, *, as_json: bool) -> None:
+    """Check the database row by row; exit code 1 if anything is wrong. It is never changed."""
+    with progress_bar("checking", hidden=as_json) as tell:
+        findings = checking.verify(data, tell)
+    if as_json:
+        rows = [asdict(finding) | {"check": finding.check.name.lower()} for finding in findings]
+        click.echo(json.dumps({"data": str(data), "sound": not findings, "findings": rows}))
+    else:
+        Console().print(_table(findings))
+    sys.exit(SOMETHING_WRONG if findings else 0)
+
+
+def _table(findings: list[Finding]) -> Table:
+    table = Table(box=None)
+    for heading in ("what should be", "where", "what is"):
+        table.add_column(heading)
+    for check in Check:
+        found = [finding for finding in findings if finding.check is check]
+        for number, finding in enumerate(found):
+            table.add_row("" if number else check.value, finding.where, finding.what)
+        if not found:
+            table.add_row(check.value, "", "it is so")
+    return table
+
+
+@click.command()
+@click.argument("code")
+@data_option
+@click.option("--yes", is_flag=True, help="Do not ask.")
+@json_option
+def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
+    """Delete all that is stored of the participant who has this CODE; only a count stays."""
+    going = withdrawing.find(data, code)
+    if not yes:
+        click.echo(
+            f"Participant {going.participant}, sitting {going.sitting}, begun {going.started_at[:16]} (UTC): "
+            f"{going.events} events will be deleted for ever, and {going.backups} copies of the database replaced. "
+            "Copies that are kept elsewhere, and data folders that this one was merged into, are not touched.",
+            err=True,
+        )
+        click.confirm("Delete them?", abort=True, err=True)
+    with _disk_in_words():
+        gone = withdrawing.withdraw(data, code)
+    click.echo(json.dumps(gone.to_json()) if as_json else f"All of participant {gone.participant} is deleted.")
+
+
+@click.command()
+@click.argument("folders", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="A B [C ...]")
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="The new data folder, not there or empty.")
+@json_option
+def merge(folders: tuple[Path, ...], out: Path, *, as_json: bool) -> None:
+    """Bring the data folders A, B and so on together in a new one; they stay as they are."""
+    with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
+        sittings = merging.merge(folders, out, tell)
+    told = {"out": str(out), "folders": len(folders), "sittings": sittings}
+    click.echo(json.dumps(told) if as_json else f"{sittings} sittings of {len(folders)} folders are in {out}.")

@@ -1,0 +1,112 @@
+"""Copies of the database while it is written: whole, checked, and never in the writer's way."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from kiosk import BadInput
+from kiosk.store.database import open_as_it_is
+from kiosk.store.recorder import StoreFailed
+
+FOLDER = "backups"
+"""Where copies are kept in a data folder, unless told otherwise."""
+
+KEPT = 10
+STEP_PAGES = 64
+"""256 KiB at a time, so that a thread that copies lets the others go on."""
+
+_PATTERN = "recollect-*.db"
+_UNFINISHED = ".unfinished"
+_LOCK = "backup.lock"
+
+Progress = Callable[[int, int], None]
+"""Is told how much is done, of how much."""
+
+
+def back_up(folder: Path, into: Path, keep: int = KEPT, tell: Progress = lambda _done, _of: None) -> Path:
+    """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
+
+    It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
+    Raises BadInput if there is nothing to copy or no place for it, StoreFailed if the copy could not be written whole;
+    older copies are then as they were.
+    """
+    if keep < 1:
+        raise BadInput(f"at least 1 copy must be kept, not {keep}")
+    with closing(open_as_it_is(folder)) as source, _alone(into):
+        unfinished = into / f"{_name()}{_UNFINISHED}"
+        try:
+            _copy(source, unfinished, tell)
+            copy = unfinished.replace(unfinished.with_suffix(""))
+            _sync(into)
+            _remove_older(into, copy, keep)
+        except (OSError, sqlite3.Error) as error:
+            raise StoreFailed(f"the copy in {into} could not be written: {error}") from error
+        finally:
+            unfinished.unlink(missing_ok=True)
+    return copy
+
+
+def backups(into: Path) -> list[Path]:
+    """The copies that a folder holds, oldest first."""
+    return sorted(into.glob(_PATTERN))
+
+
+@contextmanager
+def _alone(into: Path) -> Iterator[None]:
+    """Be the only one who copies into a folder, and clear what a copy that was cut off has left."""
+    try:
+        into.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with FileLock(into / _LOCK, blocking=False):
+            for unfinished in into.glob(f"{_PATTERN}{_UNFINISHED}*"):
+                unfinished.unlink()
+            yield
+    except Timeout as error:
+        raise BadInput(f"another copy is just being made in {into}") from error
+    except OSError as error:
+        raise BadInput(f"copies cannot be kept in {into}: {error.strerror}") from error
+
+
+def _remove_older(into: Path, copy: Path, keep: int) -> None:
+    for older in backups(into)[:-keep]:
+        # A clock that was set back makes the newest look like the oldest.
+        if older != copy:
+            older.unlink()
+
+
+def _name() -> str:
+    return f"recollect-{datetime.now(UTC):%Y%m%dT%H%M%S.%f}Z.db"
+
+
+def _copy(source: sqlite3.Connection, path: Path, tell: Progress) -> None:
+    path.touch(mode=0o600)
+    # One look at the database for all steps: otherwise every write of the kiosk would make the copy start anew.
+    source.execute("BEGIN")
+    source.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    with closing(sqlite3.connect(path, isolation_level=None)) as target:
+        source.backup(target, pages=STEP_PAGES, progress=lambda _, left, of: tell(of - left, of))
+        # One file that can be carried away, with no log beside it.
+        target.execute("PRAGMA journal_mode = DELETE")
+        answers = [answer for (answer,) in target.execute("PRAGMA integrity_check")]
+    source.execute("ROLLBACK")
+    if answers != ["ok"]:
+        raise StoreFailed(f"the copy of {path.name} is not whole: {answers[0]}")
+    with path.open("r+b") as file:
+        os.fsync(file.fileno())
+
+
+def _sync(folder: Path) -> None:
+    """Have the new name on the disk as well, where folders can be told so."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

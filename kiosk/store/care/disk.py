@@ -1,0 +1,51 @@
+"""Whether there is room left: said in time, and before the disk says it in the middle of a sitting."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from kiosk import BadInput
+
+MIB = 1024 * 1024
+
+WARN_MIB = 512
+"""A sitting takes some 60 KiB, so a day of 200 takes 12 MiB, and as much again in each of the copies that are kept.
+512 MiB is a day, its copies, and what else a system writes in a day: time enough to make room in the evening."""
+
+REFUSE_MIB = 64
+"""One sitting, the write-ahead log (4 MiB), the program's logs (4 MB) and one more copy of the database must fit in, or
+the sitting that begins now could be lost in its middle. Below this no new one begins."""
+
+
+class Level(Enum):
+    """What the room that is left allows."""
+
+    ENOUGH = "enough"
+    WARN = "warn"
+    REFUSE = "refuse"
+
+
+@dataclass(frozen=True)
+class Room:
+    """The room that is left on the disk of a data folder, in MiB."""
+
+    free_mib: int
+
+    @property
+    def level(self) -> Level:
+        """What it allows."""
+        if self.free_mib < REFUSE_MIB:
+            return Level.REFUSE
+        return Level.WARN if self.free_mib < WARN_MIB else Level.ENOUGH
+
+
+def room(folder: Path) -> Room:
+    """The room that is left for a data folder, whether or not it is there yet; raises BadInput if nobody can say."""
+    there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
+    try:
+        return Room(shutil.disk_usage(there).free // MIB)
+    except OSError as error:
+        raise BadInput(f"the room that is left for {folder} cannot be told: {error.strerror}") from error

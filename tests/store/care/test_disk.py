@@ -1,0 +1,45 @@
+"""Whether there is room is said before the disk says it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from kiosk import BadInput
+from kiosk.store.care.disk import MIB, REFUSE_MIB, WARN_MIB, Level, Room, room
+
+
+@pytest.mark.parametrize(
+    ("free_mib", "level"),
+    [
+        (0, Level.REFUSE),
+        (REFUSE_MIB - 1, Level.REFUSE),
+        (REFUSE_MIB, Level.WARN),
+        (WARN_MIB - 1, Level.WARN),
+        (WARN_MIB, Level.ENOUGH),
+        (10 * WARN_MIB, Level.ENOUGH),
+    ],
+)
+def test_there_are_two_levels(free_mib: int, level: Level) -> None:
+    assert Room(free_mib).level is level
+
+
+def test_the_room_is_that_of_the_folder_s_disk(tmp_path: Path) -> None:
+    free = shutil.disk_usage(tmp_path).free / MIB
+    assert room(tmp_path).free_mib == pytest.approx(free, rel=0.2)
+
+
+def test_a_folder_that_is_not_there_yet_has_the_room_of_the_one_above(tmp_path: Path) -> None:
+    assert room(tmp_path / "not" / "there").free_mib == pytest.approx(room(tmp_path).free_mib, rel=0.2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_does_not_answer_is_told_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(_: Path) -> None:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(shutil, "disk_usage", broken)
+    with pytest.raises(BadInput, match=r"the room that is left for .* cannot be told: Input/output error"):
+        room(tmp_path)
