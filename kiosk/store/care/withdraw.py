@@ -90,12 +90,11 @@ def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
     connection.execute("PRAGMA secure_delete = ON")
     try:
         connection.execute("BEGIN EXCLUSIVE")
-    except sqlite3.OperationalError as error:
-        raise BadInput(f"another program is looking at the data in {folder}: close it first, then withdraw") from error
-    try:
         yield
         connection.execute("COMMIT")
     except sqlite3.Error as error:
+        if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_BUSY:
+            raise BadInput(f"another program is looking at the data in {folder}: close it, then withdraw") from error
         raise StoreFailed(f"nothing was withdrawn: {error}") from error
     finally:
         if connection.in_transaction:

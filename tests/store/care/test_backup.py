@@ -75,6 +75,7 @@ def test_a_recorder_writes_on_between_two_steps_of_a_copy(folder: Path, into: Pa
 
         def write(pages: int, _of: int) -> None:
             done.append(pages)
+            assert len(done) < 1000, "the copy begins anew with every write"
             recorder.append(many(3))
 
         copy = back_up(folder, into, tell=write)

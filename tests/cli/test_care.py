@@ -1,0 +1,170 @@
+"""The commands that look after what is stored say what they did, ask before they delete, and refuse in one sentence."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from kiosk import BadInput
+from kiosk.cli.front import recollect
+from kiosk.store.care import withdraw as withdrawing
+from kiosk.store.care.backup import FOLDER, backups
+from kiosk.store.database import FILE
+from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from tests.samples import plan
+from tests.store.visitors import BEGUN, a_day, rows
+
+PEOPLE = Provenance(plan(), 1, "avatar", "abc123", simulated=False)
+
+
+def run(*words: object, answer: str = "") -> Result:
+    """Call the command line."""
+    return CliRunner().invoke(recollect, [*map(str, words)], input=answer)
+
+
+def said(*words: object) -> Any:
+    """What a command that went well says to a program."""
+    result = run(*words, "--json")
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+@pytest.fixture
+def day(tmp_path: Path) -> Path:
+    """A day at a booth."""
+    a_day(tmp_path / "day", PEOPLE, "MI")
+    return tmp_path / "day"
+
+
+def code_of(folder: Path, number: int) -> str:
+    """The code of somebody by their number."""
+    ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND NOT simulated")  # noqa: S608
+    return str(code)
+
+
+# sittings
+
+
+def test_the_list_says_who_it_was_where_it_ended_and_how_it_was_allotted(day: Path) -> None:
+    listed = run("sittings", "--data", day).output
+    header, first, *_ = [line.split() for line in listed.splitlines()]
+    assert header[:2] == ["sitting", "participant"]
+    assert {"stage", "allotted"} <= set(header)
+    assert first[:2] == ["1", "MI-1"]
+    assert "list" in first
+    (one, *_) = said("sittings", "--data", day)
+    assert (one["participant"], one["allotted"], one["stage"]) == ("MI-1", "list", None)
+
+
+def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:
+    code = code_of(day, 1)
+    for words in (["sittings"], ["sittings", "--json"], ["events", "1"]):
+        assert code not in run(*words, "--data", day).output
+    for words in (["sittings", "--codes"], ["sittings", "--codes", "--json"]):
+        assert code in run(*words, "--data", day).output
+
+
+# backup
+
+
+def test_a_backup_says_where_it_is(day: Path, tmp_path: Path) -> None:
+    told = said("backup", "--data", day)
+    assert [str(copy) for copy in backups(day / FOLDER)] == [told["backup"]]
+    assert told["bytes"] == Path(told["backup"]).stat().st_size
+    told = said("backup", "--data", day, "--to", tmp_path / "stick", "--keep", 2)
+    assert Path(told["backup"]).parent == tmp_path / "stick"
+
+
+def test_a_backup_is_made_while_a_kiosk_is_writing(day: Path) -> None:
+    with Recorder(day) as recorder:
+        recorder.begin(PEOPLE, BEGUN)
+        assert "one of 1 that are kept there" in run("backup", "--data", day).output
+
+
+def test_only_as_many_backups_are_kept_as_are_asked_for(day: Path) -> None:
+    assert [said("backup", "--data", day, "--keep", 2)["kept"] for _ in range(4)] == [1, 2, 2, 2]
+
+
+# verify
+
+
+def test_what_is_sound_ends_with_0(day: Path) -> None:
+    result = run("verify", "--data", day)
+    assert result.exit_code == 0
+    assert "every event can be read" in result.output
+    assert said("verify", "--data", day) == {"data": str(day), "sound": True, "findings": []}
+
+
+def test_what_is_wrong_is_told_and_ends_with_1(day: Path) -> None:
+    with closing(sqlite3.connect(day / FILE)) as connection, connection:
+        connection.execute("DROP TRIGGER event_is_never_updated")
+        connection.execute("UPDATE event SET at_ms = -5 WHERE seq = 1 AND sitting = 1")
+    result = run("verify", "--data", day, "--json")
+    assert result.exit_code == 1
+    told = json.loads(result.stdout)
+    assert not told["sound"]
+    assert [finding["check"] for finding in told["findings"]] == ["schema", "time"]
+    result = run("verify", "--data", day)
+    assert result.exit_code == 1
+    assert "is at -5 ms" in result.output
+
+
+# withdraw
+
+
+def test_a_withdrawal_says_what_goes_and_asks(day: Path) -> None:
+    code = code_of(day, 1)
+    result = run("withdraw", code, "--data", day, answer="n\n")
+    assert result.exit_code == 1
+    assert "Participant MI-1, sitting 1, begun " in result.output
+    assert "4 events will be deleted for ever" in result.output
+    assert rows(day, "SELECT * FROM tombstone") == []
+    result = run("withdraw", code, "--data", day, answer="y\n")
+    assert result.exit_code == 0
+    assert "All of participant MI-1 is deleted." in result.output
+    assert len(rows(day, "SELECT * FROM tombstone")) == 1
+
+
+def test_with_yes_nothing_is_asked(day: Path) -> None:
+    assert said("withdraw", code_of(day, 1), "--data", day, "--yes")["participant"] == "MI-1"
+
+
+def test_while_a_kiosk_is_writing_it_is_refused_before_anything_is_asked(day: Path) -> None:
+    with Recorder(day):
+        result = run("withdraw", code_of(day, 1), "--data", day)
+    assert isinstance(result.exception, BadInput)
+    assert "a kiosk is writing in" in str(result.exception)
+    assert result.output == ""
+
+
+def test_what_the_disk_did_not_do_is_said_in_one_sentence(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(*_: object) -> None:
+        raise StoreFailed("nothing was withdrawn: the disk is full")
+
+    monkeypatch.setattr(withdrawing, "withdraw", failing)
+    result = run("withdraw", code_of(day, 1), "--data", day, "--yes")
+    assert result.exit_code == 1
+    assert result.output == "Error: nothing was withdrawn: the disk is full\n"
+
+
+# merge
+
+
+def test_folders_are_merged(day: Path, tmp_path: Path) -> None:
+    a_day(tmp_path / "other", PEOPLE, "GI", seed=2)
+    told = said("merge", day, tmp_path / "other", "--out", tmp_path / "all")
+    assert told == {"out": str(tmp_path / "all"), "folders": 2, "sittings": 8}
+    assert len(said("sittings", "--data", tmp_path / "all")) == 8
+
+
+def test_what_clashes_is_refused(day: Path, tmp_path: Path) -> None:
+    a_day(tmp_path / "other", PEOPLE, "MI", seed=2)
+    result = run("merge", day, tmp_path / "other", "--out", tmp_path / "all")
+    assert isinstance(result.exception, BadInput)
+    assert "participant MI-1 stands in" in str(result.exception)
