@@ -21,7 +21,8 @@ from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.events import Event
 from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin
-from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck
+from kiosk.ui.rehearsing.hand import Stuck
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.rehearsing.shots import Shots, make_folder
 from kiosk.ui.window import Display, Mode, Pace, check_screen
 

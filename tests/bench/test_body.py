@@ -22,8 +22,8 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
 from kiosk.ui.app import App
-from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.window import Display, Mode, Pace
 from tests.robot.furhat_fake import FurhatFake
 from tests.robot.furhat_fake import Mode as Fault
 

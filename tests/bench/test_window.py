@@ -19,8 +19,8 @@ from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.app import App
-from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import find, lay_out, middle
+from kiosk.ui.window import Display, Mode, Pace
 from tests.bench.percentiles import tell_percentiles
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}

@@ -27,10 +27,10 @@ from typing import IO, Any
 import click
 from rich.progress import track
 
-from kiosk.study.declared.checked.whole import read_study
 from kiosk.settings import STAGES, Settings
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.events import Event, to_record
 from kiosk.study.stages import BEFORE_DECIDING
 from kiosk.ui.app import App

@@ -9,10 +9,10 @@ from enum import Enum
 from kiosk.store.reading import Archive, Sitting
 from kiosk.study import commands as do
 from kiosk.study import events as happened
+from kiosk.study.after.utterances import Utterances, body_changes, utterances
 from kiosk.study.commands import Command
 from kiosk.study.events import Event, Stage, Status, WorldEvent
 from kiosk.study.session import Session
-from kiosk.study.after.utterances import Utterances, body_changes, utterances
 from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 

@@ -19,8 +19,8 @@ from pathlib import Path
 import click
 
 from kiosk.store.reading import archive
-from kiosk.study.events import Status
 from kiosk.study.after.utterances import body_changes
+from kiosk.study.events import Status
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.ui.fault_matrix import Robot, kiosk
 

@@ -20,8 +20,8 @@ from kiosk.settings import ASSETS, Settings
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.commands import Wait
 from kiosk.ui.app import App
-from kiosk.ui.window import Display, Mode, Pace
 from kiosk.ui.rehearsing.rehearsal import lay_out
+from kiosk.ui.window import Display, Mode, Pace
 from tests import pseudo
 
 SIZES = [(1280, 720), (1920, 1080), (1080, 1920)]
