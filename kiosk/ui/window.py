@@ -17,6 +17,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import BadInput
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.plan import Study
+from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.screens.every import Screens
 
 QML = Path(__file__).parent / "qml" / "Main.qml"
@@ -64,6 +65,10 @@ class Window:
         self._engine = QQmlApplicationEngine()
         self.shown = self._load(study.settings, mode)
         """Qt's own window."""
+
+    def drive_by(self, bar: ReplayBar | None) -> None:
+        """Show this bar below the screens, or none."""
+        self.shown.setProperty("replay", bar)
 
     def close(self) -> None:
         """Close it, with everything but the application object: Qt allows no second one."""

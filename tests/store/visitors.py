@@ -13,9 +13,9 @@ from kiosk.store.database import FILE
 from kiosk.store.people.participants import Participant
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import events as happened
-from kiosk.study.allocation import Allotted, Place, Visit
+from kiosk.study.allocation import Allotted, Place
 from kiosk.study.condition import Condition
-from kiosk.study.events import Event, Status
+from kiosk.study.events import Event, Status, Unstored
 
 BEGUN = (happened.StartTapped(at_ms=0),)
 LEFT = (*BEGUN, happened.SittingEnded(at_ms=5, status=Status.ABANDONED))
@@ -62,7 +62,7 @@ def a_day(folder: Path, provenance: Provenance, site: str = "", seed: int = 1) -
             plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
             sitting = replace(provenance, plan=plan, seed=seed * 100 + number, simulated=simulated, place=place)
             people.append(recorder.begin(replace(sitting, allotted=Allotted.LIST if place else None), events))
-        recorder.count_visit(Visit.DECLINED, simulated=False)
-        recorder.count_visit(Visit.UNDER_AGE, simulated=False)
+        recorder.count_visit(Unstored.DECLINED, simulated=False)
+        recorder.count_visit(Unstored.UNDER_AGE, simulated=False)
         recorder.note("deviation", {"why": f"the robot of {site} fell over"})
     return people

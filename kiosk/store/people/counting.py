@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from kiosk.store.people.lists import quotas_from_json
-from kiosk.study.allocation import Allotted, Visit
+from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
+from kiosk.study.events import Unstored
 
 
 class Fate(Enum):
@@ -52,7 +53,7 @@ class Counts:
     """Every condition that has a quota or a sitting, and the people who played without being stored."""
 
     cells: Mapping[Condition, Cell]
-    visits: Mapping[Visit, int]
+    visits: Mapping[Unstored, int]
 
 
 def counts(connection: sqlite3.Connection, *, simulated: bool, in_use: bool) -> Counts:
@@ -112,7 +113,7 @@ def _quotas(connection: sqlite3.Connection, *, simulated: bool) -> Counter[Condi
     return asked
 
 
-def _visits(connection: sqlite3.Connection, *, simulated: bool) -> dict[Visit, int]:
+def _visits(connection: sqlite3.Connection, *, simulated: bool) -> dict[Unstored, int]:
     rows = connection.execute("SELECT why, count(*) FROM visit WHERE simulated = ? GROUP BY why", (int(simulated),))
     counted = dict(rows.fetchall())
-    return {why: counted.get(why.value, 0) for why in Visit}
+    return {why: counted.get(why.value, 0) for why in Unstored}

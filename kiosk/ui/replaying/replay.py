@@ -69,7 +69,7 @@ class Replay:
         self._loop = Loop(self._clock, owner, self._fault)
         self._bar = ReplayBar(title, self.player, owner)
         self._bar.left.connect(self._loop.quit)
-        self._window.shown.setProperty("replay", self._bar)
+        self._window.drive_by(self._bar)
         self._error: BaseException | None = None
 
     def __enter__(self) -> Self:
@@ -100,7 +100,7 @@ class Replay:
 
     def frames(self, folder: Path) -> Iterator[Path]:
         """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot."""
-        self._window.shown.setProperty("replay", None)
+        self._window.drive_by(None)
         for index, step in enumerate(self.player.steps, 1):
             self.player.step()
             if any(not isinstance(command, _UNSEEN) for command in step.commands):

@@ -19,8 +19,8 @@ from kiosk.store.care.withdraw import withdraw
 from kiosk.store.database import FILE
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder, StoreFailed
-from kiosk.study.allocation import Visit
 from kiosk.study.condition import Condition
+from kiosk.study.events import Unstored
 from tests.store.visitors import BEGUN, COMPLETED, a_day, rows
 
 MUSEUM = Path(__file__).parents[1] / "museum"
@@ -111,7 +111,7 @@ def test_counts_are_those_of_all_together(milan: Path, girona: Path, out: Path) 
     assert sum(cell.quota for cell in counts.cells.values()) == 16
     assert sum(cell.begun for cell in counts.cells.values()) == 6
     assert sum(cell.withdrawn for cell in counts.cells.values()) == 1
-    assert counts.visits == {Visit.DECLINED: 2, Visit.UNDER_AGE: 2, Visit.LEFT: 0}
+    assert counts.visits == {Unstored.DECLINED: 2, Unstored.UNDER_AGE: 2, Unstored.LEFT: 0}
     assert set(counts.cells) == {Condition.TOM, Condition.NOTOM}
 
 

@@ -11,8 +11,9 @@ from kiosk.store.care.withdraw import withdraw
 from kiosk.store.people.counting import Cell, Counts, Fate
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.allocation import Allotted, Visit
+from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
+from kiosk.study.events import Unstored
 from tests.store.visitors import BEGUN, COMPLETED, FINISHED, FOUR, LEFT, seated
 
 TWO = {Condition.TOM: 2}
@@ -32,7 +33,7 @@ def told(cell: Cell) -> dict[str, int]:
 def test_of_a_folder_in_which_nothing_happened_there_is_nothing_to_count(folder: Path) -> None:
     with Recorder(folder):
         pass
-    assert counted(folder) == Counts({}, dict.fromkeys(Visit, 0))
+    assert counted(folder) == Counts({}, dict.fromkeys(Unstored, 0))
 
 
 def test_every_condition_that_has_a_quota_is_told(folder: Path) -> None:
@@ -77,13 +78,13 @@ def test_people_and_rehearsals_are_counted_apart(folder: Path, provenance: Prove
         recorder.fix_list(TWO, 1, 1, simulated=False)
         seated(recorder, provenance, simulated=False)
         recorder.begin(replace(provenance, simulated=True), COMPLETED)
-        recorder.count_visit(Visit.LEFT, simulated=True)
-        recorder.count_visit(Visit.DECLINED, simulated=False)
+        recorder.count_visit(Unstored.LEFT, simulated=True)
+        recorder.count_visit(Unstored.DECLINED, simulated=False)
     people, rehearsals = (counted(folder, simulated=simulated) for simulated in (False, True))
     assert told(people.cells[Condition.TOM]) == {"quota": 2, "begun": 1, "consumed": 1}
     assert told(rehearsals.cells[Condition.TOM]) == {"begun": 1, "unlisted": 1}
-    assert people.visits == {Visit.DECLINED: 1, Visit.UNDER_AGE: 0, Visit.LEFT: 0}
-    assert rehearsals.visits == {Visit.DECLINED: 0, Visit.UNDER_AGE: 0, Visit.LEFT: 1}
+    assert people.visits == {Unstored.DECLINED: 1, Unstored.UNDER_AGE: 0, Unstored.LEFT: 0}
+    assert rehearsals.visits == {Unstored.DECLINED: 0, Unstored.UNDER_AGE: 0, Unstored.LEFT: 1}
 
 
 def test_raised_quotas_are_counted_once(folder: Path) -> None:
