@@ -44,8 +44,9 @@ SMALL = Settings.model_validate(
 )
 """All the stages of the study, but small boards: kills are to be spread over the stages, not over one long game."""
 
-LATEST = 12
-"""A kill comes at most so many reports after the first one of its stage."""
+LATEST = {"consent": 5, "about_you": 8, "practice": 10, "game": 40, "questions": 20}
+LATEST_ELSEWHERE = 2
+"""A kill comes at most so many reports after the first one of its stage; or with the first of the next stage."""
 
 
 def main() -> None:
@@ -113,7 +114,7 @@ class Killing:
 
 def kill_in(stage: str, after: int, reports: Iterator[dict[str, Any]]) -> Killing:
     """Let the kiosk come to a stage, take ``after`` more reports, and kill it; or let it end, if it is done before."""
-    killing, left, killed = Killing(), after, False
+    killing, left, killed, reached = Killing(), after, False, False
     for report in reports:
         match report["what"]:
             case "open":
@@ -125,11 +126,11 @@ def kill_in(stage: str, after: int, reports: Iterator[dict[str, Any]]) -> Killin
             case "gone":
                 killing.finished = not killed
                 return killing
-        if killing.stage == stage and not killed:
-            left -= 1
-            if left <= 0:
-                os.kill(killing.opened["pid"], signal.SIGKILL)
-                killed = True
+        reached = reached or killing.stage == stage
+        left -= reached
+        if reached and not killed and (left <= 0 or killing.stage != stage):
+            os.kill(killing.opened["pid"], signal.SIGKILL)
+            killed = True
     raise RuntimeError("the process that forks is gone")
 
 
@@ -192,11 +193,11 @@ def kill_again_and_again(count: int, seed: int, folder: Path) -> Tally:
         assert process.stdin is not None
         assert process.stdout is not None
         reports = reports_of(process.stdout)
-        for number in track(range(count + 1), description="kills", disable=None):
+        for number in track(range(count + 1), description="kills", disable=not sys.stderr.isatty()):
             stage = STAGES[number % len(STAGES)]
             process.stdin.write(json.dumps({"folder": str(folder), "seed": seed + number}) + "\n")
             process.stdin.flush()
-            killing = kill_in(stage, chance.randint(1, LATEST), reports)
+            killing = kill_in(stage, chance.randint(1, LATEST.get(stage, LATEST_ELSEWHERE)), reports)
             tally.faults += [f"kill {number} in {stage}: {fault}" for fault in faults(folder, killing, cut_off=cut_off)]
             tally.kills[killing.stage] += not killing.finished
             tally.acknowledged += len(killing.written)
