@@ -1,8 +1,11 @@
 """Recollect: a kiosk for studies in which a robot helps a person play Concentration.
 
 The rooms, from the bottom: game, assistant, study, robot and store (which never meet), then ui, training and
-analysis (which never meet), and cli, the front door. Imports go one way only; ``tests/test_walls.py`` holds the walls.
+analysis (which never meet), and cli, the front door; keeping stands beside them. Imports go one way only;
+``tests/test_walls.py`` holds the walls.
 """
+
+import sys
 
 __version__ = "0.1.0"
 
@@ -22,3 +25,8 @@ class BadInput(Exception):
     def __str__(self) -> str:
         """The sentences, one per line."""
         return "\n".join(self.sentences)
+
+
+def program(*arguments: str) -> tuple[str, ...]:
+    """The command that runs ``recollect`` with these arguments in another process, from a checkout or a build."""
+    return (sys.executable, *(() if getattr(sys, "frozen", False) else ("-m", "kiosk")), *arguments)

@@ -18,6 +18,7 @@ BAD_INPUT = 2
 
 _COMMANDS = {
     "open": "kiosk.cli.sitting:open_kiosk",
+    "keep": "kiosk.cli.keep:keep",
     "rehearse": "kiosk.cli.sitting:rehearse",
     "study": "kiosk.cli.study:study",
     "robot": "kiosk.cli.robot:robot",
@@ -33,6 +34,11 @@ _COMMANDS = {
     "simulate": "kiosk.cli.learning:simulate",
     "policy": "kiosk.cli.learning:policy",
 }
+_WORKERS = {
+    "meanwhile": "kiosk.cli.keep:meanwhile",
+    "voice": "kiosk.cli.voice:voice",
+}
+"""Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
 
 
 class Front(click.Group):
@@ -44,9 +50,10 @@ class Front(click.Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
         """Load one command."""
-        if cmd_name not in _COMMANDS:
+        place = (_COMMANDS | _WORKERS).get(cmd_name)
+        if place is None:
             return None
-        module, name = _COMMANDS[cmd_name].split(":")
+        module, name = place.split(":")
         command: click.Command = getattr(import_module(module), name)
         return command
 

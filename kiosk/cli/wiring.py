@@ -33,14 +33,26 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
     return settings.model_copy(update={"robot": robot.model_copy(update=found | given)})
 
 
-def log_into(folder: Path) -> None:
+class _SharedFile(logging.FileHandler):
+    """A log that another process keeps: it is opened for each line, so that the other may begin a new file."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        super().emit(record)
+        self.close()
+
+
+def log_into(folder: Path, *, shared: bool = False) -> None:
     """Keep a log in a data folder, in files that never grow large; it holds faults and failures, nothing personal.
 
-    Raises BadInput if it cannot be written there.
+    With ``shared`` only lines are added to what another process keeps. Raises BadInput if it cannot be written there.
     """
+    handler: logging.FileHandler
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        handler = RotatingFileHandler(folder / LOG, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8")
+        if shared:
+            handler = _SharedFile(folder / LOG, encoding="utf-8")
+        else:
+            handler = RotatingFileHandler(folder / LOG, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8")
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
     logging.basicConfig(

@@ -24,6 +24,7 @@ from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.every import Screens
 from kiosk.ui.screens.life import IdleLife
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
+from kiosk.ui.watchdog import watched
 from kiosk.ui.window import Mode, Pace, Window
 from kiosk.ui.work import Landing
 
@@ -78,7 +79,8 @@ class App:
 
     def run(self) -> None:
         """Run until somebody leaves the kiosk."""
-        self._loop.run()
+        with watched(self.window, self.screens.kiosk):
+            self._loop.run()
 
     def quit(self) -> None:
         """Leave the kiosk."""

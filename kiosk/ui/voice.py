@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import json
 import logging
-import sys
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
+from kiosk import program
 from kiosk.robot.body import Health
 from kiosk.settings import Voice as VoiceSettings
 from kiosk.ui.clock import Clock, Wait
@@ -211,7 +211,7 @@ class EngineVoice(Voice):
     def _worker(self) -> tuple[str, ...]:
         """The command that starts the engine for the language at hand."""
         settings = self._settings
-        return (sys.executable, "-m", "kiosk.robot.speech", self._language, str(settings.rate), str(settings.volume))
+        return program("voice", self._language, str(settings.rate), str(settings.volume))
 
     def _send(self, command: dict[str, Any]) -> None:
         if self._process is not None:
