@@ -20,6 +20,8 @@ LOG_BYTES = 1_000_000
 LOGS_KEPT = 3
 
 _GIT_DEADLINE_S = 2
+_BUILT_FROM = Path(__file__).parents[1] / "commit.txt"
+"""In a build, the commit that it was made from."""
 
 
 def read_settings(study: Path | None, robot_host: str | None = None, robot_port: int | None = None) -> Settings:
@@ -61,7 +63,9 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
 
 
 def code_commit() -> str:
-    """The commit that runs, with "-dirty" if it was changed since; "released" outside a checkout."""
+    """The commit that runs, with "-dirty" if it was changed since; "released" outside a checkout and a build."""
+    if _BUILT_FROM.is_file():
+        return _BUILT_FROM.read_text("utf-8")
     try:
         described = subprocess.run(
             ["git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"],  # noqa: S607 - git is on the path

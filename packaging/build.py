@@ -1,0 +1,121 @@
+"""The builds: ``folder``, Recollect with its own Python and Qt in one folder; ``deb``, that folder as a Debian package.
+
+Run in the checkout, with any Python 3.11: it goes on with the one in ``.venv``, which ``bootstrap.py test`` makes.
+What is built lies in ``dist``; nothing else is changed but ``build``. How it is trimmed is in ``trim.py``.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV_PYTHON = ROOT / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+WORK = ROOT / "build" / "pyinstaller"
+DIST = ROOT / "dist"
+NAME = "recollect"
+
+DATA = {"assets": "kiosk/assets", "policies": "kiosk/policies", "kiosk/ui/qml": "kiosk/ui/qml"}
+"""Folders of the checkout, and where kiosk/settings.py looks for them in a build."""
+HIDDEN = ("pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
+"""What is imported by a name that is only known at run time."""
+EXCLUDED = (
+    *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),
+    *("tkinter", "IPython", "pytest", "_pytest", "hypothesis", "setuptools", "pkg_resources", "mypy"),
+)
+
+
+class BuildFailed(Exception):
+    """The build cannot go on; the message says why, in words for the person at the keyboard."""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Build what the first argument says, and return the exit code."""
+    kinds = {"folder": (folder,), "deb": (deb,), "all": (folder, deb)}
+    if len(arguments) != 1 or arguments[0] not in kinds:
+        print("Use: python3 packaging/build.py folder|deb|all", file=sys.stderr)
+        return 2
+    if importlib.util.find_spec("PyInstaller") is None:
+        return _go_on_in_venv(arguments)
+    try:
+        for build in kinds[arguments[0]]:
+            began = time.monotonic()
+            print(f"{build()} ({time.monotonic() - began:.0f} s)", flush=True)
+    except BuildFailed as failure:
+        print(failure, file=sys.stderr)
+        return 1
+    return 0
+
+
+def _go_on_in_venv(arguments: Sequence[str]) -> int:
+    """Run this file with the Python of the checkout's environment, if that is another one."""
+    if not VENV_PYTHON.exists() or Path(sys.prefix) == VENV_PYTHON.parent.parent:
+        print("PyInstaller is missing: run python3 packaging/bootstrap.py test first.", file=sys.stderr)
+        return 1
+    return subprocess.run([VENV_PYTHON, __file__, *arguments], check=False).returncode
+
+
+def folder() -> str:
+    """Build the folder ``dist/recollect``, and say how large it is."""
+    import trim  # noqa: PLC0415 - needs PyInstaller
+
+    WORK.mkdir(parents=True, exist_ok=True)
+    commit = WORK / "commit.txt"
+    commit.write_text(_commit(), encoding="utf-8")
+    options = [
+        *("--name", NAME, "--noconfirm", "--clean", "--log-level", "ERROR", "--noupx", "--console"),
+        *("--paths", str(ROOT), "--collect-submodules", "kiosk"),
+        *("--distpath", str(DIST), "--workpath", str(WORK), "--specpath", str(WORK)),
+        *(f"--add-data={ROOT / source}{os.pathsep}{place}" for source, place in DATA.items()),
+        f"--add-data={commit}{os.pathsep}kiosk",
+        *(f"--hidden-import={name}" for name in HIDDEN),
+        *(f"--exclude-module={name}" for name in EXCLUDED),
+        # Not --strip: numpy's linear algebra does not survive it.
+        *(["--hide-console", "hide-early"] if os.name == "nt" else []),
+    ]
+    done = subprocess.run(
+        [sys.executable, "-m", "PyInstaller", *options, str(ROOT / "packaging" / "frozen.py")], cwd=ROOT, check=False
+    )
+    if done.returncode:
+        raise BuildFailed(f"PyInstaller ended with exit code {done.returncode}.")
+    built = DIST / NAME
+    before = _megabytes(built)
+    trim.trim(built, ROOT)
+    return f"{built.relative_to(ROOT)}: {_megabytes(built)} MB, {before} MB before it was trimmed"
+
+
+def deb() -> str:
+    """Build the Debian package of the folder, which must be there, and say how large it is."""
+    built = DIST / NAME
+    if not built.is_dir():
+        raise BuildFailed("There is no dist/recollect yet: build the folder first.")
+    if shutil.which("dpkg-deb") is None:
+        raise BuildFailed("A Debian package is built with dpkg-deb, which is missing here.")
+    import debian  # noqa: PLC0415 - not wanted elsewhere
+
+    package = debian.package(built, WORK, DIST)
+    return f"{package.relative_to(ROOT)}: {_megabytes(package)} MB"
+
+
+def _commit() -> str:
+    described = subprocess.run(
+        ["git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"],  # noqa: S607 - git is on the path
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return described.stdout.strip() or "released"
+
+
+def _megabytes(path: Path) -> int:
+    files = [path] if path.is_file() else [file for file in path.rglob("*") if file.is_file() and not file.is_symlink()]
+    return round(sum(file.stat().st_size for file in files) / 1_000_000)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
