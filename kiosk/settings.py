@@ -215,7 +215,7 @@ class Voice(Declared):
 
     enabled: Annotated[bool, Field(description="Whether sentences are spoken as well as shown.")] = True
     rate: Annotated[
-        int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks, in words per minute.")
+        int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks; 110 is slow.")
     ] = 150
     volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
     sounds: Annotated[
@@ -226,8 +226,15 @@ class Voice(Declared):
 class Screen(Declared):
     """The window."""
 
+    number: Annotated[NonNegativeInt, Field(description="Which screen it covers; 0 is the primary one.")] = 0
     text_size: Annotated[PositiveFloat, Field(le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
+    contrast: Annotated[
+        Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
+    ] = "normal"
+    board: Annotated[
+        Literal["left", "right"], Field(description="On which side of the assistant the board is, on a wide screen.")
+    ] = "left"
 
 
 class Robot(Declared):

@@ -16,6 +16,7 @@ from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
+from kiosk.ui.booth.window import BoothWindow
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
 from kiosk.ui.desk import Desk
@@ -25,7 +26,7 @@ from kiosk.ui.screens.every import Screens
 from kiosk.ui.screens.life import IdleLife
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
 from kiosk.ui.watchdog import watched
-from kiosk.ui.window import Mode, Pace, Window
+from kiosk.ui.window import Display, Mode, Pace, Window
 from kiosk.ui.work import Landing
 
 _log = logging.getLogger(__name__)
@@ -42,6 +43,7 @@ class App:
         settings = desk.study.settings
         self._window = Window(desk.study, mode)
         owner = self._window.owner
+        self.booth = self._show(settings, mode.display)
         self.clock = _clock(mode, owner)
         self.started_ms = self.clock.now_ms()
         self.conductor = Conductor(self.screens, recorder, self.clock, desk)
@@ -93,12 +95,21 @@ class App:
         self.bodies.close()
         self._landing.close()
         self._voice.close()
+        if self.booth is not None:
+            self.booth.release()
         self._window.close()
 
     def fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
         """A fault of ours: into the log with it, and a calm screen for the visitor."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.conductor.pause()
+
+    def _show(self, settings: Settings, display: Display) -> BoothWindow | None:
+        """Show the window; over the full screen it is one that nobody leaves."""
+        if display is Display.FULL_SCREEN:
+            return BoothWindow(self.window, settings.screen.number, self._window.owner)
+        self._window.show()
+        return None
 
     def _take_robot(self, device: Robot | None, settings: Settings) -> None:
         if device is None:

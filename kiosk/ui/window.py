@@ -9,7 +9,7 @@ from enum import Enum
 from pathlib import Path
 
 # PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QUrl
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
@@ -57,7 +57,7 @@ class Window:
     """All that can be seen. Only one can be in a process."""
 
     def __init__(self, study: Study, mode: Mode) -> None:
-        """Show the window of this study; every screen of it is empty."""
+        """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
         self.application = _application(mode.display)
         self.owner = QObject()
         """What belongs to the window lives as long as this."""
@@ -65,6 +65,14 @@ class Window:
         self._engine = QQmlApplicationEngine()
         self.shown = self._load(study.settings, mode)
         """Qt's own window."""
+
+    def show(self, display: Display = Display.WINDOW) -> None:
+        """Show it as a window that can be left, over the full screen or not."""
+        if display is Display.FULL_SCREEN:
+            self.shown.showFullScreen()
+        else:
+            self.shown.show()
+        self.shown.requestActivate()
 
     def drive_by(self, bar: ReplayBar | None) -> None:
         """Show this bar below the screens, or none."""
@@ -94,7 +102,6 @@ class Window:
         window = self._engine.rootObjects()[0]
         if not isinstance(window, QQuickWindow):
             raise TypeError(f"{QML} holds a {type(window).__name__}, not a window")
-        _show(window, mode.display)
         return window
 
 
@@ -119,14 +126,3 @@ def _application(display: Display) -> QGuiApplication:
     application.setFont(QFont("Noto Sans"))
     application.setWindowIcon(QIcon(str(ASSETS / "icon.svg")))
     return application
-
-
-def _show(window: QQuickWindow, display: Display) -> None:
-    if display is Display.FULL_SCREEN:
-        window.setFlags(window.flags() | Qt.WindowType.FramelessWindowHint | Qt.WindowType.WindowStaysOnTopHint)
-        # Without a window manager nobody obeys a wish for the full screen: take its size as well.
-        window.setGeometry(window.screen().geometry())
-        window.showFullScreen()
-    else:
-        window.show()
-    window.requestActivate()

@@ -62,6 +62,7 @@ class Replay:
         self._window = Window(Study((plan,)), mode)
         owner = self._window.owner
         self._clock = WallClock(owner)
+        self._window.show(mode.display)
         self._performer = Performer(self._window.screens, self._clock, lambda _: None)
         self._performer.bodies = self._bodies(plan, owner)
         self.player = Player(self._performer, self._clock, plan, steps)

@@ -1,0 +1,105 @@
+"""What only the X server can be asked: to show a window on every desktop, to lower what lies over it, to stay lit.
+
+Law: once connected, nothing here raises; another program's window that is gone when it is asked about is no failure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QRect
+from Xlib import X, Xatom
+from Xlib.display import Display
+from Xlib.error import CatchError, DisplayError, XError
+from Xlib.protocol.event import ClientMessage
+from Xlib.xobject.drawable import Window
+
+EVERY_DESKTOP = 0xFFFFFFFF
+
+
+class XServer:
+    """The X server behind one window, on a connection of its own."""
+
+    def __init__(self, window: int) -> None:
+        """``window`` is the window's number at the server. Raises OSError if it cannot be reached."""
+        self._display = _connect()
+        # What is refused concerns other programs' windows; python-xlib would write it to the terminal.
+        self._display.set_error_handler(lambda *_: None)
+        self._root = self._display.screen().root
+        self._window = self._display.create_resource_object("window", window)
+
+    def stick(self) -> None:
+        """Ask the window manager to show the window on every desktop."""
+        desktop = self._display.intern_atom("_NET_WM_DESKTOP")
+        self._window.change_property(desktop, Xatom.CARDINAL, 32, [EVERY_DESKTOP])
+        asked = ClientMessage(window=self._window, client_type=desktop, data=(32, [EVERY_DESKTOP, 1, 0, 0, 0]))
+        self._root.send_event(asked, event_mask=X.SubstructureRedirectMask | X.SubstructureNotifyMask)
+        self._display.flush()
+
+    def clear(self) -> bool:
+        """Lower every window that lies over ours, and say whether there was one."""
+        try:
+            over = [window for window in self._above() if self._covers(window)]
+        except XError:
+            return False
+        for window in over:
+            window.configure(stack_mode=X.Below, onerror=CatchError())
+        self._display.flush()
+        return bool(over)
+
+    def close(self) -> None:
+        """Let go of the connection."""
+        self._display.close()
+
+    def _above(self) -> list[Window]:
+        """The windows above ours, as the server stacks them."""
+        ours = self._window
+        while (parent := ours.query_tree().parent) and parent.id != self._root.id:
+            ours = parent
+        stacked: list[Window] = self._root.query_tree().children
+        below = next((place for place, window in enumerate(stacked) if window.id == ours.id), len(stacked))
+        return stacked[below + 1 :]
+
+    def _covers(self, window: Window) -> bool:
+        """Whether a window can be seen and takes some of our place."""
+        try:
+            seen = window.get_attributes()
+            if seen.map_state != X.IsViewable or seen.win_class != X.InputOutput:
+                return False
+            theirs, ours = window.get_geometry(), self._window.get_geometry()
+            place = self._root.translate_coords(self._window, 0, 0)
+        except XError:
+            return False
+        return QRect(place.x, place.y, ours.width, ours.height).intersects(
+            QRect(theirs.x, theirs.y, theirs.width, theirs.height)
+        )
+
+
+def keep_lit() -> Callable[[], None]:
+    """Switch the server's screen saver and power saving off; the answer sets both as they were.
+
+    Raises OSError if the server cannot be reached.
+    """
+    display = _connect()
+    saver = display.get_screen_saver()
+    display.set_screen_saver(0, 0, X.DefaultBlanking, X.DefaultExposures)
+    saves_power = display.has_extension("DPMS") and bool(display.dpms_info().state)
+    if saves_power:
+        display.dpms_disable()
+    display.sync()
+
+    def restore() -> None:
+        display.set_screen_saver(saver.timeout, saver.interval, saver.prefer_blanking, saver.allow_exposures)
+        if saves_power:
+            display.dpms_enable()
+        display.sync()
+        display.close()
+
+    return restore
+
+
+def _connect() -> Display:
+    try:
+        return Display()
+    except DisplayError as error:
+        raise OSError(str(error)) from error
