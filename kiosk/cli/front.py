@@ -19,7 +19,7 @@ BAD_INPUT = 2
 _COMMANDS = {
     "open": "kiosk.cli.sitting:open_kiosk",
     "keep": "kiosk.cli.keep:keep",
-    "rehearse": "kiosk.cli.sitting:rehearse",
+    "rehearse": "kiosk.cli.rehearsal:rehearse",
     "study": "kiosk.cli.study:study",
     "robot": "kiosk.cli.robot:robot",
     "sittings": "kiosk.cli.records:sittings",

@@ -19,4 +19,6 @@ rehearsal_data_option = click.option(
     help="The data folder; not the one of the study.",
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
+robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
+robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), help="The robot's port.")
 study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")

@@ -1,0 +1,230 @@
+"""The command with which simulated visitors use the real window: one, looked at closely, or a whole day of them."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from itertools import count
+from math import isfinite
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.progress import track
+
+from kiosk import BadInput
+from kiosk.cli.options import json_option, rehearsal_data_option, robot_host_option, robot_port_option, study_option
+from kiosk.cli.wiring import code_commit, read_settings
+from kiosk.robot.flapping import FlappingRobot
+from kiosk.settings import STAGES
+from kiosk.store.recorder import Recorder
+from kiosk.study.after.utterances import body_changes, utterances
+from kiosk.study.condition import Condition
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.events import Event, Stage
+from kiosk.study.plan import Study
+from kiosk.ui.app import App
+from kiosk.ui.desk import Desk, Origin
+from kiosk.ui.rehearsing.day import Holding, crowd, sit_down, summary
+from kiosk.ui.rehearsing.hand import Stuck
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.shots import Shots, make_folder
+from kiosk.ui.rehearsing.visitor import Character, Manner
+from kiosk.ui.window import Display, Mode, Pace, check_screen
+
+LARGEST_SEED = 2**63 - 1
+_STDERR = Console(stderr=True)
+SETTLE_MS = 450
+"""When a picture is taken after its moment, so that nothing moves any more."""
+
+manner_option = click.option(
+    "--visitor",
+    type=click.Choice([manner.value for manner in Manner]),
+    default=Manner.COMPLETES.value,
+    show_default=True,
+    help="What kind of visitor comes.",
+)
+leaves_option = click.option(
+    "--leaves-in",
+    type=click.Choice(STAGES),
+    default=Stage.GAME.value,
+    show_default=True,
+    help="Where a visitor who leaves walks away.",
+)
+
+
+@click.command()
+@click.option(
+    "--seed",
+    type=click.IntRange(0, LARGEST_SEED),
+    default=1,
+    show_default=True,
+    help="The same seed plays the same sitting.",
+)
+@click.option("--headless", is_flag=True, help="Use no screen, and play as fast as the machine allows.")
+@click.option("--speed", type=click.FloatRange(0.01, 1000), help="How many times as fast as in real life.")
+@click.option("--condition", help="The help that the visitor gets: tom, notom, or another cell of the design.")
+@click.option("--language", help="The language that the visitor chooses; by default the study's first.")
+@manner_option
+@leaves_option
+@click.option(
+    "--sittings",
+    type=click.IntRange(1, 100_000),
+    default=1,
+    show_default=True,
+    help="More than one is a day at the booth: visitors of every kind, and a robot that comes and goes.",
+)
+@click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
+@rehearsal_data_option
+@study_option
+@robot_host_option
+@robot_port_option
+@json_option
+def rehearse(
+    seed: int,
+    speed: float | None,
+    condition: str | None,
+    language: str | None,
+    visitor: str,
+    leaves_in: str,
+    sittings: int,
+    shots: Path | None,
+    data: Path,
+    study: Path | None,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    headless: bool,
+    as_json: bool,
+) -> None:
+    """Let a simulated visitor go through a sitting at the real window, or many of them through a day.
+
+    A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
+    """
+    prepared = read_study(read_settings(study, robot_host, robot_port))
+    _check(prepared, speed, language)
+    mode = _mode(speed, headless=headless)
+    check_screen(mode.display)
+    if sittings > 1:
+        _rehearse_day(prepared, mode, data, seed, sittings, as_json=as_json)
+        return
+    if shots is not None:
+        make_folder(shots)
+    character = Character(Manner(visitor), Stage(leaves_in), language or prepared.languages[0])
+    fixed = Condition.named(condition or prepared.settings.assistance.condition)
+    origin = Origin(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
+    with Recorder(data) as recorder, App(mode, recorder, Desk(prepared, recorder, origin)) as app:
+        pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
+        rehearsal = Rehearsal(app, seed, pictures, character)
+        with _stuck_in_words():
+            rehearsal.run()
+        begun = recorder.begun
+    told = _last_sitting(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
+    _tell(told, data, shots, as_json=as_json)
+
+
+def _check(study: Study, speed: float | None, language: str | None) -> None:
+    """Raise BadInput for what no rehearsal can do."""
+    if speed is not None and not isfinite(speed):
+        raise BadInput(f"--speed must be a number, not {speed}")
+    if _has_robot(study) and speed not in {None, 1}:
+        raise BadInput("a robot speaks at its own speed, so a rehearsal with one cannot have another")
+    if language is not None and language not in study.languages:
+        raise BadInput(f"the study has no language {language!r}; it has {', '.join(study.languages)}")
+
+
+def _has_robot(study: Study) -> bool:
+    return study.settings.robot.kind != "none"
+
+
+def _mode(speed: float | None, *, headless: bool) -> Mode:
+    """Without a screen and without a wish for a speed, nothing is waited for."""
+    display = Display.NOWHERE if headless else Display.FULL_SCREEN
+    if headless and speed is None:
+        return Mode(display, Pace.VIRTUAL)
+    return Mode(display, Pace.WALL, speed or 1.0)
+
+
+@contextmanager
+def _stuck_in_words() -> Iterator[None]:
+    try:
+        yield
+    except Stuck as stuck:
+        raise click.ClickException(f"the rehearsal cannot go on: {stuck}") from stuck
+
+
+def _rehearse_day(study: Study, mode: Mode, data: Path, seed: int, sittings: int, *, as_json: bool) -> None:
+    """Visitors of every kind, one after another, in one process."""
+    visitors = tuple(crowd(sittings, seed, study.languages))
+    seeds = count(seed)
+    origin = Origin(code_commit(), simulated=True, seed=lambda: next(seeds))
+    robot = None if _has_robot(study) else FlappingRobot(seed)
+    begun = monotonic()
+    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
+        day = sit_down(app, seed, visitors, data)
+        with _stuck_in_words():
+            holdings = list(track(day, "sittings", total=sittings, disable=not sys.stderr.isatty(), console=_STDERR))
+        stored = recorder.begun
+    told = summary(visitors, holdings) | {"stored": stored, "seconds": round(monotonic() - begun)} | _ends(data, stored)
+    click.echo(json.dumps(told) if as_json else _in_words(told))
+
+
+def _ends(data: Path, stored: int) -> dict[str, Any]:
+    """How the stored sittings ended, and how often another body had to help."""
+    from kiosk.store.reading import archive  # noqa: PLC0415 - a tenth of a second that opening need not pay
+
+    with archive(data) as there:
+        played = there.sittings()[-stored:] if stored else []
+        changes = sum(body_changes(there.events(sitting.id)) for sitting in played)
+    ends = Counter(sitting.status.value if sitting.status else "running" for sitting in played)
+    return {"ends": dict(ends), "body_changes": changes}
+
+
+def _in_words(told: dict[str, Any]) -> str:
+    lines = [
+        f"{told['sittings']} visitors in {told['seconds']} s, {told['stored']} sittings stored: {told['ends']}.",
+        f"The robot was lost {told['body_changes']} times.",
+        f"Longest gap of the event loop {told['longest_gap_ms']} ms, median of a sitting's {told['median_gap_ms']} ms.",
+        "              after warm-up   at the end   per sitting",
+    ]
+    begun, ended, slopes = told["after_warm_up"], told["at_the_end"], told["slopes_per_sitting"]
+    lines += [f"{name:15}{begun[name]:12}{ended[name]:13}{slopes[name]:14}" for name in Holding.__dataclass_fields__]
+    left = "Nothing is left over." if told["nothing_is_left"] else "Something is left over at the end of the day."
+    return "\n".join((*lines, left))
+
+
+def _last_sitting(data: Path, longest_gap_ms: float | None) -> dict[str, Any]:
+    """The sitting that was just stored; with a robot, what became of its sentences besides."""
+    from kiosk.store.reading import archive  # noqa: PLC0415 - a tenth of a second that opening need not pay
+
+    with archive(data) as stored:
+        played = stored.sittings()[-1].to_json()
+        if longest_gap_ms is not None:
+            played |= _with_robot(stored.events(played["sitting"]), longest_gap_ms)
+    return played
+
+
+def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
+    return {
+        "longest_gap_ms": round(longest_gap_ms, 1),
+        "body_changes": body_changes(events),
+        "utterances": asdict(utterances(events)),
+    }
+
+
+def _tell(played: dict[str, Any], data: Path, shots: Path | None, *, as_json: bool) -> None:
+    if as_json:
+        click.echo(json.dumps(played))
+        return
+    if "sitting" in played:
+        line = "Sitting {sitting} ({condition}) {status}: {pairs} pairs in {moves} moves, {hints} hints."
+        click.echo(line.format(**played))
+        click.echo(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else "."))
+    else:
+        click.echo("The visitor did not take part, so nothing is stored but that they came.")

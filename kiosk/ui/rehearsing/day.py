@@ -1,0 +1,106 @@
+"""A day at the booth: one simulated visitor after another, of every manner, and what the process holds meanwhile."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from random import Random
+from statistics import linear_regression, median
+from typing import Any
+
+import psutil
+
+from kiosk.settings import STAGES
+from kiosk.study.events import Stage
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.visitor import Character, Manner
+
+KIB = 1024
+
+_CROWD = {
+    Manner.COMPLETES: 62,
+    Manner.LEAVES: 14,
+    Manner.HASTY: 10,
+    Manner.DECLINES: 7,
+    Manner.UNDER_AGE: 7,
+}
+"""Of a hundred visitors, how many have which manner; our own guess, with every manner well represented."""
+
+WARM_UP = 0.1
+"""The share of the day before anything is compared: pictures and sentences are loaded when they are first needed."""
+
+
+@dataclass(frozen=True)
+class Holding:
+    """What the process holds after a sitting; the gap is the event loop's longest during it."""
+
+    memory_kib: int
+    handles: int
+    threads: int
+    children: int
+    database_kib: int
+    longest_gap_ms: float
+
+    @classmethod
+    def now(cls, data: Path, longest_gap_ms: float) -> Holding:
+        """Look at this process, and at the files of its data folder."""
+        gc.collect()
+        process = psutil.Process()
+        handles = process.num_handles() if sys.platform == "win32" else process.num_fds()
+        stored = sum(file.stat().st_size for file in data.glob("recollect.db*"))
+        return cls(
+            process.memory_info().rss // KIB,
+            handles,
+            process.num_threads(),
+            len(process.children()),
+            stored // KIB,
+            round(longest_gap_ms, 1),
+        )
+
+
+def crowd(sittings: int, seed: int, languages: Sequence[str]) -> Iterator[Character]:
+    """So many visitors of every manner, as a seed draws them."""
+    chance = Random(f"{seed}/crowd")
+    leaving = [Stage(name) for name in STAGES]
+    for _ in range(sittings):
+        manner = chance.choices(list(_CROWD), list(_CROWD.values()))[0]
+        yield Character(manner, chance.choice(leaving), chance.choice(languages))
+
+
+def sit_down(app: App, seed: int, visitors: Sequence[Character], data: Path) -> Iterator[Holding]:
+    """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on."""
+    for number, visitor in enumerate(visitors):
+        rehearsal = Rehearsal(app, seed + number, visitor=visitor)
+        rehearsal.run()
+        yield Holding.now(data, rehearsal.pulse.longest_ms)
+
+
+def summary(visitors: Sequence[Character], holdings: Sequence[Holding]) -> dict[str, Any]:
+    """The day in figures: slopes per sitting after the warm-up, and what was held then and at the end."""
+    after = holdings[min(int(WARM_UP * len(holdings)), len(holdings) - 1) :]
+    gaps = [holding.longest_gap_ms for holding in after]
+    return {
+        "sittings": len(visitors),
+        "visitors": dict(Counter(visitor.manner.value for visitor in visitors)),
+        "slopes_per_sitting": {name: _slope([getattr(h, name) for h in after]) for name in asdict(after[0])},
+        "after_warm_up": asdict(after[0]),
+        "at_the_end": asdict(after[-1]),
+        "longest_gap_ms": max(gaps),
+        "median_gap_ms": median(gaps),
+        "nothing_is_left": _nothing_is_left(after[0], after[-1]),
+    }
+
+
+def _slope(values: Sequence[float]) -> float:
+    """How much a figure grew from one sitting to the next, by least squares."""
+    return round(linear_regression(range(len(values)), values).slope, 4) if len(values) > 1 else 0.0
+
+
+def _nothing_is_left(begun: Holding, ended: Holding) -> bool:
+    """Whether handles, threads and child processes are as few at the end as after the warm-up."""
+    return ended.handles <= begun.handles and ended.threads <= begun.threads and ended.children <= begun.children
