@@ -22,19 +22,12 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.settings import Settings
 from kiosk.store.reading import Archive, archive
-from kiosk.store.recorder import Recorder
-from kiosk.study.condition import Condition
-from kiosk.study.declared.checked.whole import read_study
 from kiosk.ui.app import App
 from kiosk.ui.clock import VirtualClock
-from kiosk.ui.desk import Desk, Origin
-from kiosk.ui.rehearsing.rehearsal import Rehearsal, find, lay_out, middle
-from kiosk.ui.window import Display, Mode, Pace
-
-SHORT = Settings.model_validate(
-    {"stages": ["introduction", "game", "result", "questions"], "questionnaires": ["trust"], "languages": ["en"]}
-)
-"""A study of the game and little else, for what is about the game."""
+from kiosk.ui.rehearsing.hand import find, lay_out, middle
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.visitor import Character
+from tests.ui.headless import headless, short
 
 
 @pytest.fixture(scope="session")
@@ -94,13 +87,13 @@ class Booth:
         return self.app.screens.kiosk.shown
 
     def start_game(self) -> None:
-        """Go from attract to the game."""
+        """Go from attract to the game of a short study."""
         self.click("start-en")
         self.click("continue")
 
-    def rehearse(self, seed: int) -> None:
-        """Let a simulated visitor play a whole sitting."""
-        Rehearsal(self.app, seed).run()
+    def rehearse(self, seed: int, visitor: Character = Character()) -> None:  # noqa: B008 - it is frozen
+        """Let a simulated visitor go through a whole sitting."""
+        Rehearsal(self.app, seed, visitor=visitor).run()
 
 
 MakeBooth = Callable[..., Booth]
@@ -108,15 +101,12 @@ MakeBooth = Callable[..., Booth]
 
 @pytest.fixture
 def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
-    """Build a booth; all are taken down at the end."""
+    """Build a booth, with a short study unless told otherwise; all are taken down at the end."""
     with ExitStack() as built:
 
         def make(seed: int = 1, condition: str = "tom", settings: Settings | None = None) -> Booth:
             data = Path(mkdtemp(dir=tmp_path))
-            recorder = built.enter_context(Recorder(data))
-            origin = Origin("a test", simulated=True, seed=lambda: seed, condition=Condition.named(condition))
-            desk = Desk(read_study(settings or SHORT), recorder, origin)
-            app = built.enter_context(App(Mode(Display.NOWHERE, Pace.VIRTUAL), recorder, desk))
+            app = built.enter_context(headless(settings or short(), data, seed=seed, condition=condition))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             return Booth(app, data)
 
@@ -125,7 +115,7 @@ def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
 
 @pytest.fixture
 def booth(make_booth: MakeBooth) -> Booth:
-    """One booth in the condition ToM."""
+    """One booth in the condition ToM, with a short study."""
     return make_booth()
 
 

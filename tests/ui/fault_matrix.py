@@ -12,19 +12,18 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
 from random import Random
 
 import click
 
-from kiosk.cli.wiring import make_plan, read_settings
+from kiosk.cli.wiring import read_settings
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.app import App
-from kiosk.ui.window import Display, Mode, Pace
 from tests.robot.furhat_fake import FAULTS
 from tests.robot.furhat_fake import Mode as Fault
+from tests.ui.headless import headless
 from tests.ui.sabotage import Moment, Outcome, Sabotage, outcome, replayed
 
 CLICKS = 60
@@ -55,14 +54,9 @@ class Robot:
         self._process.communicate()
 
 
-@contextmanager
-def kiosk(port: int, data: Path) -> Iterator[App]:
+def kiosk_with_robot(port: int, data: Path) -> AbstractContextManager[App]:
     """A kiosk without a screen, with the robot on this port."""
-    plan = make_plan(read_settings(None, "127.0.0.1", port))
-    provenance = Provenance(plan, 1, "avatar", "a test", simulated=True)
-    mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
-    with Recorder(data) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
-        yield app
+    return headless(read_settings(None, "127.0.0.1", port), data)
 
 
 def sitting(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Outcome:
@@ -104,7 +98,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         for number, (fault, at) in enumerate(planned(seeds)):
             robot, data = Robot(), Path(folder) / str(number)
-            with kiosk(robot.port, data) as app:
+            with kiosk_with_robot(robot.port, data) as app:
                 results.append(sitting(app, data, robot, fault, at))
             robot.close()
             click.echo(line(fault, at, results[-1]))

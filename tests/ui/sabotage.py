@@ -51,7 +51,7 @@ class Sabotage(Rehearsal):
         board, shown = self._app.screens.board, self._app.screens.kiosk.shown
         match self._at:
             case Moment.INTRODUCTION:
-                return name == "start"
+                return name.startswith("start-")
             case Moment.GAME:
                 return shown == "introduction"
             case Moment.MIDDLE:

@@ -22,7 +22,7 @@ from kiosk.store.reading import archive
 from kiosk.study.after.utterances import body_changes
 from kiosk.study.events import Status
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from tests.ui.fault_matrix import Robot, kiosk
+from tests.ui.fault_matrix import Robot, kiosk_with_robot
 
 WARM_UP = 10
 """Sittings before anything is counted: pictures, fonts and sentences are loaded when they are first needed."""
@@ -73,7 +73,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         data = Path(folder)
         begun = Counted.now()
-        with kiosk(robot.port, data) as app:
+        with kiosk_with_robot(robot.port, data) as app:
             longest = 0.0
             for seed in range(WARM_UP + sittings):
                 if seed == WARM_UP:

@@ -9,14 +9,14 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk.game import Position
-from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Recorder, StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.events import Event, Status
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import short
 
-QUICK = Settings.model_validate({"timing": {"idle": 2_000, "idle_game": 3_000, "still_there": 1_000}})
+QUICK = short(idle={"game": 3_000, "still_there": 1_000})
 
 
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature
@@ -27,7 +27,7 @@ def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - t
 def test_a_tap_that_cannot_be_recorded_is_not_shown(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    booth.click("start")
+    booth.click("start-en")
     assert booth.screen == "introduction"
     monkeypatch.setattr(Recorder, "append", refuse)
     booth.click("continue")
@@ -40,7 +40,7 @@ def test_a_tap_that_cannot_be_recorded_is_not_shown(
 def test_after_a_failure_of_the_disk_the_kiosk_goes_on_by_itself(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    booth.click("start")
+    booth.click("start-en")
     with monkeypatch.context() as patch:
         patch.setattr(Recorder, "append", refuse)
         booth.click("continue")
@@ -124,7 +124,7 @@ def test_a_word_from_the_last_sitting_changes_nothing_in_the_next(
     booth.app.conductor.speech_finished(4)
     assert booth.screen == "attract"
     assert "SpeechFinished has no place in the stage attract" in caplog.text
-    booth.click("start")
+    booth.click("start-en")
     with archive(booth.data) as stored:
         assert stored.events(1)[0] == happened.StartTapped(at_ms=0)
 

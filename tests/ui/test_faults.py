@@ -11,7 +11,6 @@ from random import Random
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
@@ -19,6 +18,7 @@ from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robot.realtime_fake import Mode as Broken
 from tests.robot.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
@@ -36,7 +36,7 @@ def fake() -> Iterator[FurhatFake]:
 def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
     """A kiosk with this robot."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
-    return make_booth(settings=Settings.model_validate({"robot": robot}))
+    return make_booth(settings=short(robot=robot))
 
 
 def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Outcome:
@@ -93,7 +93,7 @@ def test_a_fault_in_any_stage_costs_nobody_anything(booth: Booth, fake: FurhatFa
 def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: MakeBooth, mode: Broken) -> None:
     with RealtimeFake() as fake:
         robot = {"kind": "furhat-realtime", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
-        booth = make_booth(settings=Settings.model_validate({"robot": robot}))
+        booth = make_booth(settings=short(robot=robot))
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()
         with archive(booth.data) as stored:

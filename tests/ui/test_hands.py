@@ -9,18 +9,17 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
-from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App, Display, Mode
-from kiosk.ui.rehearsing.rehearsal import middle
+from kiosk.ui.rehearsing.hand import middle
+from kiosk.ui.window import Display, Mode
 from tests.ui.conftest import Booth
+from tests.ui.headless import headless
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
 
 
 def test_the_second_half_of_a_double_click_does_nothing_on_the_next_screen(booth: Booth) -> None:
-    booth.click("start")
+    booth.click("start-en")
     booth.settle()
     place = middle(booth.item("continue"))
     for _ in range(2):
@@ -54,10 +53,7 @@ def test_a_key_that_is_held_down_is_pressed_once(booth: Booth) -> None:
 
 
 def test_the_booth_lives_while_nobody_is_there(qtbot: QtBot, tmp_path: Path) -> None:
-    plan = make_plan(Settings())
-    provenance = Provenance(plan, 1, "avatar", "a test", simulated=True)
-    mode = Mode(Display.NOWHERE, speed=50)
-    with Recorder(tmp_path) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
+    with headless(Settings(), tmp_path, mode=Mode(Display.NOWHERE, speed=50)) as app:
         seen: set[int] = set()
         blinks: set[bool] = set()
         app.screens.attract.changed.connect(lambda: seen.add(int(str(app.screens.attract.property("shown")))))

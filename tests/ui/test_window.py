@@ -12,8 +12,8 @@ from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
 from kiosk.settings import ASSETS, Settings
-from kiosk.ui.app import QML
 from kiosk.ui.screens.words import FIXED
+from kiosk.ui.window import QML
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
 
@@ -131,8 +131,8 @@ def test_everything_that_can_be_clicked_lies_inside_a_window_of_any_size(
 
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:
     booth = make_booth(settings=Settings.model_validate({"screen": {"text_size": 1.3}}))
-    start = booth.item("start")
-    plain = make_booth().item("start")
+    start = booth.item("start-en")
+    plain = make_booth().item("start-en")
     assert start.height() > plain.height()
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from random import Random
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
@@ -14,6 +16,9 @@ NO_KEY = Qt.KeyboardModifier.NoModifier
 MOST_SCROLLS = 50
 
 
+Aside = Callable[[], AbstractContextManager[None]]
+
+
 class Stuck(Exception):
     """The visitor cannot go on; the message says where, and what was looked for."""
 
@@ -21,9 +26,10 @@ class Stuck(Exception):
 class Hand:
     """Clicks and types in one window."""
 
-    def __init__(self, window: QQuickWindow) -> None:
-        """Work in this window."""
+    def __init__(self, window: QQuickWindow, aside: Aside = nullcontext) -> None:
+        """Work in this window; what it takes to look for something is done ``aside``, and is not the interface's."""
         self._window = window
+        self._aside = aside
 
     def click(self, name: str, across: float = 0.5) -> None:
         """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1)."""
@@ -51,7 +57,8 @@ class Hand:
     def _reach(self, name: str, across: float) -> QPoint:
         """Where to click on an item; what is further down is scrolled to."""
         for _ in range(MOST_SCROLLS):
-            item = self._look_for(name)
+            with self._aside():
+                item = self._look_for(name)
             place = at(item, across)
             if _in_view(item, place):
                 return place

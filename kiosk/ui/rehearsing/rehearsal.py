@@ -45,7 +45,7 @@ class Rehearsal:
         chance = Random(f"{seed}/visitor")
         self._chance = chance
         self._visitor = Visitor(chance)
-        self._hand = Hand(app.window)
+        self._hand = Hand(app.window, self.pulse.aside)
         self._filling = Filling(self._hand, chance, hasty=visitor.manner is Manner.HASTY)
         self._page: object = None
         self._errands: deque[Errand] = deque()
@@ -148,8 +148,7 @@ class Rehearsal:
             self._page = items
             self._errands = deque(self._filling.errands(self._wanted()))
         if self._errands:
-            with self.pulse.aside():
-                self._errands.popleft()()
+            self._errands.popleft()()
         else:
             self._click("continue")
 
@@ -191,6 +190,5 @@ class Rehearsal:
 
     def _click(self, name: str) -> None:
         """Click on the item of this name, or click it twice if in a hurry."""
-        with self.pulse.aside():
-            act = self._hand.double_click if self._manner is Manner.HASTY else self._hand.click
+        act = self._hand.double_click if self._manner is Manner.HASTY else self._hand.click
         act(name)

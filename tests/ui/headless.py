@@ -1,0 +1,34 @@
+"""A kiosk without a screen, for tests: on virtual time unless told otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from kiosk.settings import Settings
+from kiosk.store.recorder import Recorder
+from kiosk.study.condition import Condition
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.ui.app import App
+from kiosk.ui.desk import Desk, Origin
+from kiosk.ui.window import Display, Mode, Pace
+from tests.samples import SHORT
+
+VIRTUAL = Mode(Display.NOWHERE, Pace.VIRTUAL)
+
+
+def short(**sections: object) -> Settings:
+    """A study without anything to be decided beforehand; ``sections`` are those of a study file."""
+    return Settings.model_validate({"stages": SHORT, "questionnaires": ["trust"], **sections})
+
+
+@contextmanager
+def headless(
+    settings: Settings, data: Path, *, seed: int = 1, condition: str = "tom", mode: Mode = VIRTUAL
+) -> Iterator[App]:
+    """A kiosk with this study, in this condition; every sitting has the same seed."""
+    study = read_study(settings)
+    origin = Origin("a test", simulated=True, seed=lambda: seed, condition=Condition.named(condition))
+    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin)) as app:
+        yield app
