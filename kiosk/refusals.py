@@ -64,17 +64,18 @@ def not_toml(error: Exception) -> str:
 
 def refusals(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
     """A sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
-    errors = error.errors()
-    places = {fault["loc"] for fault in errors}
-    said = (_sentence(fault, given, model) for fault in errors if not _follows(fault, places))
-    return tuple(dict.fromkeys(said))
+    return tuple(dict.fromkeys(_sentence(fault, given, model) for fault in faults(error)))
 
 
-def _follows(fault: ErrorDetails, places: set[tuple[int | str, ...]]) -> bool:
-    """Whether a list is too short only because something in it is wrong, which is said anyway."""
-    here = fault["loc"]
-    inside = (place for place in places if len(place) > len(here) and place[: len(here)] == here)
-    return fault["type"] == "too_short" and any(inside)
+def faults(error: ValidationError) -> tuple[ErrorDetails, ...]:
+    """What pydantic found, but for lists that are too short only because something in them is wrong."""
+    found = error.errors()
+    places = [fault["loc"] for fault in found]
+    return tuple(fault for fault in found if fault["type"] != "too_short" or not _holds(fault["loc"], places))
+
+
+def _holds(here: tuple[int | str, ...], places: Sequence[tuple[int | str, ...]]) -> bool:
+    return any(len(place) > len(here) and place[: len(here)] == here for place in places)
 
 
 def _sentence(fault: ErrorDetails, given: Any, model: type[BaseModel]) -> str:

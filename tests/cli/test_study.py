@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -21,12 +23,29 @@ PAGE = Path(__file__).parents[2] / "docs" / "study-file.md"
 TABLE = "id,kind,scale,text_en,lowest_en,highest_en\none,likert,S,How?,little,much\n"
 
 
-def called(monkeypatch: pytest.MonkeyPatch, *arguments: str | Path) -> int:
-    """The exit code of a command."""
-    monkeypatch.setattr(sys, "argv", ["recollect", *map(str, arguments)])
-    with pytest.raises(SystemExit) as left:
-        main()
-    return int(left.value.code or 0)
+class Called(NamedTuple):
+    """How a command ended, and what it said."""
+
+    code: int
+    out: str
+    err: str
+
+
+Recollect = Callable[..., Called]
+
+
+@pytest.fixture
+def recollect(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Recollect:
+    """The command line."""
+
+    def call(*arguments: str | Path) -> Called:
+        monkeypatch.setattr(sys, "argv", ["recollect", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        said = capsys.readouterr()
+        return Called(int(left.value.code or 0), said.out, said.err)
+
+    return call
 
 
 def files(folder: Path) -> dict[Path, bytes]:
@@ -36,12 +55,12 @@ def files(folder: Path) -> dict[Path, bytes]:
 
 @pytest.mark.parametrize("bad", STUDIES.values(), ids=STUDIES.keys())
 def test_a_study_that_cannot_be_run_is_refused_in_its_own_sentences(
-    bad: Bad, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    bad: Bad, tmp_path: Path, recollect: Recollect
 ) -> None:
     study = bad.write(tmp_path)
     before = files(tmp_path)
-    assert called(monkeypatch, "study", "check", study) == 2
-    said = capsys.readouterr()
+    said = recollect("study", "check", study)
+    assert said.code == 2
     assert said.err.splitlines() == [f"recollect: {sentence}" for sentence in bad.sentences(study)]
     assert said.out == ""
     assert files(tmp_path) == before
@@ -53,23 +72,20 @@ def test_every_sentence_names_a_file(tmp_path: Path) -> None:
     assert [sentence for sentence in said if str(tmp_path) not in sentence and str(ASSETS) not in sentence] == []
 
 
-def test_faults_are_also_told_to_programs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_faults_are_also_told_to_programs(tmp_path: Path, recollect: Recollect) -> None:
     bad = STUDIES["everything at once"]
     study = bad.write(tmp_path)
-    assert called(monkeypatch, "study", "check", study, "--json") == 2
-    said = capsys.readouterr()
+    said = recollect("study", "check", study, "--json")
+    assert said.code == 2
     assert json.loads(said.out) == {"faults": bad.sentences(study)}
     assert said.err == ""
 
 
 @pytest.mark.parametrize("path", ["none.toml", "."])
-def test_a_study_file_that_cannot_be_read_is_refused(
-    path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert called(monkeypatch, "study", "check", tmp_path / path) == 2
-    assert f"the study file {tmp_path / path} cannot be read: " in capsys.readouterr().err
+def test_a_study_file_that_cannot_be_read_is_refused(path: str, tmp_path: Path, recollect: Recollect) -> None:
+    said = recollect("study", "check", tmp_path / path)
+    assert said.code == 2
+    assert f"the study file {tmp_path / path} cannot be read: " in said.err
 
 
 GOOD = {
@@ -97,36 +113,27 @@ GOOD = {
 
 
 @pytest.mark.parametrize("good", GOOD.values(), ids=GOOD.keys())
-def test_a_study_that_can_be_run_is_told_in_short(
-    good: Bad, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert called(monkeypatch, "study", "check", good.write(tmp_path), "--json") == 0
-    assert json.loads(capsys.readouterr().out)["faults"] == []
+def test_a_study_that_can_be_run_is_told_in_short(good: Bad, tmp_path: Path, recollect: Recollect) -> None:
+    said = recollect("study", "check", good.write(tmp_path), "--json")
+    assert (said.code, json.loads(said.out)["faults"]) == (0, [])
 
 
-def test_the_table_says_what_the_study_is(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert called(monkeypatch, "study", "check", PAPER) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    for words in (
-        "en, it, es",
-        "about, consent, age",
-        "tom 28, notom 28",
-        "social-intelligence 16, trust 4",
-        "minutes 9",
-    ):
-        assert words in said
+def test_the_table_says_what_the_study_is(recollect: Recollect) -> None:
+    said = recollect("study", "check", PAPER)
+    assert said.code == 0
+    for words in ("en, it, es", "about, consent, age", "tom 28, notom 28", "trust 4", "minutes 9"):
+        assert words in " ".join(said.out.split())
 
 
-def test_what_may_not_be_meant_is_said_and_refuses_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recollect: Recollect) -> None:
     (tmp_path / "toys").mkdir()
     for number in range(12):
         (tmp_path / "toys" / f"toy{number}.svg").touch()
     study = tmp_path / "study.toml"
     study.write_text("languages = ['en']\nstages = ['game']\n[game]\ndeck = 'toys'\n", "utf-8")
-    assert called(monkeypatch, "study", "check", study, "--json") == 0
-    cautions = json.loads(capsys.readouterr().out)["cautions"]
+    said = recollect("study", "check", study, "--json")
+    assert said.code == 0
+    cautions = json.loads(said.out)["cautions"]
     assert [caution.split(":")[0] for caution in cautions] == [
         "without the stage 'consent', nobody is asked before their sitting is stored",
         "without the stage 'age', nobody is asked whether they are old enough",
@@ -137,22 +144,18 @@ def test_what_may_not_be_meant_is_said_and_refuses_nothing(
     ]
 
 
-def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(tmp_path: Path, recollect: Recollect) -> None:
     study = Bad(TOLD + '\ncontact = "the lab"', (), SHEETS).write(tmp_path)
-    assert called(monkeypatch, "study", "check", study) == 0
-    assert "caution" not in capsys.readouterr().out
+    said = recollect("study", "check", study)
+    assert said.code == 0
+    assert "caution" not in said.out
 
 
 # What is printed
 
 
-def test_the_documented_example_is_printed_from_the_declarations(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert called(monkeypatch, "study", "example") == 0
-    printed = capsys.readouterr().out
+def test_the_documented_example_is_printed_from_the_declarations(recollect: Recollect) -> None:
+    printed = recollect("study", "example").out
     assert printed == as_study_file(Settings())
     assert PAPER.read_text("utf-8") == printed, "write the output of `recollect study example` into it"
 
@@ -181,11 +184,8 @@ def test_settings_other_than_the_defaults_come_back_from_their_file(tmp_path: Pa
     assert Settings.read(tmp_path / "again.toml").model_dump() == settings.model_dump()
 
 
-def test_the_reference_of_every_key_is_printed_from_the_declarations(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert called(monkeypatch, "study", "reference") == 0
-    printed = capsys.readouterr().out
+def test_the_reference_of_every_key_is_printed_from_the_declarations(recollect: Recollect) -> None:
+    printed = recollect("study", "reference").out
     assert printed == as_page(Settings)
     assert PAGE.read_text("utf-8") == printed, "write the output of `recollect study reference` into it"
     assert (
@@ -197,14 +197,12 @@ def test_the_reference_of_every_key_is_printed_from_the_declarations(
 # Bringing in
 
 
-def test_a_table_becomes_a_questionnaire(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_table_becomes_a_questionnaire(tmp_path: Path, recollect: Recollect) -> None:
     (tmp_path / "table.csv").write_text(TABLE, "utf-8")
     out = tmp_path / "own.toml"
     options = ("--id", "own", "--version", "3", "--out", out, "--per-page", "4", "--shuffled")
-    assert called(monkeypatch, "study", "import", tmp_path / "table.csv", *options) == 0
-    assert capsys.readouterr().out == f"1 item written to {out}\n"
+    said = recollect("study", "import", tmp_path / "table.csv", *options)
+    assert said == Called(0, f"1 item written to {out}\n", "")
     read = Questionnaire.read(out)
     assert (read.id, read.version, read.note) == ("own", "3", "Brought in from table.csv.")
     assert (read.per_page, read.order) == (4, Order.SHUFFLED)
@@ -221,11 +219,12 @@ def test_a_table_becomes_a_questionnaire(
     ],
 )
 def test_a_table_that_cannot_be_brought_in_leaves_everything_as_it_was(
-    table: str, out: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    table: str, out: str, said: str, tmp_path: Path, recollect: Recollect
 ) -> None:
     (tmp_path / "table.csv").write_text(table, "utf-8")
     before = files(tmp_path)
     options = ("--id", "own", "--version", "1", "--out", tmp_path / out)
-    assert called(monkeypatch, "study", "import", tmp_path / "table.csv", *options) == 2
-    assert said.replace("{here}", str(tmp_path)) in capsys.readouterr().err
+    refused = recollect("study", "import", tmp_path / "table.csv", *options)
+    assert refused.code == 2
+    assert said.replace("{here}", str(tmp_path)) in refused.err
     assert files(tmp_path) == before

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
 from kiosk import BadInput
-from kiosk.refusals import complaint, refusals
+from kiosk.refusals import complaint, faults, refusals
 from kiosk.study.declared.imported.table import WORDED, Row, Table
 from kiosk.study.declared.questionnaire import (
     Differential,
@@ -43,7 +43,9 @@ MODELS: Mapping[str, Model] = {
     "page": Page,
 }
 
-_YES = {"yes": True, "true": True, "1": True, "x": True, "no": False, "false": False, "0": False}
+_YES = dict.fromkeys(("yes", "y", "true", "vero", "verdadero", "1", "x"), True)
+_NO = dict.fromkeys(("no", "n", "false", "falso", "0"), False)
+"""Spreadsheet programs write truth in their own language."""
 
 
 @dataclass(frozen=True)
@@ -94,17 +96,16 @@ class _Reading:
             what = f"it must be one of {', '.join(MODELS)}, but it is {kind!r}" if kind else "it is empty"
             self._blame(row, "kind", what)
             return None
-        before = len(self.faults)
         given, used = self._given(row, MODELS[kind])
         for column in (column for column in row.cells if column not in used):
             self._blame(row, column, f"an item of the kind {kind!r} has none, so the cell must be empty")
-        if len(self.faults) > before:
-            return None
         try:
             return MODELS[kind].model_validate(given)
         except ValidationError as error:
-            for fault in error.errors():
-                self._blame(row, self._column(fault["loc"]), complaint(fault, MODELS[kind]))
+            # What is missing was said when its cell was read.
+            for fault in (fault for fault in faults(error) if fault["type"] != "missing"):
+                what = complaint(fault, MODELS[kind])
+                self._blame(row, self._column(fault["loc"]), f"it {what}" if what.startswith("must ") else what)
             return None
 
     def _given(self, row: Row, model: Model) -> tuple[dict[str, Any], set[str]]:
@@ -122,12 +123,12 @@ class _Reading:
                 if column not in row.cells:
                     lacks = "it is empty" if column in self.table.columns else "there is no such column"
                     self._blame(row, column, f"{lacks}, but an item of the kind {row.cells['kind']!r} needs it")
-            if len(filled) == len(columns):
-                given[key] = self._read(row, key, columns, reading)
+            if len(filled) == len(columns) and (value := self._read(row, key, columns, reading)) is not None:
+                given[key] = value
         return given, used
 
     def _read(self, row: Row, key: str, columns: Sequence[str], reading: Callable[[str], Any] | None) -> Any:
-        """The value of one field, from its cell or, for words, from that of every language."""
+        """The value of one field, from its cell or, for words, from that of every language; None if it is none."""
         if key == "options":
             return self._options(row, columns)
         if reading is None:
@@ -138,19 +139,28 @@ class _Reading:
             self._blame(row, key, str(error))
             return None
 
-    def _options(self, row: Row, columns: Sequence[str]) -> list[dict[str, Any]]:
+    def _options(self, row: Row, columns: Sequence[str]) -> list[dict[str, Any]] | None:
         """The options of a choice: ``id=word;id=word`` in each language, with the same ids in the same order."""
-        words: dict[str, dict[str, str]] = {}
-        for column in columns:
-            pairs = [tuple(map(str.strip, pair.partition("=")[::2])) for pair in row.cells[column].split(";")]
-            if not all(name and word for name, word in pairs):
-                self._blame(row, column, f"it must be like id=word;id=word, but it is {row.cells[column]!r}")
-            elif column != columns[0] and [name for name, _ in pairs] != list(words):
-                self._blame(row, column, f"its ids must be those of {columns[0]}, in the same order")
-            else:
-                for name, word in pairs:
-                    words.setdefault(name, {})[column.removeprefix("options_")] = word
-        return [{"id": name, "text": text} for name, text in words.items()]
+        words = {column: self._pairs(row, column) for column in columns}
+        first, *others = words
+        if not all(words.values()):
+            return None
+        for column in others:
+            if list(words[column]) != list(words[first]):
+                self._blame(row, column, f"its ids must be those of {first}, in the same order")
+        return [
+            {"id": name, "text": {column.removeprefix("options_"): words[column].get(name, "?") for column in columns}}
+            for name in words[first]
+        ]
+
+    def _pairs(self, row: Row, column: str) -> dict[str, str]:
+        """The words of a cell by their ids; nothing if they cannot be told."""
+        pairs = [tuple(map(str.strip, pair.partition("=")[::2])) for pair in row.cells[column].split(";")]
+        told = {name: word for name, word in pairs if name and word}
+        if len(told) < len(pairs):
+            self._blame(row, column, f"it must be like id=word;id=word, each id once, but it is {row.cells[column]!r}")
+            return {}
+        return told
 
     def _column(self, place: Sequence[int | str]) -> str:
         """The column in which a fault of an item stands; the only one of an item as a whole is about its ends."""
@@ -183,6 +193,6 @@ def _number(cell: str) -> int:
 
 
 def _yes_or_no(cell: str) -> bool:
-    if cell.lower() not in _YES:
+    if cell.lower() not in _YES | _NO:
         raise ValueError(f"it must be yes or no, but it is {cell!r}")
-    return _YES[cell.lower()]
+    return (_YES | _NO)[cell.lower()]

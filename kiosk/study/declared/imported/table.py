@@ -47,7 +47,7 @@ class Table:
         """Read a CSV file; raises BadInput if it is none, or its columns are not those of a questionnaire."""
         name = f"the table {file}"
         header, *lines = _lines(name, file) or [[]]
-        columns = tuple(cell.strip() for cell in header)
+        columns = _without_tail(header)
         faults = tuple(_wrong_columns(columns))
         if faults:
             raise BadInput(*(f"{name}: {fault}" for fault in faults))
@@ -74,9 +74,20 @@ def _lines(name: str, file: Path) -> list[list[str]]:
     try:
         # The names of columns hold neither, so the first line is enough, and texts cannot mislead.
         delimiter = csv.Sniffer().sniff(header, DELIMITERS).delimiter
+    except csv.Error as error:
+        raise BadInput(f"{name}: its first line must name the columns, with , or ; between them") from error
+    try:
         return list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
     except csv.Error as error:
-        raise BadInput(f"{name} is not CSV with , or ; between its cells: {error}") from error
+        raise BadInput(f"{name} is not CSV: {error}") from error
+
+
+def _without_tail(header: Sequence[str]) -> tuple[str, ...]:
+    """The names of the columns; some programs end the line with columns that have none."""
+    names = [cell.strip() for cell in header]
+    while names and not names[-1]:
+        names.pop()
+    return tuple(names)
 
 
 def _row(name: str, number: int, columns: Sequence[str], line: Sequence[str]) -> Row:
