@@ -6,6 +6,7 @@ It stands below the rooms: they may know its types and are handed their part of 
 from __future__ import annotations
 
 import hashlib
+import re
 import tomllib
 from collections import Counter
 from dataclasses import dataclass
@@ -322,6 +323,22 @@ class Keys(Declared):
     next: Annotated[str, Field(description="Gets ready for the next visitor at once.")] = "Ctrl+Shift+N"
     leave: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
 
+    @field_validator("*")
+    @classmethod
+    def _be_out_of_a_visitors_way(cls, chord: str) -> str:
+        if chord and not re.fullmatch(r"F[1-9]\d?|((Ctrl|Shift|Alt|Meta)\+)+[^+\s]+", chord):
+            raise ValueError(f"{chord!r} is no chord, such as 'Ctrl+Shift+P', and no function key")
+        return chord
+
+    @model_validator(mode="after")
+    def _name_each_once(self) -> Self:
+        chords: dict[frozenset[str], str] = {}
+        for key, chord in self.model_dump().items():
+            other = chords.setdefault(frozenset(chord.lower().split("+")), key) if chord else key
+            if other != key:
+                raise ValueError(f"{chord!r} stands for {other!r} and for {key!r}")
+        return self
+
 
 class Experimenter(Declared):
     """Who may change a running study."""
@@ -330,14 +347,23 @@ class Experimenter(Declared):
         str,
         Field(
             exclude=True,
-            pattern=r"^(|scrypt:[0-9a-f]{32}:[0-9a-f]{64})$",
             description="The PIN, salted and hashed, as 'recollect study pin' prints it; never recorded. Empty: none.",
         ),
     ] = ""
     backup_every: Annotated[
-        PositiveInt, Field(description="How long after the last one a backup is made, in minutes, between sittings.")
+        PositiveInt,
+        Unit("minutes"),
+        Field(description="How long after the last one a backup is made, in minutes, between sittings."),
     ] = 60
     backups: Annotated[PositiveInt, Field(description="How many backups are kept.")] = 24
+
+    @field_validator("pin")
+    @classmethod
+    def _hash_the_pin(cls, pin: str) -> str:
+        # It is not repeated: it may be the PIN itself.
+        if not re.fullmatch(r"(scrypt:[0-9a-f]{32}:[0-9a-f]{64})?", pin):
+            raise ValueError("this is no hashed PIN, such as 'recollect study pin' prints")
+        return pin
 
 
 class Settings(Declared):

@@ -162,6 +162,20 @@ STUDIES: dict[str, Bad] = {
         "[robot]\nboard_middle = ['left', 0, 1]",
         ("{study}: robot.board_middle, number 1 must be a number, but it is 'left'",),
     ),
+    "key without a modifier": Bad(
+        "[keys]\npanel = 'p'", ("{study}: keys.panel: 'p' is no chord, such as 'Ctrl+Shift+P', and no function key",)
+    ),
+    "misspelt chord": Bad(
+        "[keys]\nend = 'Ctrl+Shfit+E'",
+        ("{study}: keys.end: 'Ctrl+Shfit+E' is no chord, such as 'Ctrl+Shift+P', and no function key",),
+    ),
+    "key twice": Bad(
+        "[keys]\nquiet = 'Shift+Ctrl+P'", ("{study}: keys: 'Shift+Ctrl+P' stands for 'panel' and for 'quiet'",)
+    ),
+    "bare PIN": Bad(
+        "[experimenter]\npin = '1234'",
+        ("{study}: experimenter.pin: this is no hashed PIN, such as 'recollect study pin' prints",),
+    ),
     "everything at once": Bad(
         "title = 5\n[game]\nrows = 0\n[voice]\nloud = 1",
         (
@@ -223,10 +237,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "block that does not divide": Bad(
         "[allocation]\nblock = 5",
-        (
-            "{study}: allocation.block: a block of 5 places cannot hold 28 tom, 28 notom in ratio; 2, 4, 6 and "
-            "so on fit",
-        ),
+        ("{study}: allocation.block: a block of 5 places cannot hold 1 tom, 1 notom in ratio; 2, 4, 6 and so on fit",),
     ),
     "unknown deck": Bad(
         "[game]\ndeck = 'cars'",
