@@ -118,6 +118,12 @@ def test_a_study_that_can_be_run_is_told_in_short(good: Bad, tmp_path: Path, rec
     assert (said.code, json.loads(said.out)["faults"]) == (0, [])
 
 
+@pytest.mark.parametrize("file", sorted(PAPER.parent.glob("*.toml")), ids=lambda file: str(file.stem))
+def test_every_study_that_is_shipped_can_be_run(file: Path, recollect: Recollect) -> None:
+    said = recollect("study", "check", file, "--json")
+    assert (said.code, json.loads(said.out)["faults"]) == (0, [])
+
+
 def test_the_table_says_what_the_study_is(recollect: Recollect) -> None:
     said = recollect("study", "check", PAPER)
     assert said.code == 0

@@ -23,15 +23,15 @@ _TYPES = {bool: "true or false", int: "whole number", float: "number", str: "tex
 _BOUNDS = {"gt": "more than", "ge": "at least", "le": "at most"}
 
 _HEAD = """\
-# A study file with every key. Each stands here as it is without one, which is how the study had it; keep only the keys
-# that are to be different. Times are in milliseconds (ms). Check it with: recollect study check FILE
+# A study file with every key, as it is without one: this follows the study wherever it says anything. Keep only the
+# keys that are to be different. Times are in milliseconds (ms). Check it with: recollect study check FILE
 """
 
 _PAGE = """\
 # The study file: every key
 
-A study file is TOML. Whatever it leaves out is as in the column *without it*, which is how the study had it; an empty
-file is the study. `recollect study example` prints a file with every key, and `recollect study check FILE` reads a
+A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
+anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study check FILE` reads a
 file with everything that it names. What goes by a name is shipped in `assets/` or `policies/`; anything else is a path
 that starts from the study file's own folder.
 
