@@ -326,7 +326,9 @@ class Keys(Declared):
     @field_validator("*")
     @classmethod
     def _be_out_of_a_visitors_way(cls, chord: str) -> str:
-        if chord and not re.fullmatch(r"F[1-9]\d?|((Ctrl|Shift|Alt|Meta)\+)+[^+\s]+", chord):
+        if chord and not re.fullmatch(
+            r"(Shift\+)?F[1-9]\d?|(?=.*(Ctrl|Alt|Meta)\+)((Ctrl|Shift|Alt|Meta)\+)+[^+\s]+", chord
+        ):
             raise ValueError(f"{chord!r} is no chord, such as 'Ctrl+Shift+P', and no function key")
         return chord
 

@@ -86,9 +86,15 @@ def test_what_a_file_names_by_a_path_lies_beside_it(tmp_path: Path) -> None:
     assert Settings().find("cards", "toys") == Path("toys")
 
 
-@pytest.mark.parametrize("chord", ["", "F1", "F12", "Ctrl+P", "Ctrl+Alt+Shift+Space"])
+@pytest.mark.parametrize("chord", ["", "F1", "Shift+F12", "Ctrl+P", "Shift+Ctrl+Alt+Space"])
 def test_an_experimenters_key_is_a_chord_a_function_key_or_none(chord: str) -> None:
     assert Keys(panel=chord).panel == chord
+
+
+@pytest.mark.parametrize("chord", ["P", "Shift+P", "Ctrl", "Ctrl+", "ctrl+P", "Ctrl P", "F0"])
+def test_what_a_visitor_may_type_is_no_experimenters_key(chord: str) -> None:
+    with pytest.raises(ValidationError, match="is no chord"):
+        Keys(panel=chord)
 
 
 def test_keys_that_are_switched_off_do_not_stand_twice() -> None:
