@@ -34,6 +34,7 @@ def another(driver: Driver, *not_these: Position) -> Position:
 
 def miss(driver: Driver) -> tuple[Position, Position]:
     """Flip two different cards."""
+    driver.wait_until_open()
     first, mate = a_pair(driver)
     driver.flip(first)
     second = another(driver, mate)

@@ -1,0 +1,132 @@
+"""What answers come to on a scale, against numbers worked out by hand."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kiosk.study import events as happened
+from kiosk.study.after.answers import Answered, answers
+from kiosk.study.after.scales import Score, scores
+from kiosk.study.declared.questionnaire import Integer, Page, Slider
+from kiosk.study.events import Event, Stage
+from tests.samples import likert, questionnaire
+
+REVERSED = {"SOC3", "AC2"}
+SCALES = ("SOC", "AC", "PC", "RC")
+SOCIAL = questionnaire(
+    "social",
+    *(
+        likert(f"{scale}{number}", scale=scale, reverse=f"{scale}{number}" in REVERSED)
+        for scale in SCALES
+        for number in (1, 2, 3, 4)
+    ),
+)
+"""The study's four scales: four items each, on 1 to 5, two of the items reversed."""
+
+Given = dict[str, int | None]
+
+
+def scored(given_ones: Given, items: tuple[str, ...] = tuple(item.id for item in SOCIAL.items)) -> dict[str, Score]:
+    """The scales of these answers, by name."""
+    told = [Answered("social", item, given_ones.get(item)) for item in items]
+    return {score.scale: score for score in scores(told, [SOCIAL])}
+
+
+def test_the_scales_come_in_the_declared_order() -> None:
+    assert tuple(score.scale for score in scores([], [SOCIAL])) == SCALES
+
+
+def test_a_scale_is_summed_with_its_reversed_item_turned_round() -> None:
+    soc = scored({"SOC1": 4, "SOC2": 5, "SOC3": 2, "SOC4": 3})["SOC"]  # 4 + 5 + (6 - 2) + 3
+    assert soc == Score("social", "SOC", items=4, answered=4, total=16, mean=4.0)
+    ac = scored({"AC1": 1, "AC2": 5, "AC3": 2, "AC4": 2})["AC"]  # 1 + (6 - 5) + 2 + 2
+    assert ac == Score("social", "AC", items=4, answered=4, total=6, mean=1.5)
+    pc = scored({"PC1": 1, "PC2": 5, "PC3": 2, "PC4": 2})["PC"]  # none reversed
+    assert pc == Score("social", "PC", items=4, answered=4, total=10, mean=2.5)
+
+
+@pytest.mark.parametrize(("answer", "counts"), [(1, 5), (2, 4), (3, 3), (4, 2), (5, 1)])
+def test_a_reversed_answer_counts_as_six_less_it(answer: int, counts: int) -> None:
+    assert scored({"SOC3": answer})["SOC"].mean == counts
+    assert scored({"AC2": answer})["AC"].mean == counts
+    assert scored({"SOC2": answer})["SOC"].mean == answer
+
+
+def test_with_an_answer_missing_there_is_a_mean_and_no_sum() -> None:
+    soc = scored({"SOC1": 4, "SOC3": 1})["SOC"]  # (4 + (6 - 1)) / 2
+    assert soc == Score("social", "SOC", items=4, answered=2, total=None, mean=4.5)
+
+
+def test_without_any_answer_there_is_neither() -> None:
+    assert scored({})["RC"] == Score("social", "RC", items=4, answered=0, total=None, mean=None)
+
+
+def test_other_ends_turn_round_about_their_own_middle() -> None:
+    words = {"en": "word"}
+    sliders = questionnaire(
+        "sliders",
+        *(
+            Slider(id=name, kind="slider", text=words, left=words, right=words, scale="S", reverse=name == "b")
+            for name in ("a", "b")
+        ),
+    )
+    told = [Answered("sliders", "a", 30), Answered("sliders", "b", 30)]
+    assert scores(told, [sliders]) == (Score("sliders", "S", 2, 2, total=100, mean=50.0),)
+
+
+def test_what_belongs_to_no_scale_does_not_matter() -> None:
+    words = {"en": "word"}
+    mixed = questionnaire(
+        "mixed",
+        likert("a", scale="S"),
+        likert("b"),
+        Integer(id="age", kind="integer", text=words),
+        Page(id="p", kind="page", text=words),
+    )
+    told = [Answered("mixed", "a", 2), Answered("mixed", "b", 5), Answered("mixed", "age", 30)]
+    assert scores(told, [mixed]) == (Score("mixed", "S", 1, 1, 2, 2.0),)
+
+
+def test_the_same_item_of_another_questionnaire_is_not_counted() -> None:
+    twin = questionnaire("twin", likert("a", scale="S"))
+    other = questionnaire("other", likert("a", scale="S"))
+    told = [Answered("twin", "a", 1), Answered("other", "a", 5)]
+    assert [score.total for score in scores(told, [twin, other])] == [1, 5]
+
+
+@given(st.dictionaries(st.sampled_from([item.id for item in SOCIAL.items]), st.none() | st.integers(1, 5)))
+def test_sums_and_means_keep_to_their_ends_and_agree(given_ones: Given) -> None:
+    for scale, score in scored(given_ones).items():
+        there = [item for item in given_ones if item.startswith(scale) and given_ones[item] is not None]
+        assert (score.items, score.answered) == (4, len(there))
+        assert (score.total is None) is (len(there) < 4)
+        assert (score.mean is None) is (not there)
+        assert score.mean is None or 1 <= score.mean <= 5
+        assert score.total is None or (4 <= score.total <= 20 and score.total == 4 * (score.mean or 0))
+
+
+@given(st.fixed_dictionaries({item.id: st.integers(1, 5) for item in SOCIAL.items}))
+def test_turning_every_answer_round_turns_every_sum_round(given_ones: Given) -> None:
+    turned: Given = {item: 6 - value for item, value in given_ones.items() if value is not None}
+    for scale, score in scored(given_ones).items():
+        assert score.total is not None
+        assert scored(turned)[scale].total == 24 - score.total
+
+
+@given(st.fixed_dictionaries({item.id: st.integers(1, 5) for item in SOCIAL.items}), st.randoms())
+def test_the_order_in_which_items_were_asked_does_not_matter(given_ones: Given, chance: Random) -> None:
+    names = [item.id for item in SOCIAL.items]
+    chance.shuffle(names)
+    assert scored(given_ones, tuple(names)) == scored(given_ones)
+
+
+def test_events_lead_to_scores() -> None:
+    events: list[Event] = [happened.StageEntered(at_ms=0, stage=Stage.QUESTIONS)]
+    for number, (item, value) in enumerate({"SOC1": 4, "SOC2": 5, "SOC3": 2, "SOC4": 3}.items()):
+        events.append(happened.ItemsShown(at_ms=number, questionnaire="social", items=(item,)))
+        events.append(happened.AnswerGiven(at_ms=number, item=item, value=value))
+    assert scores(answers(events, [SOCIAL]), [SOCIAL])[0].total == 16
