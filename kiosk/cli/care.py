@@ -87,10 +87,11 @@ def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
     """Delete all that is stored of the participant who has this CODE; only a count stays."""
     going = withdrawing.find(data, code)
     if not yes:
+        begun = going.started_at[:16].replace("T", " ")
         click.echo(
-            f"Participant {going.participant}, sitting {going.sitting}, begun {going.started_at[:16]} (UTC): "
-            f"{going.events} events will be deleted for ever, and {going.backups} copies of the database replaced. "
-            "Copies that are kept elsewhere, and data folders that this one was merged into, are not touched.",
+            f"Participant {going.participant}, sitting {going.sitting}, begun {begun} (UTC): {going.events} events "
+            f"will be deleted for ever, and the copies in the data folder ({going.backups}) replaced by a fresh one. "
+            "Copies that are kept elsewhere, and folders that this one was merged into, are not touched.",
             err=True,
         )
         click.confirm("Delete them?", abort=True, err=True)

@@ -12,8 +12,8 @@ from kiosk import BadInput
 MIB = 1024 * 1024
 
 WARN_MIB = 512
-"""A sitting takes some 60 KiB, so a day of 200 takes 12 MiB, and as much again in each of the copies that are kept.
-512 MiB is a day, its copies, and what else a system writes in a day: time enough to make room in the evening."""
+"""A sitting takes some 30 KiB; if it took twice that, a day of 200 would take 12 MiB, and each copy that is kept as
+much again. 512 MiB is days of that, and what else a system writes in them: time enough to make room in the evening."""
 
 REFUSE_MIB = 64
 """One sitting, the write-ahead log (4 MiB), the program's logs (4 MB) and one more copy of the database must fit in, or
