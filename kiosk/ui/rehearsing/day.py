@@ -51,16 +51,22 @@ class Holding:
         """Look at this process, and at the files of its data folder."""
         gc.collect()
         process = psutil.Process()
-        handles = process.num_handles() if sys.platform == "win32" else process.num_fds()
         stored = sum(file.stat().st_size for file in data.glob("recollect.db*"))
         return cls(
             process.memory_info().rss // KIB,
-            handles,
+            _handles(process),
             process.num_threads(),
             len(process.children()),
             stored // KIB,
             round(longest_gap_ms, 1),
         )
+
+
+def _handles(process: psutil.Process) -> int:
+    """How many files, sockets and the like it holds."""
+    if sys.platform == "win32":
+        return process.num_handles()
+    return process.num_fds()
 
 
 def crowd(sittings: int, seed: int, languages: Sequence[str]) -> Iterator[Character]:
