@@ -413,7 +413,7 @@ class VisitorLeft(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class SittingEnded(SessionEvent):
-    """The sitting is over; nothing of it follows."""
+    """The sitting is over; nothing of it follows, unless it is resumed."""
 
     status: Status
 

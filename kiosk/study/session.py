@@ -40,6 +40,7 @@ class Session:
         self.stage = Stage.ATTRACT
         self.keeping = Keeping.UNDECIDED
         self._course = plan.course
+        self._closed_in: Stage | None = None
         self._log: list[Event] = []
         self._waiting: set[Timer] = set()
         self._scenery = Scenery(plan, seed, lambda script: [*self._log, *script.notes])
@@ -74,7 +75,7 @@ class Session:
             case happened.TimerEnded(timer=timer):
                 return timer in self._waiting
             case happened.SittingResumed():
-                return self.keeping is Keeping.KEPT and self.stage is not Stage.GAME
+                return self.keeping is Keeping.KEPT and self._cut_off_in not in (Stage.GAME, Stage.OVER)
         return True
 
     def _react(self, event: WorldEvent, script: Script) -> None:
@@ -94,9 +95,16 @@ class Session:
 
     def _resume(self, script: Script) -> None:
         """Begin the stage anew in which the sitting was cut off."""
+        self.stage = self._cut_off_in
+        self._closed_in = None
         self._presence.go_on(script)
         self._leave_scene(script)
         self._enter(self.stage, script)
+
+    @property
+    def _cut_off_in(self) -> Stage:
+        """Where the sitting would go on if it were resumed: a crash leaves it where it was, a closed kiosk ends it."""
+        return self._closed_in or self.stage
 
     def _go_on_after(self, event: Event, script: Script) -> None:
         """Enter the next stage, if this event leads to one."""
@@ -105,6 +113,7 @@ class Session:
                 after = self._course.after(self.stage, kept=self.keeping is not Keeping.FORGOTTEN)
                 self._change_stage(after, Status.COMPLETED, script)
             case Turn.OVER:
+                self._closed_in = self.stage if isinstance(event, happened.KioskClosed) else None
                 self._change_stage(Stage.OVER, _ENDINGS[type(event)], script)
 
     def _change_stage(self, stage: Stage, ending: Status, script: Script) -> None:

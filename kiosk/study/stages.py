@@ -106,7 +106,8 @@ TABLE: Mapping[Stage, Mapping[type[Event], Turn]] = MappingProxyType(
         Stage.QUESTIONS: _underway(_ASK),
         Stage.DEBRIEF: _underway(_READ),
         Stage.THANKS: _underway({ContinueTapped: Turn.ON, Thanked: Turn.ON}),
-        Stage.OVER: MappingProxyType({}),
+        # Only a sitting that was cut off with the program may go on; Session sees to that.
+        Stage.OVER: MappingProxyType({SittingResumed: Turn.STAY}),
     }
 )
 

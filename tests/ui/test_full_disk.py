@@ -1,0 +1,111 @@
+"""A disk that is full, in whatever stage: the visitor sees a calm screen, the experimenter is told, nothing is torn.
+
+The disk is real as far as SQLite is concerned: its file may not grow by another page.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable
+from contextlib import closing
+from itertools import count
+
+import pytest
+
+from kiosk.settings import Settings
+from kiosk.store.database import FILE
+from kiosk.store.reading import archive
+from kiosk.study import events as happened
+from kiosk.study.events import Stage, Status
+from kiosk.study.stages import BEFORE_DECIDING
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from tests.ui.conftest import Booth, MakeBooth
+
+SMALL = Settings.model_validate(
+    {
+        "game": {"rows": 2, "columns": 2},
+        "practice": {"rows": 2, "columns": 2},
+        "languages": ["en"],
+        "questionnaires": ["trust"],
+    }
+)
+KEPT = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.OVER}]
+
+
+def fill(booth: Booth) -> None:
+    """From now on the database may not grow."""
+    recorder = booth.app.conductor._recorder
+    connection = recorder._connection
+    pages = connection.execute("PRAGMA page_count").fetchone()[0]
+    connection.execute(f"PRAGMA max_page_count = {pages}")
+
+
+def empty(booth: Booth) -> None:
+    """The disk has room again."""
+    booth.app.conductor._recorder._connection.execute("PRAGMA max_page_count = 1073741823")
+
+
+def go_to(booth: Booth, stage: Stage) -> None:
+    """Have a visitor come to this stage and no further."""
+
+    class Visitor(Rehearsal):
+        def _do_what_comes_next(self) -> None:
+            if self._app.conductor.stage is stage:
+                self._app.quit()
+            else:
+                super()._do_what_comes_next()
+
+    Visitor(booth.app, 1).run()
+    assert booth.app.conductor.stage is stage
+
+
+def write_until(booth: Booth, over: Callable[[], bool]) -> None:
+    """Let things happen that are written, as they can in any stage, until the disk takes no more."""
+    for _ in count():
+        if over():
+            return
+        for event in (happened.PauseAsked, happened.PauseEnded):
+            booth.app.conductor.tell(event)
+
+
+@pytest.mark.parametrize("stage", KEPT, ids=lambda stage: stage.value)
+def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_to_the_experimenter(
+    make_booth: MakeBooth, stage: Stage, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth = make_booth(settings=SMALL)
+    told: list[str] = []
+    booth.app.conductor.trouble = told.append
+    go_to(booth, stage)
+    fill(booth)
+    write_until(booth, lambda: booth.screen == "pause")
+    assert len(told) == 1
+    assert "database or disk is full" in told[0]
+    assert told[0] in caplog.text
+    with closing(sqlite3.connect(booth.data / FILE)) as database:
+        assert database.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+    empty(booth)
+    booth.wait_until(lambda: booth.screen == "attract")
+    booth.rehearse(seed=2)
+    with archive(booth.data) as stored:
+        assert [sitting.status for sitting in stored.sittings()] == [Status.INTERRUPTED, Status.COMPLETED]
+        for sitting in (1, 2):
+            assert [record["seq"] for record in stored.records(sitting)] == [
+                *range(1, len(stored.records(sitting)) + 1)
+            ]
+    caplog.clear()
+
+
+def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_take_part(
+    make_booth: MakeBooth, caplog: pytest.LogCaptureFixture
+) -> None:
+    booth = make_booth(settings=SMALL)
+    go_to(booth, Stage.AGE)
+    fill(booth)
+    booth.click("age-yes")
+    assert booth.screen == "pause"
+    assert "database or disk is full" in caplog.text
+    empty(booth)
+    booth.wait_until(lambda: booth.screen == "attract")
+    with archive(booth.data) as stored:
+        assert stored.sittings() == []
+    caplog.clear()

@@ -1,0 +1,111 @@
+"""A sitting that was cut off may go on from the start of the stage it was in; never in the middle of a game."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk import BadInput
+from kiosk.settings import Settings
+from kiosk.store.reading import archive
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study import events as happened
+from kiosk.study.after.replay import first_difference, replayed
+from kiosk.study.events import Event, Stage, Status, WorldEvent
+from kiosk.study.stages import BEFORE_DECIDING, UnexpectedEvent
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from tests.ui.headless import headless
+
+SMALL = Settings.model_validate(
+    {
+        "game": {"rows": 2, "columns": 2},
+        "practice": {"rows": 2, "columns": 2},
+        "languages": ["it"],
+        "questionnaires": ["trust"],
+    }
+)
+RESUMABLE = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.GAME, Stage.OVER}]
+
+
+class Until(Rehearsal):
+    """A visitor who is there until a stage, or, where ``joins`` is set, from wherever the sitting is."""
+
+    def __init__(self, app: App, stage: Stage | None, *, joins: bool = False) -> None:
+        super().__init__(app, 1)
+        self._until = stage
+        self._began = joins
+
+    def _do_what_comes_next(self) -> None:
+        if self._app.conductor.stage is self._until:
+            self._app.quit()
+        else:
+            super()._do_what_comes_next()
+
+
+def cut_off(data: Path, stage: Stage, qtbot: QtBot, *, crash: bool) -> None:
+    """Leave a sitting behind in this stage: by a crash, or by closing the kiosk."""
+    with headless(SMALL, data) as app:
+        qtbot.waitUntil(app.window.isExposed)
+        Until(app, stage).run()
+        assert app.conductor.stage is stage
+        if crash:
+            # What a killed process leaves: no word of the end.
+            app.conductor._session = None
+    with Recorder(data):
+        pass
+
+
+def past_of(data: Path) -> tuple[Provenance, tuple[WorldEvent, ...]]:
+    """What the sitting followed, and what happened in it."""
+    with archive(data) as stored:
+        provenance = Provenance(stored.plan(1), stored.seed(1), "avatar", "a test", simulated=True)
+        return provenance, tuple(event for event in stored.story(1) if isinstance(event, WorldEvent))
+
+
+@pytest.mark.parametrize("crash", [True, False], ids=["killed", "closed"])
+@pytest.mark.parametrize("stage", RESUMABLE, ids=lambda stage: stage.value)
+def test_a_sitting_goes_on_from_the_start_of_its_stage_to_its_end(
+    stage: Stage, tmp_path: Path, qtbot: QtBot, *, crash: bool
+) -> None:
+    cut_off(tmp_path, stage, qtbot, crash=crash)
+    provenance, past = past_of(tmp_path)
+    with headless(SMALL, tmp_path) as app:
+        qtbot.waitUntil(app.window.isExposed)
+        app.conductor.resume(provenance, 1, past)
+        assert app.conductor.stage is stage
+        Until(app, None, joins=True).run()
+    with archive(tmp_path) as stored:
+        events: list[Event] = stored.story(1)
+        plan, seed = stored.plan(1), stored.seed(1)
+        [sitting] = stored.sittings()
+    assert sitting.status is Status.COMPLETED
+    assert sitting.measures.pairs == 2
+    resumed = next(i for i, event in enumerate(events) if isinstance(event, happened.SittingResumed))
+    assert events[resumed + 1] == happened.StageEntered(at_ms=events[resumed].at_ms, stage=stage)
+    assert all(one.at_ms <= other.at_ms for one, other in pairwise(events))
+    assert first_difference(replayed(plan, seed, events), events) is None
+
+
+def test_a_game_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
+    cut_off(tmp_path, Stage.GAME, qtbot, crash=True)
+    provenance, past = past_of(tmp_path)
+    with headless(SMALL, tmp_path) as app:
+        qtbot.waitUntil(app.window.isExposed)
+        with pytest.raises(UnexpectedEvent):
+            app.conductor.resume(provenance, 1, past)
+        assert app.conductor.stage is Stage.ATTRACT
+        Rehearsal(app, 2).run()
+
+
+def test_a_sitting_that_came_to_its_end_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
+    with headless(SMALL, tmp_path) as app:
+        qtbot.waitUntil(app.window.isExposed)
+        Rehearsal(app, 1).run()
+        provenance, past = past_of(tmp_path)
+        with pytest.raises((UnexpectedEvent, BadInput)):
+            app.conductor.resume(provenance, 1, past)
+        assert app.conductor.stage is Stage.ATTRACT
