@@ -68,7 +68,7 @@ OWN = 'questionnaires = ["own.toml"]'
 
 SHEETS = {f"sheets/{language}.toml": asset(f"consent/study/{language}.toml") for language in ("en", "it", "es")}
 TOLD = '[consent]\ntext = "sheets"'
-SENTENCES = {f"de/{file}": asset(f"sentences/en/{file}") for file in ("cards.ftl", "hints.ftl", "screens.ftl")}
+SENTENCES = {f"de/{file.name}": file.read_text("utf-8") for file in (ASSETS / "sentences" / "en").glob("*.ftl")}
 
 
 UNTRANSLATED = (

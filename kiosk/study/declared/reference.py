@@ -31,9 +31,9 @@ _PAGE = """\
 # The study file: every key
 
 A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
-anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study check FILE` reads a
-file with everything that it names. What goes by a name is shipped in `assets/` or `policies/`; anything else is a path
-that starts from the study file's own folder.
+anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study
+check FILE` reads a file with everything that it names. What goes by a name is shipped in `assets/` or `policies/`;
+anything else is a path that starts from the study file's own folder.
 
 This page is printed by `recollect study reference`; change the declarations in `kiosk/settings.py`, not the page.
 """
@@ -90,7 +90,7 @@ def _sentence(field: FieldInfo) -> str:
     unit = next((each.name for each in field.metadata if isinstance(each, Unit)), "")
     described = field.description or ""
     said = not unit or re.search(rf"\b{unit}\b", described)
-    return described if said else f"{described.removesuffix('.')}, in {unit}."
+    return described if said else f"{described.removesuffix('.')} ({unit})."
 
 
 def _entry(key: str, field: FieldInfo, value: object) -> str:
