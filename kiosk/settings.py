@@ -224,6 +224,9 @@ class Voice(Declared):
     ] = True
 
 
+Side = Literal["left", "right"]
+
+
 class Screen(Declared):
     """The window."""
 
@@ -233,9 +236,7 @@ class Screen(Declared):
     contrast: Annotated[
         Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
     ] = "normal"
-    board: Annotated[
-        Literal["left", "right"], Field(description="On which side of the assistant the board is, on a wide screen.")
-    ] = "left"
+    board: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = "left"
 
 
 class Robot(Declared):

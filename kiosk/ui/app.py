@@ -49,7 +49,8 @@ class App:
         self.conductor = Conductor(self.screens, recorder, self.clock, desk)
         self._voice = _voice(settings, mode, self.clock, owner)
         self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
-        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, owner))
+        board = settings.screen.board
+        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, board, owner))
         self.conductor.take(self.bodies)
         self._landing = Landing()
         self._take_robot(robot or robot_of(settings.robot, desk.study.languages[0]), settings)

@@ -96,6 +96,8 @@ class Window:
                 "cardShadow": QUrl.fromLocalFile(str(ASSETS / "cards" / "shadow.svg")),
                 "textSize": settings.screen.text_size,
                 "motion": MOTION_MS if moving else 0,
+                "highContrast": settings.screen.contrast == "high",
+                "boardOnRight": settings.screen.board == "right",
             }
         )
         self._engine.load(QUrl.fromLocalFile(str(QML)))

@@ -15,6 +15,10 @@ from kiosk.ui.booth.full_screen import FullScreen
 
 LOOK_MS = 250
 """How often to see that nothing lies over the window; what leaves it is back within a second."""
+HIDDEN_LOOKS = 2
+"""After so many looks at which the window was on no screen it is shown anew."""
+IDLE_LOOKS = 2
+"""The same for a window that does not get or keep the keyboard, however often it asks; each time twice as many."""
 
 
 class Desktop(Protocol):
@@ -26,6 +30,10 @@ class Desktop(Protocol):
 
     def clear(self) -> bool:
         """Put whatever lies over the window below it; whether something did."""
+        ...
+
+    def activate(self) -> None:
+        """Have the keyboard given to the window, even where a program may not ask for it on its own account."""
         ...
 
     def close(self) -> None:
@@ -43,6 +51,9 @@ class OpenDesktop:
         """Nothing is seen."""
         return False
 
+    def activate(self) -> None:
+        """Qt has asked already."""
+
     def close(self) -> None:
         """Nothing is held."""
 
@@ -59,10 +70,13 @@ class Hold(QObject):
         self._full_screen = full_screen
         self._find_desktop = desktop
         self._desktop: Desktop | None = None
-        self._keyboard = False
+        self._has_input = False
+        self._lost = False
+        self._hidden = self._idle = 0
+        self._patience = IDLE_LOOKS
         self._looking = QTimer(self)
         self._looking.setInterval(LOOK_MS)
-        self._looking.timeout.connect(self._take_back)
+        self._looking.timeout.connect(self._look)
         self._looking.start()
         self._changes = (window.activeChanged, window.visibilityChanged, window.xChanged, window.yChanged)
         self._soon = QTimer(self)
@@ -72,9 +86,9 @@ class Hold(QObject):
             changed.connect(self._look_soon)
 
     @property
-    def has_keyboard(self) -> bool:
-        """Whether every key goes to the window first, before any desktop's own use of it."""
-        return self._keyboard
+    def has_input(self) -> bool:
+        """Whether every key and every click goes to the window first, before any desktop's own use of it."""
+        return self._has_input
 
     def release(self) -> None:
         """Let the window be left."""
@@ -83,21 +97,51 @@ class Hold(QObject):
         for changed in self._changes:
             changed.disconnect(self._look_soon)
         self._window.setKeyboardGrabEnabled(False)
+        self._window.setMouseGrabEnabled(False)
         if self._desktop is not None:
             self._desktop.close()
 
     def _look_soon(self, *_: object) -> None:
+        self._lost = self._lost or not self._window.isActive()
         self._soon.start(0)
 
-    def _take_back(self) -> None:
+    def _look(self) -> None:
         if self._desktop is None:
             self._desktop = self._find_desktop()
             self._desktop.stick()
+        self._count()
+        if self._hidden >= HIDDEN_LOOKS or self._idle >= self._patience:
+            self._show_anew(self._desktop)
+        self._take_back()
+
+    def _take_back(self) -> None:
         if not self._full_screen.covers:
             self._full_screen.cover()
-        covered = self._desktop.clear()
+        covered = self._desktop is not None and self._desktop.clear()
+        self._lost = self._lost or covered
         if covered or not self._window.isActive():
             self._window.raise_()
             self._window.requestActivate()
-        # While a window is hidden, and while another program has the keyboard, it cannot be taken; so ask again.
-        self._keyboard = self._window.setKeyboardGrabEnabled(True)
+            if self._desktop is not None:
+                self._desktop.activate()
+        # While a window is hidden, and while another program has them, they cannot be taken; so ask again.
+        keyboard, mouse = self._window.setKeyboardGrabEnabled(True), self._window.setMouseGrabEnabled(True)
+        self._has_input = keyboard and mouse
+
+    def _count(self) -> None:
+        """For how many looks the window has been hidden, and without the keyboard or covered."""
+        self._hidden = 0 if self._window.isExposed() else self._hidden + 1
+        kept = self._window.isActive() and not self._lost
+        self._idle = 0 if kept else self._idle + 1
+        self._lost = False
+        if not self._idle:
+            self._patience = IDLE_LOOKS
+
+    def _show_anew(self, desktop: Desktop) -> None:
+        """Come as a new window, which every desktop shows in front."""
+        if not self._hidden:
+            self._patience *= 2
+        self._hidden = self._idle = 0
+        self._window.hide()
+        desktop.stick()
+        self._full_screen.cover()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
@@ -28,12 +30,12 @@ class BoothWindow:
     @property
     def health(self) -> tuple[Health, ...]:
         """How well the window is held, and whether the screen stays lit."""
-        covers, keyboard = self._full_screen.covers, self._hold.has_keyboard
+        covers, has_input = self._full_screen.covers, self._hold.has_input
         held = "the window covers its screen" if covers else "the window does not cover its screen"
-        keys = "and gets every key" if keyboard else "but the desktop gets some keys first"
+        gets = "and gets every key and click" if has_input else "but the desktop gets some keys or clicks first"
         awake = Health(well=False, words="screen saver and sleep are not held off yet")
         return (
-            Health(well=covers and keyboard, words=f"{held}, {keys}"),
+            Health(well=covers and has_input, words=f"{held}, {gets}"),
             awake if self._awake is None else self._awake.health,
         )
 
@@ -57,6 +59,7 @@ def desktop_of(window: QQuickWindow) -> Desktop:
     """What there is to tell of the desktop that shows a window."""
     if QGuiApplication.platformName() != "xcb":
         return OpenDesktop()
-    from kiosk.ui.booth.x_server import XServer  # noqa: PLC0415 - only where there is an X server
+    from kiosk.ui.booth.x_server import XServer, XWayland  # noqa: PLC0415 - only where there is an X server
 
-    return XServer(int(window.winId()))
+    server = XWayland if "WAYLAND_DISPLAY" in os.environ else XServer
+    return server(int(window.winId()))

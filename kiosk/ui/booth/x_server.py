@@ -15,6 +15,9 @@ from Xlib.protocol.event import ClientMessage
 from Xlib.xobject.drawable import Window
 
 EVERY_DESKTOP = 0xFFFFFFFF
+AS_A_PAGER = 2
+"""Says to a window manager that a person wants it."""
+MESSAGE_VALUES = 5
 
 
 class XServer:
@@ -29,19 +32,26 @@ class XServer:
         self._window = self._display.create_resource_object("window", window)
 
     def stick(self) -> None:
-        """Ask the window manager to show the window on every desktop."""
+        """Show the window on every desktop: said to the window manager for now, and on the window for the next time."""
         desktop = self._display.intern_atom("_NET_WM_DESKTOP")
         self._window.change_property(desktop, Xatom.CARDINAL, 32, [EVERY_DESKTOP])
-        asked = ClientMessage(window=self._window, client_type=desktop, data=(32, [EVERY_DESKTOP, 1, 0, 0, 0]))
+        self._ask("_NET_WM_DESKTOP", EVERY_DESKTOP, AS_A_PAGER)
+
+    def activate(self) -> None:
+        """Ask the window manager as whoever changes between windows does, which is never refused; then take it."""
+        self._ask("_NET_ACTIVE_WINDOW", AS_A_PAGER, X.CurrentTime)
+        self._window.set_input_focus(X.RevertToParent, X.CurrentTime, onerror=CatchError())
+        self._display.flush()
+
+    def _ask(self, what: str, *values: int) -> None:
+        data = [*values, *[0] * (MESSAGE_VALUES - len(values))]
+        asked = ClientMessage(window=self._window, client_type=self._display.intern_atom(what), data=(32, data))
         self._root.send_event(asked, event_mask=X.SubstructureRedirectMask | X.SubstructureNotifyMask)
         self._display.flush()
 
     def clear(self) -> bool:
         """Lower every window that lies over ours, and say whether there was one."""
-        try:
-            over = [window for window in self._above() if self._covers(window)]
-        except XError:
-            return False
+        over = self._over()
         for window in over:
             window.configure(stack_mode=X.Below, onerror=CatchError())
         self._display.flush()
@@ -50,6 +60,12 @@ class XServer:
     def close(self) -> None:
         """Let go of the connection."""
         self._display.close()
+
+    def _over(self) -> list[Window]:
+        try:
+            return [window for window in self._above() if self._covers(window)]
+        except XError:
+            return []
 
     def _above(self) -> list[Window]:
         """The windows above ours, as the server stacks them."""
@@ -73,6 +89,29 @@ class XServer:
         return QRect(place.x, place.y, ours.width, ours.height).intersects(
             QRect(theirs.x, theirs.y, theirs.width, theirs.height)
         )
+
+
+class XWayland(XServer):
+    """An X server whose windows a Wayland compositor stacks and activates as it likes.
+
+    What can be done is to come as a new window; so a window that lies over ours is told of once, and not lowered.
+    """
+
+    def __init__(self, window: int) -> None:
+        """As with any X server."""
+        super().__init__(window)
+        self._told: set[int] = set()
+
+    def stick(self) -> None:
+        """The window is new: whatever was over it is so no more."""
+        self._told = {window.id for window in self._over()}
+
+    def activate(self) -> None:
+        """The compositor would not hear of it, and we would only seem to be active."""
+
+    def clear(self) -> bool:
+        """Whether a window has come over ours since it was new."""
+        return any(window.id not in self._told for window in self._over())
 
 
 def keep_lit() -> Callable[[], None]:

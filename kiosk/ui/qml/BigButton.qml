@@ -31,15 +31,6 @@ Button {
         border.color: Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
-        // The keyboard's place is shown by a ring outside, which no colour can hide.
-        Rectangle {
-            anchors.fill: parent
-            anchors.margins: -9 * Theme.unit
-            radius: height / 2
-            color: "transparent"
-            border.color: Theme.ink
-            border.width: 4 * Theme.unit
-            visible: button.visualFocus
-        }
+        FocusRing { visible: button.visualFocus }
     }
 }

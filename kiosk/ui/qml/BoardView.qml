@@ -35,12 +35,16 @@ FocusScope {
             text: view.board.progress
             font { pixelSize: Theme.body; bold: true }
             color: Theme.ink
+            Accessible.role: Accessible.StaticText
+            Accessible.name: text
         }
         Text {
             anchors { right: parent.right; verticalCenter: parent.verticalCenter }
             text: view.board.moves
             font.pixelSize: Theme.body
             color: Theme.faintInk
+            Accessible.role: Accessible.StaticText
+            Accessible.name: text
         }
     }
 
@@ -51,6 +55,8 @@ FocusScope {
         text: view.board.wait
         font.pixelSize: Theme.small
         color: Theme.deepAmber
+        Accessible.role: Accessible.AlertMessage
+        Accessible.name: text
     }
 
     BigButton {
@@ -88,6 +94,8 @@ FocusScope {
                 font { pixelSize: Theme.body; bold: true }
                 color: view.board.markColumn === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
+                // Every card's name tells its row and column.
+                Accessible.ignored: true
             }
         }
         Repeater {
@@ -103,12 +111,14 @@ FocusScope {
                 color: view.board.markRow === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 verticalAlignment: Text.AlignVCenter
+                Accessible.ignored: true
             }
         }
     }
 
     GridView {
         id: cards
+        objectName: "board"
         x: table.x
         y: table.y
         width: table.width
@@ -119,6 +129,8 @@ FocusScope {
         focus: true
         keyNavigationEnabled: true
         model: view.board
+        Accessible.role: Accessible.Table
+        Accessible.name: view.board.progress
         // A key that is held down is one tap.
         Keys.onReturnPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
         Keys.onEnterPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
@@ -152,7 +164,7 @@ FocusScope {
                 picture: place.picture
                 up: place.up
                 // Closed cards step back while a tap would not count, unless they are meant; found ones for good.
-                opacity: place.found ? 0.6 : view.board.speaking && !place.up && !place.marked ? 0.72 : 1
+                opacity: place.found ? Theme.done : view.board.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
                 scale: tap.pressed && view.board.open && !place.up ? 0.95 : 1
             }

@@ -15,7 +15,7 @@ FocusScope {
         anchors.fill: parent
         color: Theme.paper
         opacity: 0.85
-        MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true }
+        MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true; Accessible.ignored: true }
     }
 
     Rectangle {
@@ -35,6 +35,8 @@ FocusScope {
                 text: calm.title
                 font { pixelSize: Theme.heading; bold: true }
                 color: Theme.ink
+                Accessible.role: Accessible.AlertMessage
+                Accessible.name: text
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.WordWrap
             }
@@ -43,6 +45,8 @@ FocusScope {
                 text: calm.line
                 font.pixelSize: Theme.body
                 color: Theme.faintInk
+                Accessible.role: Accessible.StaticText
+                Accessible.name: text
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.WordWrap
             }

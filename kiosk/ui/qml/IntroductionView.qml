@@ -45,6 +45,8 @@ FocusScope {
             font.pixelSize: Theme.body
             wrapMode: Text.WordWrap
             color: Theme.ink
+            Accessible.role: Accessible.StaticText
+            Accessible.name: text
         }
     }
 

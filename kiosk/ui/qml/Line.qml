@@ -9,4 +9,6 @@ Text {
     wrapMode: Text.WordWrap
     horizontalAlignment: Text.AlignHCenter
     color: Theme.ink
+    Accessible.role: font.bold ? Accessible.Heading : Accessible.StaticText
+    Accessible.name: text
 }

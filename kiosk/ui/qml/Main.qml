@@ -25,6 +25,8 @@ Window {
     required property int motion
     // A replay drives the screens from a bar below them; a kiosk has none.
     property ReplayBar replay: null
+    required property bool highContrast
+    required property bool boardOnRight
 
     readonly property bool wide: width >= height
     readonly property real room: height - (replay === null ? 0 : controls.height)
@@ -45,6 +47,7 @@ Window {
     }
     Binding { target: Theme; property: "textSize"; value: root.textSize }
     Binding { target: Theme; property: "motion"; value: root.motion }
+    Binding { target: Theme; property: "highContrast"; value: root.highContrast }
 
     Shortcut {
         sequence: "Ctrl+Shift+Q"
@@ -54,6 +57,7 @@ Window {
 
     Item {
         id: stage
+        x: root.wide && root.boardOnRight ? root.width - width : 0
         width: root.wide ? root.width * 0.715 : root.width
         height: root.wide ? root.room : root.room * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
@@ -138,7 +142,7 @@ Window {
         }
     }
     SidePanel {
-        x: root.wide ? stage.width : root.width * 0.12
+        x: !root.wide ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
         y: root.wide ? 0 : stage.height
         width: root.wide ? root.width - stage.width - Theme.gap : root.width * 0.76
         height: root.wide ? root.room : root.room - stage.height

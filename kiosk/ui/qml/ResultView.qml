@@ -20,12 +20,15 @@ FocusScope {
             text: figure.value
             font { pixelSize: Theme.figure; bold: true }
             color: Theme.sea
+            Accessible.ignored: true
         }
         Text {
             anchors.horizontalCenter: parent.horizontalCenter
             text: figure.label
             font.pixelSize: Theme.body
             color: Theme.faintInk
+            Accessible.role: Accessible.StaticText
+            Accessible.name: text + ": " + figure.value
         }
     }
 
@@ -45,7 +48,7 @@ FocusScope {
             height: figures.height + 4 * Theme.gap
             radius: Theme.radius
             color: Theme.white
-            border.color: Theme.sand
+            border.color: Theme.edge
             border.width: 3 * Theme.unit
             Row {
                 id: figures

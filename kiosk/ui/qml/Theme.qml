@@ -3,27 +3,38 @@ pragma Singleton
 import QtQuick
 
 QtObject {
-    // Both are set by the window: pixels of one unit of a 1080-line screen, and the factor for all texts.
+    // Set by the window, as all that is not readonly: pixels of one unit of a 1080-line screen, and the factor for texts.
     property real unit: 1
     property real textSize: 1
     // How long anything takes to move, in ms; 0 without motion.
     property int motion: 0
 
-    readonly property color paper: "#FBF6EC"
-    readonly property color white: "#FFFBF2"
-    readonly property color sand: "#E9D8B4"
-    readonly property color ink: "#22313F"
-    readonly property color faintInk: "#4A5A68"
-    readonly property color sea: "#1F5F6B"
-    readonly property color lightSea: "#2E7784"
-    readonly property color amber: "#F2A33A"
-    readonly property color deepAmber: "#8A4B00"
+    // The study's palette, or one in which everything that is read stands out at 7:1 and nothing is pale.
+    property bool highContrast: false
+    readonly property color paper: highContrast ? "#FFFFFF" : "#FBF6EC"
+    readonly property color white: highContrast ? "#FFFFFF" : "#FFFBF2"
+    readonly property color sand: highContrast ? "#FFD54A" : "#E9D8B4"
+    readonly property color edge: highContrast ? "#000000" : sand
+    readonly property color ink: highContrast ? "#000000" : "#22313F"
+    readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"
+    readonly property color sea: highContrast ? "#0A3A44" : "#1F5F6B"
+    readonly property color lightSea: highContrast ? "#000000" : "#2E7784"
+    readonly property color amber: highContrast ? "#FFB000" : "#F2A33A"
+    readonly property color deepAmber: highContrast ? "#5A2D00" : "#8A4B00"
+    // How much of a card is still to be seen when it is found for good, and while a tap on it would not count.
+    readonly property real done: highContrast ? 1 : 0.6
+    readonly property real held: highContrast ? 1 : 0.72
 
-    readonly property real title: 76 * unit * textSize
-    readonly property real figure: 64 * unit * textSize
-    readonly property real heading: 46 * unit * textSize
-    readonly property real body: 32 * unit * textSize
-    readonly property real small: 26 * unit * textSize
+    readonly property real title: size(76)
+    readonly property real figure: size(64)
+    readonly property real heading: size(46)
+    readonly property real body: size(32)
+    readonly property real small: size(26)
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
+
+    // Nothing is set smaller than 24 of 1080 lines, whatever the factor.
+    function size(usual: real): real {
+        return Math.max(24, usual * textSize) * unit
+    }
 }

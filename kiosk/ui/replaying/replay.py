@@ -112,7 +112,8 @@ class Replay:
 
     def _bodies(self, plan: Plan, owner: QObject) -> Bodies:
         bodies = Bodies(_Deaf(), self._clock.after, plan.settings.robot)
-        bodies.take(AvatarBody(self._window.screens.avatar, MuteVoice(owner), _Deaf(), owner))
+        board = plan.settings.screen.board
+        bodies.take(AvatarBody(self._window.screens.avatar, MuteVoice(owner), _Deaf(), board, owner))
         return bodies
 
     def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:

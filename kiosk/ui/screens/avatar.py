@@ -10,6 +10,7 @@ from PySide6.QtQml import QmlElement
 
 from kiosk.robot import LOUDNESS_MS
 from kiosk.robot.body import Health, Listener, Place
+from kiosk.settings import Side
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName
 from kiosk.ui.voice import Voice
@@ -132,9 +133,12 @@ class AvatarBody(QObject):
 
     name = BodyName.AVATAR
 
-    def __init__(self, face: AvatarScreen, voice: Voice, listener: Listener, parent: QObject | None = None) -> None:
-        """Speak with this voice and this face, and report to ``listener``."""
+    def __init__(
+        self, face: AvatarScreen, voice: Voice, listener: Listener, board: Side = "left", parent: QObject | None = None
+    ) -> None:
+        """Speak with this voice and this face, report to ``listener``, and look for the board on this side."""
         super().__init__(parent)
+        self._left = -1.0 if board == "left" else 0.5
         self._face = face
         self._voice = voice
         self._listener = listener
@@ -175,8 +179,8 @@ class AvatarBody(QObject):
         return Health(well=True, words=f"the avatar is there; {self._voice.health.words}")
 
     def attend(self, place: Place | None) -> None:
-        """Look at a place on the board, which lies to its left, or at the visitor."""
-        self._face.look(*((0.0, 0.0) if place is None else (place.across * 0.5 - 1, place.down * 2 - 1)))
+        """Look at a place on the board, or at the visitor."""
+        self._face.look(*((0.0, 0.0) if place is None else (self._left + place.across * 0.5, place.down * 2 - 1)))
 
     def appear(self) -> None:
         """Show the face."""
