@@ -58,7 +58,8 @@ class App:
             self.conductor.play = lambda effect: self._voice.play(effect.file)
         if mode.pace is Pace.WALL and settings.screen.motion:
             # Kept, for Qt alone does not keep alive whom it calls back.
-            self._life = IdleLife(self.screens.avatar, self.screens.attract, self.clock, Random())
+            shown = self.screens
+            self._life = IdleLife(shown.kiosk, shown.avatar, shown.attract, self.clock, Random())
         self._loop = Loop(self.clock, owner, self.fault)
         self.screens.kiosk.left.connect(self.quit)
 

@@ -7,6 +7,10 @@ language-name = English
 attract-title = Do you remember?
 attract-line = Play a game of pairs with me.
 attract-start = Start
+attract-greeting =
+    .a = Hello! Shall we play?
+    .b = Twelve pairs are hidden here. Can you find them?
+    .c = Come closer, I like to play.
 
 ## About the study
 

@@ -8,6 +8,10 @@ language-name = Español
 attract-title = ¿Te acuerdas?
 attract-line = Juega conmigo a encontrar las parejas.
 attract-start = Empezar
+attract-greeting =
+    .a = ¡Hola! ¿Jugamos?
+    .b = Aquí se esconden doce parejas. ¿Puedes encontrarlas?
+    .c = Acércate, me gusta jugar.
 
 ## About the study
 

@@ -8,6 +8,10 @@ language-name = Italiano
 attract-title = Ti ricordi?
 attract-line = Gioca con me a trovare le coppie.
 attract-start = Inizia
+attract-greeting =
+    .a = Ciao! Giochiamo?
+    .b = Qui si nascondono dodici coppie. Riesci a trovarle?
+    .c = Avvicinati, mi piace giocare.
 
 ## About the study
 

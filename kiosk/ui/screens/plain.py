@@ -13,6 +13,8 @@ from kiosk.ui.screens.words import words
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
+_NO_CARD = -1
+
 
 @QmlElement
 class KioskScreen(QObject):
@@ -154,10 +156,13 @@ class AttractScreen(QObject):
         self._pictures = list(pictures)
         self._catalogues = tuple(catalogues)
         self._shown = self._language = 0
+        self._up = True
 
     def turn(self) -> None:
-        """Turn up the next card."""
-        self._shown = (self._shown + 1) % len(self._pictures)
+        """Turn back the card that is up; or, when none is, turn up the next one: two never move at once."""
+        self._up = not self._up
+        if self._up:
+            self._shown = (self._shown + 1) % len(self._pictures)
         self.changed.emit()
 
     def next_language(self) -> None:
@@ -165,9 +170,15 @@ class AttractScreen(QObject):
         self._language = (self._language + 1) % len(self._catalogues)
         self.changed.emit()
 
+    @property
+    def greetings(self) -> tuple[str, ...]:
+        """What may be shown to whoever passes, in the language of the moment."""
+        return self._catalogues[self._language].wordings("attract-greeting")
+
     def clear(self) -> None:
         """Begin anew, with the first card and the first language."""
         self._shown = self._language = 0
+        self._up = True
         self.changed.emit()
 
     @Property(list, constant=True)
@@ -177,8 +188,8 @@ class AttractScreen(QObject):
 
     @Property(int, notify=changed)
     def shown(self) -> int:
-        """Which of the cards is turned up."""
-        return self._shown
+        """Which of the cards is turned up; -1 for none."""
+        return self._shown if self._up else _NO_CARD
 
     @Property(str, notify=changed)
     def title(self) -> str:
