@@ -16,14 +16,16 @@ Item {
 
     height: Math.min(column.height, room)
     // Every visitor begins at the top.
-    onVisibleChanged: flick.contentY = 0
+    onVisibleChanged: rewind()
     onHeightChanged: flick.returnToBounds()
 
     function scroll(by: real) {
         flick.contentY = Math.max(0, Math.min(flick.contentHeight - flick.height, flick.contentY + by))
     }
+    // The bar does not follow by itself once there is nothing to scroll.
     function rewind() {
         flick.contentY = 0
+        bar.position = 0
     }
     function reveal(item: Item) {
         const y = item.mapToItem(column, 0, 0).y

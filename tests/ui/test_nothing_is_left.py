@@ -1,0 +1,171 @@
+"""Nothing of one visitor is left for the next: not in a screen's object, not in the window, not out of sight."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from random import Random
+
+import pytest
+from PySide6.QtCore import QAbstractListModel, QObject
+from PySide6.QtQuick import QQuickItem
+
+from kiosk.settings import Settings
+from kiosk.study import commands as do
+from kiosk.study.commands import Command
+from kiosk.study.events import AnswerGiven, Stage, StageEntered, WorldEvent
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.hand import lay_out
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.visitor import Character, Manner
+from tests.ui.conftest import MakeBooth
+
+SMALL = Settings.model_validate(
+    {
+        "game": {"rows": 2, "columns": 3},
+        "practice": {"rows": 2, "columns": 2},
+        "questionnaires": ["gallery"],
+        "consent": {"contact": "study@university.test"},
+    }
+)
+"""Every stage and every kind of item, on small boards."""
+
+KEPT_BY_AN_ITEM = (
+    *("visible", "enabled", "opacity", "focus", "text", "checked", "value", "contentX", "contentY", "cursorPosition"),
+    *("selectedText", "currentIndex", "source", "capitals", "byKeyboard", "position"),
+)
+"""Whatever of an item a visitor could leave something in."""
+
+PLACE = ("x", "y", "width", "height")
+"""The same of an item that is seen; one that is not is laid out anew before it is."""
+
+WALKED_OUT_OF = (Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS, Stage.DEBRIEF)
+
+
+def of_screens(app: App) -> dict[str, object]:
+    """Every Qt property of every screen, and the cards of the board."""
+    found: dict[str, object] = {}
+    for name, screen in app.screens.by_name.items():
+        about = screen.metaObject()
+        for index in range(QObject.staticMetaObject.propertyCount(), about.propertyCount()):
+            found[f"{name}.{about.property(index).name()}"] = about.property(index).read(screen)
+        if isinstance(screen, QAbstractListModel):
+            found[f"{name}.rows"] = screen.rowCount()
+    return found
+
+
+def items(item: QQuickItem) -> Iterator[QQuickItem]:
+    """An item and all below it, seen or not."""
+    yield item
+    for child in item.childItems():
+        yield from items(child)
+
+
+def of_window(app: App) -> list[dict[str, str]]:
+    """What every item of the window looks like, in their order."""
+    lay_out(app.window)
+    return [
+        {"kind": re.sub(r"_QML.*", "", item.metaObject().className()), "name": item.objectName()}
+        | {key: str(item.property(key)) for key in (*KEPT_BY_AN_ITEM, *(PLACE if item.isVisible() else ()))}
+        for item in items(app.window.contentItem())
+    ]
+
+
+def texts(app: App) -> str:
+    """Every text in the window, seen or not."""
+    return "\n".join(str(item.property("text") or "") for item in items(app.window.contentItem()))
+
+
+@dataclass
+class Memory:
+    """What a visitor has said, typed or been told."""
+
+    sentences: set[str] = field(default_factory=set)
+    typed: set[str] = field(default_factory=set)
+    codes: set[str] = field(default_factory=set)
+
+    def note(self, app: App, event: WorldEvent, commands: tuple[Command, ...]) -> None:
+        """Keep what comes of an event."""
+        self.sentences |= {command.sentence for command in commands if isinstance(command, do.Speak)}
+        if isinstance(event, AnswerGiven) and event.item == "remark" and isinstance(event.value, str):
+            self.typed.add(event.value)
+        if app.screens.debrief.property("code"):
+            self.codes.add(str(app.screens.debrief.property("code")))
+
+    def all(self) -> set[str]:
+        """All of it."""
+        return self.sentences | self.typed | self.codes
+
+
+class Watched(Rehearsal):
+    """A sitting in which every stage is searched for what the last visitor left, as soon as it is entered."""
+
+    def __init__(self, app: App, seed: int, visitor: Character, last: Memory) -> None:
+        super().__init__(app, seed, visitor=visitor)
+        self.own = Memory()
+        self.left: list[tuple[str, str]] = []
+        self._last = last
+        self._go_on_watching = app.conductor.witness
+        app.conductor.witness = self._search
+
+    def _search(self, event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+        self.own.note(self._app, event, commands)
+        if any(isinstance(c, do.Record) and isinstance(c.event, StageEntered) for c in commands):
+            shown = texts(self._app)
+            self.left += [(stage.value, text) for text in self._last.all() - self.own.all() if text in shown]
+        assert self._go_on_watching is not None
+        self._go_on_watching(event, commands, stage)
+
+
+def visitors(seed: int) -> Iterator[Character]:
+    """Some visitors of every kind, in any order and language."""
+    chance = Random(seed)
+    manners = list(Manner)
+    chance.shuffle(manners)
+    for manner in manners:
+        yield Character(manner, chance.choice(WALKED_OUT_OF), chance.choice(["en", "it", "es"]))
+
+
+def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> list[object]:
+    """Where two pictures of the window differ."""
+    if len(before) != len(after):
+        return [f"{len(before)} items were there, now {len(after)}"]
+    return [(one, dict(other.items() - one.items())) for one, other in zip(before, after, strict=True) if one != other]
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_after_any_sitting_the_kiosk_is_as_it_was_before_the_first(make_booth: MakeBooth, seed: int) -> None:
+    booth = make_booth(settings=SMALL)
+    booth.settle()
+    screens, window = of_screens(booth.app), of_window(booth.app)
+    last = Memory()
+    for number, visitor in enumerate(visitors(seed)):
+        sitting = Watched(booth.app, 100 * seed + number, visitor, last)
+        sitting.run()
+        booth.settle()
+        assert sitting.left == [], visitor
+        assert of_screens(booth.app) == screens, visitor
+        assert differences(window, of_window(booth.app)) == [], visitor
+        assert not any(text in texts(booth.app) for text in sitting.own.all()), visitor
+        last = sitting.own
+
+
+def test_the_search_for_what_is_left_finds_something(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=SMALL)
+    booth.settle()
+    screens, window = of_screens(booth.app), of_window(booth.app)
+    booth.app.screens.avatar.say("a sentence that was forgotten")
+    assert "a sentence that was forgotten" in texts(booth.app)
+    assert of_screens(booth.app) != screens
+    assert differences(window, of_window(booth.app)) != []
+
+
+def test_a_visitor_s_own_text_is_found_in_their_own_sitting(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=SMALL)
+    memory = Memory()
+    sitting = Watched(booth.app, 7, Character(), memory)
+    sitting.run()
+    assert sitting.own.codes
+    assert sitting.own.typed
+    assert sitting.own.sentences
