@@ -1,4 +1,5 @@
 // The one window: a screen on the left, the assistant on the right, and at times a calm word over both.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Window
 import Recollect
