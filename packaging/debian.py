@@ -17,6 +17,7 @@ ROOT = LINUX.parent.parent
 PLACES = {
     LINUX / "recollect.service": "usr/lib/systemd/user/recollect.service",
     LINUX / "recollect-cage@.service": "usr/lib/systemd/system/recollect-cage@.service",
+    LINUX / "recollect-cage": "usr/bin/recollect-cage",
     LINUX / "recollect.desktop": "usr/share/applications/recollect.desktop",
     LINUX / "recollect-autostart.desktop": "usr/share/doc/recollect/examples/recollect-autostart.desktop",
     ROOT / "assets" / "icon.svg": "usr/share/icons/hicolor/scalable/apps/recollect.svg",
@@ -50,7 +51,6 @@ def package(built: Path, work: Path, place: Path) -> Path:
     for source, target in PLACES.items():
         _put(source.read_bytes(), tree / target)
     _put(gzip.compress((LINUX / "recollect.1").read_bytes(), mtime=0), tree / "usr/share/man/man1/recollect.1.gz")
-    (tree / "usr/bin").mkdir()
     (tree / "usr/bin/recollect").symlink_to("../lib/recollect/recollect")
     architecture = _say("dpkg", "--print-architecture")
     _put(_control(tree, architecture).encode(), tree / "DEBIAN" / "control")
@@ -76,7 +76,7 @@ def _set_modes(tree: Path) -> None:
     """The modes that files of a system have, whatever the mask of whoever builds."""
     for path in (tree, *tree.rglob("*")):
         if not path.is_symlink():
-            runs = path.is_dir() or path == tree / PROGRAM / "recollect"
+            runs = path.is_dir() or path in {tree / PROGRAM / "recollect", tree / "usr/bin/recollect-cage"}
             path.chmod(0o755 if runs else 0o644)
 
 

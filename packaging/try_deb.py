@@ -54,7 +54,7 @@ def main() -> int:
         fresh = arguments.root or Path(folder) / "fresh"
         _make_fresh(fresh)
         tried = Path(folder) / "tried"
-        subprocess.run(["cp", "--archive", fresh, tried], check=True)
+        subprocess.run(["/bin/cp", "--archive", fresh, tried], check=True)
         return _try(package, tried)
 
 
@@ -70,7 +70,11 @@ def _make_fresh(fresh: Path) -> None:
     if (fresh / "etc" / "debian_version").exists():
         return
     print(f"Making a fresh Debian ({RELEASE}).", flush=True)
-    subprocess.run(["debootstrap", "--variant=minbase", RELEASE, str(fresh)], stdout=subprocess.DEVNULL, check=True)
+    subprocess.run(
+        [shutil.which("debootstrap") or "debootstrap", "--variant=minbase", RELEASE, str(fresh)],
+        stdout=subprocess.DEVNULL,
+        check=True,
+    )
 
 
 def _try(package: Path, root: Path) -> int:

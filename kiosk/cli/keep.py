@@ -15,7 +15,8 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.cli.case import languages
 from kiosk.cli.options import data_option
 from kiosk.cli.wiring import log_into
-from kiosk.keeping.keeper import REFUSED, Happening, Keeper, Patience, What
+from kiosk.keeping.keeper import REFUSED, Happening, Keeper, What
+from kiosk.keeping.watch import Patience
 from kiosk.settings import ASSETS
 
 _TROUBLE = {What.DIED, What.HUNG, What.PAUSE, What.REFUSED, What.NO_MEANWHILE}

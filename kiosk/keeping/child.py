@@ -28,9 +28,12 @@ class Child:
         self._folder = Path(tempfile.mkdtemp(prefix="recollect-keep-"))
         self._listener = listener(self._folder)
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._folder))
-        self.process = _start(
-            command, os.environ | temporary | self._listener.environment | environment, self._listener.inherited
-        )
+        own = os.environ | temporary | self._listener.environment | environment
+        try:
+            self.process = _start(command, own, self._listener.inherited)
+        except OSError:
+            self._clear()
+            raise
 
     def hear(self, within_s: float) -> Notice:
         """What it tells next; empty if it tells nothing within this time."""
@@ -54,9 +57,12 @@ class Child:
         """End whatever of it still runs, clear away what it left, and return its exit code; negative for a signal."""
         self._kill_all()
         code = self.process.wait()
+        self._clear()
+        return code
+
+    def _clear(self) -> None:
         self._listener.close()
         shutil.rmtree(self._folder, ignore_errors=True)
-        return code
 
     def _kill_all(self) -> None:
         if sys.platform == "win32":

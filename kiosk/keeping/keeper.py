@@ -16,34 +16,14 @@ from enum import Enum
 
 from kiosk.keeping.child import Child
 from kiosk.keeping.notice import BEAT_WITHIN, Notice, Notifier
+from kiosk.keeping.watch import Patience, Watch
 
 LEFT, REFUSED = 0, 2
 """Exit codes of the kiosk: somebody left it; it cannot use what it was given."""
 
 US_PER_S = 1_000_000
-
-
-@dataclass(frozen=True)
-class Patience:
-    """How long the keeper waits for what; all in seconds."""
-
-    silence: float = 5.0
-    """For the next beat, until the kiosk hangs."""
-    start: float = 30.0
-    """For the first frame."""
-    end: float = 5.0
-    """For a kiosk that was asked to end."""
-    meanwhile: float = 5.0
-    """For the calm window."""
-    young: float = 10.0
-    """A kiosk that dies sooner after its first frame died at once."""
-    longest_pause: float = 30.0
-    tick: float = 0.1
-    """How often it is seen whether the kiosk is still there."""
-
-    def pause(self, died_young: int) -> float:
-        """Before the next start, when so many in a row have died young."""
-        return 0.0 if died_young <= 1 else min(2.0 ** (died_young - 2), self.longest_pause)
+BEAT_S = 1.0
+"""How often the keeper tells whoever watches it that it is alive."""
 
 
 class What(Enum):
@@ -94,6 +74,7 @@ class Keeper:
         self._began = time.monotonic()
         self._calm: Child | None = None
         self._above = Notifier(os.environ)
+        self._beats_at = 0.0
         self._lost_at: float | None = None
         self._starts = self._died_young = 0
         self._was_up = self._asked_to_end = False
@@ -115,6 +96,7 @@ class Keeper:
                     return LEFT
         finally:
             self._above.tell(STOPPING=1)
+            self._above.close()
             if self._calm is not None:
                 self._calm.close()
 
@@ -122,24 +104,31 @@ class Keeper:
         """Start the kiosk and see it to its end; the exit code, or nothing if it is to be started again."""
         self._starts += 1
         self._happened(What.STARTED)
-        kiosk = Child(self._kiosk, {BEAT_WITHIN: str(int(self._patience.silence * US_PER_S))})
-        watch = _Watch(kiosk, self._patience)
         try:
-            while not (self._asked_to_end or watch.over()):
-                self._hear(watch)
-            if self._asked_to_end:
-                self._happened(What.TOLD_TO_END)
-                _await_end(kiosk, self._patience.end)
+            kiosk = Child(self._kiosk, {BEAT_WITHIN: str(int(self._patience.silence * US_PER_S))})
+        except OSError as error:
+            self._lose(What.DIED, f"it could not be started: {error.strerror}", young=True)
+            return None
+        watch = Watch(kiosk, self._patience)
+        try:
+            self._see_to_its_end(kiosk, watch)
         finally:
             hung = not (kiosk.dead() or self._asked_to_end)
             code = kiosk.close()
         return LEFT if self._asked_to_end else self._judge(code, watch, hung=hung)
 
-    def _hear(self, watch: _Watch) -> None:
-        notice = watch.hear()
-        self._above.tell(WATCHDOG=1)
-        if self._calm is not None:
-            self._calm.hear(0)
+    def _see_to_its_end(self, kiosk: Child, watch: Watch) -> None:
+        while not (self._asked_to_end or watch.over()):
+            self._pass_on(watch.hear())
+        while last_words := watch.hear(0):
+            self._pass_on(last_words)
+        if self._asked_to_end:
+            self._happened(What.TOLD_TO_END)
+            _await_end(kiosk, self._patience.end)
+
+    def _pass_on(self, notice: Notice) -> None:
+        """Tell what the kiosk told, and that the keeper itself is alive."""
+        self._beat()
         if "READY" in notice:
             self._was_up = True
             away = None if self._lost_at is None else round(time.monotonic() - self._lost_at, 2)
@@ -149,20 +138,33 @@ class Keeper:
             self._happened(What.SHOWS, notice["STATUS"])
             self._above.tell(STATUS=notice["STATUS"])
 
-    def _judge(self, code: int, watch: _Watch, *, hung: bool) -> int | None:
+    def _beat(self) -> None:
+        now = time.monotonic()
+        if now >= self._beats_at:
+            self._beats_at = now + BEAT_S
+            self._above.tell(WATCHDOG=1)
+            if self._calm is not None:
+                # Nobody waits for what it tells, but a pipe must not fill up.
+                self._calm.hear(0)
+
+    def _judge(self, code: int, watch: Watch, *, hung: bool) -> int | None:
         if not hung and code == LEFT:
             self._happened(What.LEFT)
             return LEFT
         if not hung and code == REFUSED and not self._was_up:
             self._happened(What.REFUSED)
             return REFUSED
-        self._lost_at = time.monotonic()
-        self._died_young = self._died_young + 1 if watch.up_s() < self._patience.young else 0
+        young = watch.up_s() < self._patience.young
         if hung:
-            self._happened(What.HUNG, "no sign of life" if watch.up_s() else "no first frame")
+            self._lose(What.HUNG, "no sign of life" if watch.up else "no first frame", young=young)
         else:
-            self._happened(What.DIED, f"signal {-code}" if code < 0 else f"exit code {code}")
+            self._lose(What.DIED, f"signal {-code}" if code < 0 else f"exit code {code}", young=young)
         return None
+
+    def _lose(self, what: What, how: str, *, young: bool) -> None:
+        self._lost_at = time.monotonic()
+        self._died_young = self._died_young + 1 if young else 0
+        self._happened(what, how)
 
     def _wait(self) -> None:
         """Pause before the next start, alive to whoever watches the keeper."""
@@ -171,7 +173,7 @@ class Keeper:
             self._happened(What.PAUSE, away_s=pause)
         until = time.monotonic() + pause
         while time.monotonic() < until and not self._asked_to_end:
-            self._above.tell(WATCHDOG=1)
+            self._beat()
             time.sleep(self._patience.tick)
 
     def _show_calm_window(self) -> None:
@@ -180,8 +182,13 @@ class Keeper:
             return
         if self._calm is not None:
             self._calm.close()
-        self._calm = Child(self._meanwhile, {})
-        watch = _Watch(self._calm, self._patience)
+            self._calm = None
+        try:
+            self._calm = Child(self._meanwhile, {})
+        except OSError:
+            self._happened(What.NO_MEANWHILE)
+            return
+        watch = Watch(self._calm, self._patience)
         until = time.monotonic() + self._patience.meanwhile
         while not (watch.up or watch.over() or time.monotonic() > until or self._asked_to_end):
             watch.hear()
@@ -190,43 +197,6 @@ class Keeper:
 
     def _happened(self, what: What, detail: str = "", away_s: float | None = None) -> None:
         self._tell(Happening(round(time.monotonic() - self._began, 2), what, self._starts, detail, away_s))
-
-
-class _Watch:
-    """Whether one program is up, and since when it has been silent."""
-
-    def __init__(self, child: Child, patience: Patience) -> None:
-        self._child = child
-        self._patience = patience
-        self._up_at: float | None = None
-        self._left_s = patience.start
-        self._looked_at = time.monotonic()
-
-    @property
-    def up(self) -> bool:
-        """Whether its first frame was drawn."""
-        return self._up_at is not None
-
-    def up_s(self) -> float:
-        """For how long its first frame has been there; 0 without one."""
-        return 0.0 if self._up_at is None else time.monotonic() - self._up_at
-
-    def hear(self) -> Notice:
-        """What it tells within a tick."""
-        notice = self._child.hear(self._patience.tick)
-        now = time.monotonic()
-        # Where everything stood still for a while, the keeper too, nobody is to blame for having been silent.
-        self._left_s -= min(now - self._looked_at, 2 * self._patience.tick)
-        self._looked_at = now
-        if "READY" in notice and self._up_at is None:
-            self._up_at = now
-        if self.up and {"READY", "WATCHDOG"} & notice.keys():
-            self._left_s = self._patience.silence
-        return notice
-
-    def over(self) -> bool:
-        """Whether it is dead, or might as well be."""
-        return self._child.dead() or self._left_s <= 0
 
 
 def _await_end(child: Child, within_s: float) -> None:

@@ -41,7 +41,8 @@ def show_meanwhile(lines: Sequence[str]) -> None:
     keeper = Notifier(os.environ)
     after_first_frame(window, lambda: keeper.tell(READY=1))
     looking = QTimer()
-    looking.timeout.connect(lambda: None if keeper.tell(WATCHDOG=1) else application.quit())
+    # Not quit, which asks the window, and it refuses everybody.
+    looking.timeout.connect(lambda: None if keeper.tell(WATCHDOG=1) else application.exit())
     looking.start(LOOK_MS)
     application.exec()
     del engine

@@ -1,0 +1,86 @@
+"""``recollect keep`` with the real kiosk, on no screen: it comes back, says so, and ends as it should."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk import program
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for processes as Linux shows them")
+
+
+class Kept:
+    """A keeper at work."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process = process
+
+    def wait_for(self, what: str) -> dict[str, Any]:
+        """The next happening of this kind; fails if the keeper ends before."""
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            happening: dict[str, Any] = json.loads(line)
+            if happening["what"] == what:
+                return happening
+        pytest.fail(f"the keeper ended without {what!r}")
+
+    def kiosk(self) -> int:
+        """The process of the kiosk."""
+        own = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
+        return next(int(child) for child in own if b"\0open\0" in Path(f"/proc/{child}/cmdline").read_bytes())
+
+
+@contextmanager
+def kept(data: Path, *options: str) -> Iterator[Kept]:
+    """A keeper with this data folder and these options."""
+    command = program("keep", "--json", "--data", str(data), *options)
+    environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
+        try:
+            yield Kept(one)
+        finally:
+            one.terminate()
+
+
+def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path: Path) -> None:
+    with kept(tmp_path) as keeper:
+        keeper.wait_for("ready")
+        os.kill(keeper.kiosk(), signal.SIGKILL)
+        assert keeper.wait_for("died")["detail"] == "signal 9"
+        again = keeper.wait_for("ready")
+        assert (again["start"], again["away_s"] > 0) == (2, True)
+        assert keeper.wait_for("shows")["detail"] == "attract"
+        keeper.process.send_signal(signal.SIGTERM)
+        keeper.wait_for("told to end")
+        assert keeper.process.wait(20) == 0
+    died, ready = (tmp_path / "recollect.log").read_text().splitlines()
+    assert died.endswith("WARNING kiosk.cli.keep: start 1 of the kiosk: died: signal 9")
+    assert "WARNING kiosk.cli.keep: start 2 of the kiosk: ready (" in ready
+
+
+def test_a_study_file_that_cannot_be_used_ends_the_keeper_in_words(tmp_path: Path) -> None:
+    with kept(tmp_path, "--", "--study", str(tmp_path / "none.toml")) as keeper:
+        keeper.wait_for("refused")
+        _, said = keeper.process.communicate()
+        assert keeper.process.returncode == 2
+    assert "none.toml cannot be read: No such file or directory" in said
+    assert said.splitlines()[-1] == "recollect: the kiosk refused what it was given, so it is not started again"
+
+
+def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    done = subprocess.run(
+        program("keep", "--data", str(tmp_path / "file")), capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"

@@ -1,0 +1,114 @@
+"""The kiosk tells that it lives, out of its own event loop, to whoever wants to know and to nobody else."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from itertools import groupby
+from pathlib import Path
+
+import pytest
+from PySide6.QtQuick import QQuickWindow
+from pytestqt.qtbot import QtBot
+
+from kiosk.keeping.notice import SocketListener
+from kiosk.ui.screens.plain import KioskScreen
+from kiosk.ui.watchdog import watched
+from tests.ui.conftest import Booth
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
+
+EVERY_40_MS = {"WATCHDOG_USEC": "40000"}
+
+
+@pytest.fixture
+def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
+    """An empty window that is not shown yet."""
+    made = QQuickWindow()
+    yield made
+    made.close()
+    del qtbot
+
+
+@pytest.fixture
+def listener(tmp_path: Path) -> Iterator[SocketListener]:
+    """Whoever wants to know."""
+    made = SocketListener(tmp_path)
+    yield made
+    made.close()
+
+
+def heard(listener: SocketListener) -> list[tuple[str, str]]:
+    """Everything that was told since the last time."""
+    told: list[tuple[str, str]] = []
+    while notice := listener.hear(0):
+        told += notice.items()
+    return told
+
+
+def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
+    qtbot: QtBot, window: QQuickWindow, listener: SocketListener
+) -> None:
+    told: list[tuple[str, str]] = []
+
+    def beats(least: int) -> bool:
+        told.extend(heard(listener))
+        return told.count(("WATCHDOG", "1")) >= least
+
+    with watched(window, KioskScreen(), listener.environment | EVERY_40_MS):
+        assert heard(listener) == []
+        window.show()
+        qtbot.waitUntil(lambda: beats(3))
+        assert told[:2] == [("READY", "1"), ("STATUS", "attract")]
+    assert heard(listener)[-1] == ("STOPPING", "1")
+
+
+def test_a_loop_that_does_not_turn_is_silent(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
+    with watched(window, KioskScreen(), listener.environment | EVERY_40_MS):
+        window.show()
+        qtbot.waitUntil(lambda: ("WATCHDOG", "1") in heard(listener))
+        heard(listener)
+        assert listener.hear(0.2) == {}
+
+
+def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
+    kiosk = KioskScreen()
+    with watched(window, kiosk, listener.environment):
+        kiosk.show("game")
+        assert heard(listener) == [("STATUS", "game")]
+    kiosk.show("result")
+    assert heard(listener) == [("STOPPING", "1")]
+    del qtbot
+
+
+def test_without_a_wish_for_beats_there_are_none(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
+    with watched(window, KioskScreen(), listener.environment):
+        window.show()
+        qtbot.waitUntil(lambda: ("READY", "1") in heard(listener))
+        qtbot.wait(50)
+        assert heard(listener) == []
+
+
+class Told:
+    """Keeps what is told: a socket that nobody empties takes only so much."""
+
+    def __init__(self, _: object) -> None:
+        self.screens: list[str] = []
+        Told.last = self
+
+    def tell(self, **notice: object) -> None:
+        """Keep the screens."""
+        self.screens += [str(notice["STATUS"])] if "STATUS" in notice else []
+
+    def close(self) -> None:
+        """Nothing to close."""
+
+    last: Told
+
+
+def test_a_whole_sitting_is_told_screen_by_screen(booth: Booth, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NOTIFY_SOCKET", "somewhere")
+    monkeypatch.setattr("kiosk.ui.watchdog.Notifier", Told)
+    booth.rehearse(1)
+    screens = [screen for screen, _ in groupby(Told.last.screens)]
+    assert screens[screens.index("introduction") :] == ["introduction", "game", "result", "questions", "attract"]
