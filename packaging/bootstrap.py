@@ -41,6 +41,7 @@ WINDOW = (
 )
 VOICE = "espeak-ng alsa-utils"
 VIRTUAL_SCREEN = "xvfb xauth xdotool openbox"
+BUILD = "binutils" + (f" libpython{VERSION}" if sys.base_prefix == "/usr" else "")
 
 CHECKS = (
     ("ruff", "check", "."),
@@ -89,7 +90,7 @@ def start(arguments: Sequence[str]) -> int:
 
 def test(arguments: Sequence[str]) -> int:
     """Run all checks and then the tests; further arguments go to pytest, whose summary is the last line."""
-    install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN)
+    install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN, BUILD)
     install_python_packages(extras=set(project()["optional-dependencies"]))
     headless = {"QT_QPA_PLATFORM": "offscreen"} | os.environ | {"QT_QUICK_BACKEND": "software"}
     with runtime_folder(headless) as environment:

@@ -18,6 +18,8 @@ from pathlib import Path
 from kiosk.keeping.notice import Notice, listener
 
 _POSIX = sys.platform != "win32"
+_ERRORS = 2
+"""Standard error, to which a program's own output goes as well: the standard output is the keeper's."""
 
 
 class Child:
@@ -89,9 +91,15 @@ def _start(
             command,
             env=environment,
             stdin=subprocess.DEVNULL,
+            stdout=_ERRORS,
             startupinfo=subprocess.STARTUPINFO(lpAttributeList={"handle_list": handles}),
             creationflags=subprocess.CREATE_NEW_PROCESS_GROUP,
         )
     return subprocess.Popen(  # noqa: S603
-        command, env=environment, stdin=subprocess.DEVNULL, pass_fds=inherited, start_new_session=True
+        command,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=_ERRORS,
+        pass_fds=inherited,
+        start_new_session=True,
     )

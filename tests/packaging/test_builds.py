@@ -1,0 +1,134 @@
+"""The builds are made and started: what is in them plays the same sitting as the checkout, and speaks, and is kept up.
+
+The slowest of all tests, half a minute and more. A pytest file rather than a step of the set-up, so that it runs alone.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk import program
+from kiosk.cli.wiring import code_commit
+from kiosk.store.reading import archive
+
+ROOT = Path(__file__).parents[2]
+LONG = 600
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="builds are tried on Linux only")
+
+
+@pytest.fixture(scope="module")
+def folder() -> Path:
+    """The built folder, made anew."""
+    _build("folder")
+    return ROOT / "dist" / "recollect"
+
+
+@pytest.fixture(scope="module")
+def unpacked(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The Debian package of that folder, unpacked and not installed."""
+    assert folder.is_dir()
+    dpkg = shutil.which("dpkg-deb")
+    if dpkg is None:
+        pytest.skip("there is no dpkg-deb here")
+    _build("deb")
+    (package,) = (ROOT / "dist").glob("recollect_*.deb")
+    place = tmp_path_factory.mktemp("deb")
+    subprocess.run([dpkg, "-x", str(package), str(place)], check=True)
+    return place
+
+
+def _build(kind: str) -> None:
+    command = [sys.executable, "packaging/build.py", kind]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=LONG)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def rehearse(command: tuple[str, ...], data: Path) -> dict[str, Any]:
+    """What a rehearsal tells, run far away from the checkout."""
+    rehearsal = (*command, "rehearse", "--headless", "--seed", "7", "--data", str(data), "--json")
+    away = None if command[-1] == "kiosk" else data.parent
+    done = subprocess.run(rehearsal, cwd=away, capture_output=True, text=True, check=False, timeout=LONG)
+    assert done.returncode == 0, done.stderr
+    told: dict[str, Any] = json.loads(done.stdout)
+    return told
+
+
+def test_a_built_folder_plays_the_very_sitting_that_the_checkout_plays(folder: Path, tmp_path: Path) -> None:
+    built = rehearse((str(folder / "recollect"),), tmp_path / "built")
+    assert built == rehearse(program(), tmp_path / "checkout")
+    with archive(tmp_path / "built") as one, archive(tmp_path / "checkout") as other:
+        assert one.events(1) == other.events(1)
+    with closing(sqlite3.connect(tmp_path / "built" / "recollect.db")) as database:
+        assert database.execute("SELECT code_commit FROM sitting").fetchone() == (code_commit(),)
+
+
+def test_the_voice_of_a_build_answers(folder: Path) -> None:
+    done = subprocess.run(
+        [folder / "recollect", "voice", "en", "150", "0.5"],
+        input='{"quit": true}\n',
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=LONG,
+    )
+    first = json.loads(done.stdout.splitlines()[0])
+    assert first["event"] == "ready" or "No module" not in first["why"]
+
+
+def test_a_command_that_needs_the_full_install_says_so_in_a_sentence(folder: Path, tmp_path: Path) -> None:
+    figure = ("policy", "show", "default", "--figure", str(tmp_path / "figure.png"))
+    done = subprocess.run([folder / "recollect", *figure], capture_output=True, text=True, check=False, timeout=LONG)
+    assert done.returncode == 2
+    assert done.stderr.startswith("recollect: figures need matplotlib")
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_an_unpacked_package_plays_a_sitting_by_its_name_on_the_path(unpacked: Path, tmp_path: Path) -> None:
+    assert rehearse((str(unpacked / "usr/bin/recollect"),), tmp_path / "data")["status"] == "completed"
+
+
+def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
+    """Every process that a build starts of itself must find the build's own libraries again."""
+    command = [str(unpacked / "usr/bin/recollect"), "keep", "--json", "--data", str(tmp_path)]
+    environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as keeper:
+        assert keeper.stdout is not None
+        happenings = iter(keeper.stdout)
+        what = next(told["what"] for line in happenings if (told := json.loads(line))["what"] not in {"started"})
+        keeper.send_signal(signal.SIGTERM)
+        assert (what, keeper.wait(LONG)) == ("ready", 0)
+        assert json.loads(list(happenings)[-1])["what"] == "told to end"
+
+
+def test_a_package_holds_what_a_system_needs_to_start_it(unpacked: Path) -> None:
+    files = {str(path.relative_to(unpacked)) for path in unpacked.rglob("*") if not path.is_dir()}
+    assert {
+        "usr/lib/systemd/user/recollect.service",
+        "usr/lib/systemd/system/recollect-cage@.service",
+        "usr/share/applications/recollect.desktop",
+        "usr/share/icons/hicolor/scalable/apps/recollect.svg",
+        "usr/share/man/man1/recollect.1.gz",
+        "usr/bin/recollect-cage",
+    } <= files
+    assert os.access(unpacked / "usr/bin/recollect-cage", os.X_OK)
+
+
+def test_what_the_screens_do_not_use_is_not_in_a_build(folder: Path) -> None:
+    qt = folder / "_internal" / "PySide6" / "Qt"
+    modules = {module.name for module in (qt / "qml" / "QtQuick").iterdir() if module.is_dir()}
+    assert "Shapes" in modules
+    assert not modules & {"VirtualKeyboard", "Dialogs", "NativeStyle", "Scene2D", "Timeline"}
+    assert not {file.name for file in qt.rglob("*")} & {"libQt6Designer.so.6", "libqsqlite.so", "libqgtk3.so"}
+    assert not list(qt.rglob("*.qm"))

@@ -1,0 +1,64 @@
+"""``recollect`` with a visitor inside who plays up to a stage, and a kiosk that breaks when it is told to.
+
+``python -m tests.ui.kept_kiosk STAGE MARKER`` and then recollect's own arguments: the kiosk that finds no MARKER makes
+it and lets the visitor in; later ones are left alone. SIGUSR1 raises in the event loop, SIGUSR2 never gives it back.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from pathlib import Path
+from unittest.mock import patch
+
+from kiosk.cli.front import main
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+
+STAGE, MARKER = sys.argv[1], Path(sys.argv[2])
+
+
+class Guest(Rehearsal):
+    """Plays until the stage is shown, and then stands there."""
+
+    def _think(self) -> None:
+        if self._app.screens.kiosk.shown != STAGE:
+            super()._think()
+
+
+def faulty(*_: object) -> None:
+    """A fault of ours."""
+    raise RuntimeError("a fault on purpose")
+
+
+def endless(*_: object) -> None:
+    """A loop without an end."""
+    while True:
+        pass
+
+
+def run(app: App) -> None:
+    """Run as ever, with the visitor inside if it is the first time."""
+    signal.signal(signal.SIGUSR1, faulty)
+    signal.signal(signal.SIGUSR2, endless)
+    if not MARKER.exists():
+        MARKER.touch()
+        guest = Guest(app, 1)
+        guest._think()
+    plain_run(app)
+
+
+def program(*arguments: str) -> tuple[str, ...]:
+    """The command of another process of ours: this module again."""
+    return (sys.executable, "-m", "tests.ui.kept_kiosk", STAGE, str(MARKER), *arguments)
+
+
+if __name__ == "__main__":
+    del sys.argv[1:3]
+    plain_run = App.run
+    with (
+        patch("kiosk.ui.app.App.run", run),
+        patch("kiosk.cli.keep.program", program),
+        patch("kiosk.ui.voice.program", program),
+    ):
+        main()

@@ -1,0 +1,225 @@
+"""Every way to lose the kiosk, in every stage: ``python -m tests.ui.revival [--stages attract,game]``.
+
+On a virtual screen with a window manager the keeper runs the kiosk, a visitor plays up to the stage, and the fault
+strikes. Prints the seconds until the kiosk shows attract again, as one line (or with --json one object) per fault, with
+what the visitor saw meanwhile and what the database says of the sitting; ends with 1 if anything took longer than
+TEN seconds or is not as it must be. Needs Xvfb, openbox and ImageMagick's import; takes some minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import queue
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from kiosk.store.reading import archive
+from kiosk.study.events import Status
+
+STAGES = ("attract", "introduction", "game", "result", "questions")
+"""By the names of the screens."""
+LONGEST_S = 10.0
+UNTIL_STAGE_S = 240.0
+STOPPED_S = 60.0
+"""How long a stopped kiosk would stay stopped."""
+
+
+def _to_group(signal_number: signal.Signals) -> Callable[[int], None]:
+    return lambda kiosk: os.kill(kiosk, signal_number)
+
+
+FAULTS: dict[str, Callable[[int], None]] = {
+    "killed": _to_group(signal.SIGKILL),
+    "stopped": _to_group(signal.SIGSTOP),
+    "aborted": _to_group(signal.SIGABRT),
+    "endless loop": _to_group(signal.SIGUSR2),
+    "exception": _to_group(signal.SIGUSR1),
+}
+"""What strikes the process of the kiosk."""
+MENDED_INSIDE = {"exception"}
+"""What the kiosk itself answers with its own calm screen, without being started again."""
+
+
+@dataclass(frozen=True)
+class Revival:
+    """What came of one fault."""
+
+    stage: str
+    fault: str
+    back_s: float
+    """From the fault until attract is shown again."""
+    seen: str
+    """What the keeper saw."""
+    sitting: str
+    """What the database says of the sitting, after the next start."""
+    left_behind: int
+    """Processes and temporary folders that should be gone."""
+
+    def faults(self) -> list[str]:
+        """Whatever must not be; nothing, if all is well."""
+        wrong = {
+            "it took too long": self.back_s > LONGEST_S and self.fault not in MENDED_INSIDE,
+            "the sitting is not marked": self.sitting
+            not in {Status.INTERRUPTED.value, "none" if self.stage == "attract" else ""},
+            "something was left behind": bool(self.left_behind),
+        }
+        return [what for what, holds in wrong.items() if holds]
+
+
+@contextmanager
+def screen() -> Iterator[dict[str, str]]:
+    """A virtual screen with a window manager; yields the environment for it."""
+    reads, writes = os.pipe()
+    geometry = ("-screen", "0", "1920x1080x24", "-nolisten", "tcp")
+    with ending(_found("Xvfb"), "-displayfd", str(writes), *geometry, pass_fds=[writes]):
+        os.close(writes)
+        with os.fdopen(reads) as number:
+            environment = os.environ | {"DISPLAY": f":{number.readline().strip()}", "QT_QPA_PLATFORM": "xcb"}
+        with ending(_found("openbox"), env=environment):
+            yield environment
+
+
+@contextmanager
+def ending(*command: str, **options: Any) -> Iterator[None]:
+    """A program that runs meanwhile and is ended then."""
+    with subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options) as process:
+        try:
+            yield
+        finally:
+            process.terminate()
+
+
+class Kept:
+    """A keeper at work; what it tells comes with the time at which it was told."""
+
+    def __init__(self, stage: str, folder: Path, environment: dict[str, str]) -> None:
+        command = [sys.executable, "-m", "tests.ui.kept_kiosk", stage, str(folder / "marker")]
+        self.data = folder / "data"
+        self.process = subprocess.Popen(
+            [*command, "keep", "--json", "--data", str(self.data)],
+            env=environment | {"TMPDIR": str(folder)},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self._told: queue.SimpleQueue[tuple[float, dict[str, Any]]] = queue.SimpleQueue()
+        threading.Thread(target=self._read, daemon=True).start()
+        self.seen: list[str] = []
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self._told.put((time.monotonic(), json.loads(line)))
+
+    def wait_for(self, screen: str, within_s: float) -> float:
+        """When the kiosk showed this screen next; raises queue.Empty if it did not in time."""
+        until = time.monotonic() + within_s
+        while True:
+            at, told = self._told.get(timeout=max(0.0, until - time.monotonic()))
+            if told["what"] in {"died", "hung", "ready"}:
+                self.seen.append(f"{told['what']} {told['detail']}".strip())
+            if told["what"] == "shows" and told["detail"] == screen:
+                return at
+
+    def kiosk(self) -> int:
+        """The process of the kiosk."""
+        own = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
+        return next(int(child) for child in own if b"\0open\0" in Path(f"/proc/{child}/cmdline").read_bytes())
+
+    def end(self) -> None:
+        """Ask the keeper to end, and see that it does."""
+        self.process.terminate()
+        self.process.wait(20)
+
+
+@contextmanager
+def kept_in(folder: Path, stage: str, environment: dict[str, str]) -> Iterator[Kept]:
+    """A keeper that is ended whatever happens."""
+    kept = Kept(stage, folder, environment)
+    try:
+        yield kept
+    finally:
+        kept.end()
+
+
+def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | None) -> Revival:
+    """One keeper, one visitor, one fault."""
+    with tempfile.TemporaryDirectory(prefix="revival-") as place, kept_in(Path(place), stage, environment) as kept:
+        folder = Path(place)
+        kept.wait_for("attract", UNTIL_STAGE_S)
+        if stage != "attract":
+            kept.wait_for(stage, UNTIL_STAGE_S)
+        kept.seen.clear()
+        struck = kept.kiosk()
+        at = time.monotonic()
+        FAULTS[fault](struck)
+        if shots is not None:
+            threading.Timer(0.2, _photograph, [shots / f"{stage}-{fault}.png", environment]).start()
+        back = kept.wait_for("attract", STOPPED_S) - at
+        left = int(fault not in MENDED_INSIDE and Path(f"/proc/{struck}").exists())
+        kept.end()
+        left += len([*folder.glob("recollect-*")])
+        return Revival(stage, fault, round(back, 2), ", ".join(kept.seen), _status(kept.data), left)
+
+
+def _status(data: Path) -> str:
+    with archive(data) as stored:
+        sittings = stored.sittings()
+    status = sittings[-1].status if sittings else None
+    return status.value if status else "none"
+
+
+def _photograph(file: Path, environment: dict[str, str]) -> None:
+    subprocess.run([_found("import"), "-window", "root", str(file)], env=environment, check=True)
+
+
+def _found(program: str) -> str:
+    found = shutil.which(program)
+    if found is None:
+        sys.exit(f"{program} is missing")
+    return found
+
+
+def main() -> int:
+    """Strike in every stage in every way, and tell."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--stages", default=",".join(STAGES))
+    parser.add_argument("--faults", default=",".join(FAULTS))
+    parser.add_argument("--shots", type=Path, help="save what was to be seen 0.2 s after each fault")
+    parser.add_argument("--json", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.shots is not None:
+        arguments.shots.mkdir(parents=True, exist_ok=True)
+    bad = 0
+    with screen() as environment:
+        for stage in arguments.stages.split(","):
+            for fault in arguments.faults.split(","):
+                revival = revive(stage, fault, environment, arguments.shots)
+                bad += bool(revival.faults())
+                click.echo(json.dumps(asdict(revival)) if arguments.json else _line(revival))
+    return int(bad > 0)
+
+
+def _line(revival: Revival) -> str:
+    wrong = f"  BUT {', '.join(revival.faults())}" if revival.faults() else ""
+    return (
+        f"{revival.stage:<13}{revival.fault:<13}{revival.back_s:6.2f} s  {revival.seen or 'calm screen':<32}"
+        f"sitting: {revival.sitting}{wrong}"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
