@@ -1,0 +1,88 @@
+"""Writes the data set of a data folder: sitting by sitting, and as a whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from kiosk import BadInput
+from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.files import new_folder
+from kiosk.store.dataset.kept import Kept, Source, source
+from kiosk.store.dataset.layouts.layout import Contents, Layout
+from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.tables.every import every
+from kiosk.store.dataset.tables.flow import Flow, Quantity
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What was written: how many sittings, and how many were left out for the one reason or the other."""
+
+    participants: int
+    not_shared: int
+    under_way: int
+
+    def to_json(self) -> dict[str, int]:
+        """The same as the command line prints it."""
+        return asdict(self)
+
+
+def export(
+    data: Path,
+    out: Path,
+    layout: Callable[[Path, Contents], Layout],
+    extras: frozenset[Extra] = frozenset(),
+    tell: Callable[[int], None] = lambda _: None,
+) -> Exported:
+    """Write the data set of the data folder ``data`` into the new folder ``out``; ``tell`` hears how many
+    sittings are done.
+
+    Raises BadInput, and writes nothing, if there is nothing to export or ``out`` cannot be used.
+    """
+    rehearsals = Extra.REHEARSALS in extras
+    with source(data, rehearsals=rehearsals) as stored, new_folder(out) as folder:
+        study = Study(stored.plans())
+        contents = Contents(study, every(study, extras), extras)
+        flows = {
+            simulated: Flow(simulated, stored.archive.counts(simulated=simulated))
+            for simulated in ((False, True) if rehearsals else (False,))
+        }
+        with closing(layout(folder, contents)) as writing:
+            for done, kept in enumerate(stored, 1):
+                _add(kept, writing, flows[kept.simulated], extras)
+                tell(done)
+            writing.finish(tuple(flows.values()))
+        return _exported(flows, data, stored)
+
+
+def _add(kept: Kept, writing: Layout, flow: Flow, extras: frozenset[Extra]) -> None:
+    if kept.status is None:
+        flow.left_out(kept, Quantity.NOT_ENDED)
+    elif not kept.publishable and Extra.UNSHARED not in extras:
+        flow.left_out(kept, Quantity.NOT_SHARED)
+    else:
+        writing.add(kept)
+        flow.exported(kept)
+
+
+def _exported(flows: dict[bool, Flow], data: Path, stored: Source) -> Exported:
+    """What was written; raises BadInput if it is nothing."""
+
+    def total(quantity: Quantity) -> int:
+        return sum(count for flow in flows.values() for (what, _), count in flow.seen.items() if what is quantity)
+
+    exported = Exported(total(Quantity.EXPORTED), total(Quantity.NOT_SHARED), total(Quantity.NOT_ENDED))
+    if not exported.participants:
+        raise BadInput(f"there is no sitting in {data} to export ({_why_none(exported, stored)})")
+    return exported
+
+
+def _why_none(exported: Exported, stored: Source) -> str:
+    if exported.not_shared:
+        return "nobody agreed to publishing"
+    if exported.under_way:
+        return "the only ones are still under way"
+    return "it is empty" if stored.rehearsals else "nobody has sat there; rehearsals are left out unless asked for"

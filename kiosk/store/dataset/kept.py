@@ -1,0 +1,189 @@
+"""The sittings that are exported, one after another, each with all that can still be read of it.
+
+What an older program wrote and this one cannot read is left out piece by piece: a plan, an event. The rest is told.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import sqlite_utils
+
+from kiosk import BadInput
+from kiosk.store.database import in_use, open_for_reading
+from kiosk.store.reading import Archive
+from kiosk.study.events import ConsentGiven, Event, SittingEnded, Stage, StageEntered, Status, from_record
+from kiosk.study.plan import Plan
+
+PUBLISHING = "share"
+"""The purpose of the consent that stands for publishing; where it is offered, it has to be ticked."""
+
+PADDED = 4
+"""Digits of a participant's number, so that names sort as they should."""
+
+_ABOUT_THE_RECORD = ("seq", "at_ms", "origin", "type")
+
+
+@dataclass(frozen=True)
+class Record:
+    """One event as it was written, the stage that it fell into, and what this program makes of it, if anything."""
+
+    seq: int
+    at_ms: int
+    origin: str
+    type: str
+    fields: Mapping[str, Any]
+    stage: Stage
+    event: Event | None
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One stored sitting; ``status`` is None while it is under way, ``plan`` if it cannot be read any more."""
+
+    row: Mapping[str, Any]
+    status: Status | None
+    plan: Plan | None
+    records: tuple[Record, ...]
+
+    @property
+    def id(self) -> int:
+        """Its number in the database."""
+        return int(self.row["id"])
+
+    @property
+    def simulated(self) -> bool:
+        """Whether nobody sat there."""
+        return bool(self.row["simulated"])
+
+    @cached_property
+    def name(self) -> str:
+        """What the person is called: site and number. Small letters, which no site has, tell rehearsals apart."""
+        if self.row["number"] is None:
+            return f"sitting-{self.id:0{PADDED}}"
+        number = f"{'r' if self.simulated else ''}{self.row['number']:0{PADDED}}"
+        return f"{self.row['site']}-{number}" if self.row["site"] else number
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """Every event that this program knows."""
+        return tuple(record.event for record in self.records if record.event is not None)
+
+    @cached_property
+    def consent(self) -> ConsentGiven | None:
+        """What was agreed to, if anything was asked."""
+        return next((event for event in self.events if isinstance(event, ConsentGiven)), None)
+
+    @property
+    def publishable(self) -> bool:
+        """Whether nobody said no to publishing: it was agreed to, or not asked, or there is nobody to say no."""
+        if self.simulated or self.consent is None or PUBLISHING in self.consent.purposes:
+            return True
+        # Where the sheet cannot be read, nobody knows what was offered.
+        offered = self.plan.information.consent.purposes if self.plan else None
+        return offered is not None and PUBLISHING not in {purpose.id for purpose in offered}
+
+
+@dataclass
+class Source:
+    """The database at one moment; a kiosk may go on writing meanwhile. Rehearsals are read only if they are wanted."""
+
+    connection: sqlite3.Connection
+    archive: Archive
+    rehearsals: bool
+    _unended: Status | None
+    _plans: dict[tuple[object, ...], Plan | None] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        """How many sittings there are to be read."""
+        number: int = self.connection.execute(
+            "SELECT count(*) FROM sitting WHERE NOT simulated OR ?", (self.rehearsals,)
+        ).fetchone()[0]
+        return number
+
+    def __iter__(self) -> Iterator[Kept]:
+        """Every sitting in the order in which they began, one in memory at a time."""
+        for row in self._rows("ORDER BY sitting.id"):
+            records = tuple(_told(self.archive.records(row["id"])))
+            yield Kept(row, self._status(records), self._plan(row), records)
+
+    def plans(self) -> tuple[Plan, ...]:
+        """The plans that the sittings followed, the newest first, as far as they can be read."""
+        newest = f"GROUP BY {', '.join(_FOLLOWED)} ORDER BY max(sitting.id) DESC"
+        plans = [self._plan(row) for row in self._rows(newest)]
+        return tuple(plan for plan in plans if plan is not None)
+
+    def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
+        cursor = self.connection.execute(
+            "SELECT sitting.*, participant.number FROM sitting LEFT JOIN participant"  # noqa: S608 - the names are ours
+            f" ON participant.sitting = sitting.id WHERE NOT sitting.simulated OR ? {which}",
+            (self.rehearsals,),
+        )
+        names = [column[0] for column in cursor.description]
+        for row in cursor:
+            yield dict(zip(names, row, strict=True))
+
+    def _plan(self, row: Mapping[str, Any]) -> Plan | None:
+        """What a sitting followed; sittings that followed the same share it."""
+        key = tuple(row[column] for column in _FOLLOWED)
+        if key not in self._plans:
+            try:
+                self._plans[key] = self.archive.plan(row["id"])
+            except BadInput:
+                self._plans[key] = None
+        return self._plans[key]
+
+    def _status(self, records: tuple[Record, ...]) -> Status | None:
+        """How a sitting ended, which only its very last event says."""
+        if not records or records[-1].type != SittingEnded.__name__:
+            return self._unended
+        return Status(records[-1].fields["status"])
+
+
+_FOLLOWED = (
+    "condition",
+    "language",
+    "deck",
+    "practice_deck",
+    "settings_sha256",
+    "policy_source",
+    "questionnaire_source",
+    "sentences_source",
+    "information_source",
+    "about_you_source",
+)
+"""The columns that tell what a sitting followed."""
+
+
+@contextmanager
+def source(folder: Path, *, rehearsals: bool) -> Iterator[Source]:
+    """What is stored in a data folder now; raises BadInput if there is nothing that can be read."""
+    with closing(open_for_reading(folder)) as connection:
+        writing = in_use(folder)
+        connection.execute("BEGIN")
+        archive = Archive(sqlite_utils.Database(connection), in_use=writing)
+        yield Source(connection, archive, rehearsals, None if writing else Status.INTERRUPTED)
+
+
+def _told(records: list[dict[str, Any]]) -> Iterator[Record]:
+    """The records with the stage that each fell into."""
+    stage = Stage.ATTRACT
+    for record in records:
+        event = _event(record)
+        if isinstance(event, StageEntered):
+            stage = event.stage
+        fields = {key: value for key, value in record.items() if key not in _ABOUT_THE_RECORD}
+        yield Record(record["seq"], record["at_ms"], record["origin"], record["type"], fields, stage, event)
+
+
+def _event(record: Mapping[str, Any]) -> Event | None:
+    try:
+        return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
+    except ValueError:
+        return None

@@ -1,0 +1,50 @@
+"""All the tables of a study's data set, in the order in which a reader meets them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from kiosk.store.dataset.column import Shape, Table
+from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.tables.asked import SCORES, answers
+from kiosk.store.dataset.tables.flow import Flow, flow
+from kiosk.store.dataset.tables.log import SENTENCES, events
+from kiosk.store.dataset.tables.participants import participants
+from kiosk.store.dataset.tables.play import CARDS, DECISIONS, FLIPS, HINTS
+
+
+@dataclass(frozen=True)
+class Tables:
+    """The tables that a sitting adds rows to, and the one of all sittings together."""
+
+    sittings: tuple[Table[Kept, Any], ...]
+    flow: Table[tuple[Flow, ...], Any]
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """What every table looks like."""
+        return (*(table.shape for table in self.sittings), self.flow.shape)
+
+    def named(self, name: str) -> Table[Kept, Any]:
+        """One of the tables that a sitting adds rows to."""
+        return next(table for table in self.sittings if table.name == name)
+
+
+def every(study: Study, extras: frozenset[Extra]) -> Tables:
+    """The tables of a study's data set."""
+    others: tuple[Table[Kept, Any], ...] = (
+        FLIPS,
+        HINTS,
+        DECISIONS,
+        CARDS,
+        answers(extras),
+        SCORES,
+        SENTENCES,
+        events(extras),
+    )
+    whole = flow(extras)
+    elsewhere = frozenset(name for shape in (*(table.shape for table in others), whole.shape) for name in shape.names)
+    return Tables((participants(study, extras, elsewhere), *others), whole)

@@ -1,0 +1,180 @@
+"""The table of participants: one row a sitting, with what was asked of it and what was measured in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
+from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.tables.asked import asked
+from kiosk.store.dataset.tables.flow import last_stage
+from kiosk.store.dataset.tables.measured import MEASURES
+from kiosk.store.dataset.tables.person import Person
+from kiosk.store.dataset.tables.personal import about_you, agreed, scales
+from kiosk.store.dataset.tables.shared import CONDITION, PARTICIPANT, SIMULATED, columns
+from kiosk.study.after.utterances import body_changes
+from kiosk.study.allocation import Allotted
+from kiosk.study.events import (
+    BodyName,
+    GameFinished,
+    PauseAsked,
+    PracticeEnd,
+    SittingResumed,
+    Stage,
+    Status,
+)
+
+
+def participants(study: Study, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
+    """The table of participants for a study; ``elsewhere`` are the columns of other tables, whose names are taken."""
+    before, after = (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_WHAT_IT_FOLLOWED)
+    taken = {column.variable.name for column in (*before, *after)} | elsewhere
+    declared = (*agreed(study, taken), *about_you(study, extras, taken), *scales(study, taken))
+    return Table(
+        "participants",
+        "One row for every participant, that is for every sitting.",
+        (PARTICIPANT.name,),
+        (*before, *declared, *after),
+        lambda kept: [Person(kept)],
+    )
+
+
+def _who(extras: frozenset[Extra]) -> tuple[Column[Person], ...]:
+    started = Variable("started_at", "When the sitting began, in UTC.", unit="ISO 8601")
+    who: list[tuple[Variable, Callable[[Person], Cell]]] = [
+        (PARTICIPANT, lambda row: row.kept.name),
+        (
+            Variable("site", "Where the sitting was, by a short name.", empty="the study has one site"),
+            lambda row: row.kept.row["site"] or None,
+        ),
+    ]
+    if Extra.REHEARSALS in extras:
+        who.append((SIMULATED, lambda row: row.kept.simulated))
+    if Extra.DATES in extras:
+        who.append((started, lambda row: row.kept.row["started_at"]))
+    return columns(*who)
+
+
+_WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
+    (Variable("language", "The language of the sitting, by its code."), lambda row: row.kept.row["language"]),
+    (CONDITION, lambda row: row.kept.row["condition"]),
+    (
+        Variable(
+            "allotted",
+            "How the sitting came to its condition.",
+            levels=named(
+                Allotted,
+                list="by the first free place of a list that was fixed before the first visitor",
+                override="by the experimenter",
+                beyond="the list was used up",
+            ),
+            empty="there was no list of places",
+        ),
+        lambda row: row.kept.row["allotted"],
+    ),
+    (
+        Variable(
+            "list_place",
+            "The place that the sitting took in that list, from 1.",
+            Kind.WHOLE,
+            empty="it took none",
+        ),
+        lambda row: row.kept.row["place"],
+    ),
+    (
+        Variable("body", "Who helped with voice and face when the sitting began.", levels=named(BodyName)),
+        lambda row: row.kept.row["body"],
+    ),
+    (
+        Variable("body_changes", "How often another body had to take over.", Kind.WHOLE),
+        lambda row: body_changes(row.kept.events),
+    ),
+    (
+        Variable(
+            "status",
+            "How the sitting ended.",
+            levels=named(
+                Status,
+                completed="by going through all its stages",
+                abandoned="the visitor left",
+                stopped="the experimenter ended it",
+                interrupted="the program was closed or cut off",
+            ),
+        ),
+        lambda row: row.kept.status.value if row.kept.status else None,
+    ),
+    (
+        Variable("last_stage", "The last stage that the sitting reached.", levels=named(Stage)),
+        lambda row: last_stage(row.kept).value,
+    ),
+    (
+        Variable("game_completed", "Whether every pair of the game was found.", Kind.TRUTH),
+        lambda row: row.count(GameFinished) > 0,
+    ),
+    (
+        Variable("resumed", "How often the sitting was cut off and gone on with.", Kind.WHOLE),
+        lambda row: row.count(SittingResumed),
+    ),
+    (
+        Variable("pauses", "How often the experimenter paused the sitting.", Kind.WHOLE),
+        lambda row: row.count(PauseAsked),
+    ),
+    (
+        Variable(
+            "practice_end",
+            "How the practice ended.",
+            levels=named(
+                PracticeEnd,
+                found="every pair was found",
+                left="the visitor went on early",
+                time="its time was over",
+            ),
+            empty="there was none, or it was not ended",
+        ),
+        lambda row: row.practice.value if row.practice else None,
+    ),
+    (
+        Variable(
+            "duration_ms",
+            "From the sitting's first event to its last.",
+            Kind.WHOLE,
+            "ms",
+        ),
+        lambda row: row.kept.records[-1].at_ms if row.kept.records else 0,
+    ),
+    (
+        Variable(
+            "consent_version",
+            "The version of the information sheet that the visitor agreed to.",
+            empty="no consent was asked for on the screen",
+        ),
+        lambda row: row.kept.consent.version if row.kept.consent else None,
+    ),
+)
+
+_WHAT_IT_FOLLOWED: tuple[Column[Person], ...] = columns(
+    (Variable("program_version", "The version of Recollect that recorded it."), lambda row: row.kept.row["version"]),
+    (
+        Variable("program_commit", "The commit of Recollect that recorded it; -dirty if it had been changed."),
+        lambda row: row.kept.row["code_commit"],
+    ),
+    (
+        Variable("policy_sha256", "The hash of the table that chose how much to help."),
+        lambda row: row.kept.row["policy_sha256"],
+    ),
+    (
+        Variable("settings_sha256", "The hash of all settings of the study."),
+        lambda row: row.kept.row["settings_sha256"],
+    ),
+    (
+        Variable(
+            "questionnaire_versions",
+            "Every questionnaire of the sitting with its version, as name=version.",
+            Kind.NAMES,
+            empty="they cannot be read any more",
+        ),
+        lambda row: tuple(f"{name}={each.version}" for name, each in asked(row.kept).items()) or None,
+    ),
+)

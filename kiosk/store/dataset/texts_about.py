@@ -1,0 +1,126 @@
+"""The texts that stand in a data set for its readers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from kiosk import __version__
+from kiosk.store.dataset.column import Shape
+from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.kept import PUBLISHING
+from kiosk.store.dataset.study import Study
+
+KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")
+
+_NOT_HERE = (
+    "The withdrawal codes of the participants, and the seeds of the sittings, from which those codes could be worked "
+    "out.",
+    "People who played without being stored: only how many there were, and why.",
+    "Whoever withdrew: only how many there were.",
+    "Voices, pictures, names: they were never recorded.",
+    "Of the settings, what concerns the place: the robot's address, whom to write to, keys and seeds.",
+)
+
+_LEFT_OUT = {
+    Extra.DATES: "Dates and times of day. All times count from the first event of the sitting that they belong to, and "
+    "the files' own dates say nothing.",
+    Extra.TEXTS: "What people typed: short answers, an experimenter's reason for ending a sitting, and messages of "
+    "failures. They may hold names, or tell where it was.",
+    Extra.REHEARSALS: "Rehearsals, in which a program plays.",
+    Extra.UNSHARED: f"Sittings whose visitor was asked whether their data may be published (the purpose "
+    f"`{PUBLISHING}`) and did not agree; the flow says how many.",
+}
+
+_NOT_FOR_PUBLISHING = {
+    Extra.DATES: "dates",
+    Extra.TEXTS: "texts that people typed",
+    Extra.UNSHARED: "sittings whose visitor did not agree to publishing",
+}
+
+CHANGES = """# Changes
+
+## 1
+
+- As it was exported.
+"""
+
+PSYCHDSIGNORE = """# Everything in this data set follows Psych-DS; nothing has to be left out of a check.
+"""
+
+RESULTS = """# Results
+
+Nothing has been worked out here yet. What is made from the tables in `data/` belongs into this folder.
+"""
+
+EXAMPLE = '''"""Moves by condition, of all who completed the game; needs Python and nothing else."""
+
+import csv
+from pathlib import Path
+from statistics import fmean, stdev
+
+data = Path(__file__).parent.parent / "data"
+with (data / "task-concentration_description-participants_data.csv").open(encoding="utf-8", newline="") as file:
+    people = [person for person in csv.DictReader(file) if person["game_completed"] == "true"]
+for condition in sorted({person["condition"] for person in people}):
+    moves = [int(person["moves"]) for person in people if person["condition"] == condition]
+    print(condition, len(moves), round(fmean(moves), 2), round(stdev(moves), 2) if len(moves) > 1 else "")
+'''
+
+
+def abstract(study: Study, extras: frozenset[Extra]) -> str:
+    """What the data set is, in a few sentences."""
+    conditions = ", ".join(dict.fromkeys(plan.condition.value for plan in study.plans)) or "as each participant says"
+    return (
+        "Sittings of a study in which people play Concentration, the memory game, and a robot or an avatar helps: when "
+        "it helps is chosen by a learnt table, where it points and what it says by the condition. Conditions: "
+        f"{conditions}. Every event of every sitting, the flips, hints, decisions and answers that follow from them, "
+        f"and the measures. Recorded and exported by Recollect {__version__}." + _warning(extras)
+    )
+
+
+def _warning(extras: frozenset[Extra]) -> str:
+    held = [what for extra, what in _NOT_FOR_PUBLISHING.items() if extra in extras]
+    return f" NOT FOR PUBLISHING: it holds {' and '.join(held)}." if held else ""
+
+
+def readme(study: Study, shapes: Iterable[Shape], file_of: Mapping[str, str], extras: frozenset[Extra]) -> str:
+    """The page that a reader opens first."""
+    tables = [f"| [{shape.name}]({file_of[shape.name]}) | {shape.about} |" for shape in shapes]
+    missing = [
+        f"- {text}" for text in (*_NOT_HERE, *(text for extra, text in _LEFT_OUT.items() if extra not in extras))
+    ]
+    return "\n".join(
+        [
+            f"# {study.title}",
+            "",
+            abstract(study, extras),
+            "",
+            "## What is here",
+            "",
+            "| table | what a row is |",
+            "|---|---|",
+            *tables,
+            "",
+            _HOW_TO_READ,
+            "",
+            "## What is not here, and why",
+            "",
+            *missing,
+            "",
+            _BEFORE_PUBLISHING,
+            "",
+        ]
+    )
+
+
+_HOW_TO_READ = """Every column is described in [the codebook](documentation/codebook.md) and, for programs, in
+`dataset_description.json` and beside each table. `participant_id` joins the tables; `board` and `flip` join flips,
+hints and decisions. An empty cell means that there is nothing to tell. Times are in milliseconds from the first event
+of the sitting. Rows and columns of the board count from 1, but from 0 within the JSON of the events. What the sittings
+followed (questionnaires, information sheets, policies, settings) is in `materials/`, under the first characters of its
+hash. `analysis/example.py` is a beginning."""
+
+_BEFORE_PUBLISHING = """## Before it is published
+
+Name its authors and choose a licence: both are yours to add to `dataset_description.json`. Look at age, gender and
+contact with robots together with the site: in a small study they may tell who somebody is."""
