@@ -35,12 +35,12 @@ def export(
     out: Path,
     layout: Callable[[Path, Contents], Layout],
     extras: frozenset[Extra] = frozenset(),
-    tell: Callable[[int], None] = lambda _: None,
+    tell: Callable[[int, int], None] | None = None,
 ) -> Exported:
-    """Write the data set of the data folder ``data`` into the new folder ``out``; ``tell`` hears how many
-    sittings are done.
+    """Write the data set of the data folder ``data`` into the new folder ``out``.
 
-    Raises BadInput, and writes nothing, if there is nothing to export or ``out`` cannot be used.
+    ``tell`` hears how many sittings are done, of how many. Raises BadInput, and writes nothing, if there is nothing to
+    export or ``out`` cannot be used.
     """
     rehearsals = Extra.REHEARSALS in extras
     with source(data, rehearsals=rehearsals) as stored, new_folder(out) as folder:
@@ -51,9 +51,11 @@ def export(
             for simulated in ((False, True) if rehearsals else (False,))
         }
         with closing(layout(folder, contents)) as writing:
+            wanted = len(stored)
             for done, kept in enumerate(stored, 1):
                 _add(kept, writing, flows[kept.simulated], extras)
-                tell(done)
+                if tell is not None:
+                    tell(done, wanted)
             writing.finish(tuple(flows.values()))
         return _exported(flows, data, stored)
 

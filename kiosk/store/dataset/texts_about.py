@@ -9,6 +9,7 @@ from kiosk.store.dataset.column import Shape
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.kept import PUBLISHING
 from kiosk.store.dataset.study import Study
+from kiosk.study.condition import Condition
 
 KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")
 
@@ -44,6 +45,17 @@ CHANGES = """# Changes
 - As it was exported.
 """
 
+BIDS_TASK = {
+    "TaskDescription": "Concentration: closed cards lie on a board, two are turned up in each move, and two that show "
+    "the same picture stay open. A robot or an avatar may name a column, a row or a card before a card is turned up.",
+    "Instructions": "Find all pairs. The helper may give a hint; it can be followed or not.",
+    "StimulusPresentation": {"SoftwareName": "Recollect", "SoftwareVersion": __version__},
+}
+
+BIDS_CHANGES = """1.0.0
+ - As it was exported.
+"""
+
 PSYCHDSIGNORE = """# Everything in this data set follows Psych-DS; nothing has to be left out of a check.
 """
 
@@ -69,7 +81,8 @@ for condition in sorted({person["condition"] for person in people}):
 
 def abstract(study: Study, extras: frozenset[Extra]) -> str:
     """What the data set is, in a few sentences."""
-    conditions = ", ".join(dict.fromkeys(plan.condition.value for plan in study.plans)) or "as each participant says"
+    there = {plan.condition for plan in study.plans}
+    conditions = ", ".join(condition.value for condition in Condition if condition in there) or "unknown"
     return (
         "Sittings of a study in which people play Concentration, the memory game, and a robot or an avatar helps: when "
         "it helps is chosen by a learnt table, where it points and what it says by the condition. Conditions: "
@@ -86,9 +99,6 @@ def _warning(extras: frozenset[Extra]) -> str:
 def readme(study: Study, shapes: Iterable[Shape], file_of: Mapping[str, str], extras: frozenset[Extra]) -> str:
     """The page that a reader opens first."""
     tables = [f"| [{shape.name}]({file_of[shape.name]}) | {shape.about} |" for shape in shapes]
-    missing = [
-        f"- {text}" for text in (*_NOT_HERE, *(text for extra, text in _LEFT_OUT.items() if extra not in extras))
-    ]
     return "\n".join(
         [
             f"# {study.title}",
@@ -105,13 +115,31 @@ def readme(study: Study, shapes: Iterable[Shape], file_of: Mapping[str, str], ex
             "",
             "## What is not here, and why",
             "",
-            *missing,
+            *_missing(extras),
             "",
             _BEFORE_PUBLISHING,
             "",
         ]
     )
 
+
+def bids_readme(study: Study, extras: frozenset[Extra]) -> str:
+    """The same for names like those of BIDS."""
+    opening = [f"# {study.title}", "", abstract(study, extras), "", _HOW_TO_READ_BIDS]
+    return "\n".join([*opening, "", "## What is not here, and why", "", *_missing(extras), "", _BEFORE_PUBLISHING, ""])
+
+
+def _missing(extras: frozenset[Extra]) -> list[str]:
+    left_out = (text for extra, text in _LEFT_OUT.items() if extra not in extras)
+    return [f"- {text}" for text in (*_NOT_HERE, *left_out)]
+
+
+_HOW_TO_READ_BIDS = """There are no recordings of the brain here: behaviour alone. `participants.tsv` has a row for every
+participant; `sub-*/beh/*_beh.tsv` a row for every card that was turned up, with the decision before it and the hint for
+it; `*_events.tsv` a row for every event; `phenotype/` the answers to each questionnaire. The JSON files describe every
+column. `n/a` means that there is nothing to tell. Times are in milliseconds from the first event of the sitting, and
+`onset` in seconds. The Psych-DS form of this data set holds more: the cards as they lay, every sentence, response
+times, and how many people came."""
 
 _HOW_TO_READ = """Every column is described in [the codebook](documentation/codebook.md) and, for programs, in
 `dataset_description.json` and beside each table. `participant_id` joins the tables; `board` and `flip` join flips,

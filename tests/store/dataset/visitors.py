@@ -64,16 +64,17 @@ def _play(driver: Driver, chance: Random) -> None:
     """Play with hesitation and pauses; one in ten leaves, or is ended, in the middle."""
     choose = with_memory(chance.randrange(9)) if chance.random() < 0.7 else at_random(chance.randrange(9))
     leaves_after = chance.randrange(30) if chance.random() < 0.1 else None
+    flips = 0
     while driver.stage is Stage.GAME:
         driver.wait_until_open()
         if driver.stage is not Stage.GAME:
             break
-        flips = driver.session.measures.flips
-        if leaves_after is not None and flips >= leaves_after:
+        if leaves_after == flips:
             driver.end("called away")
             break
         _hesitate(driver, chance)
         driver.tap(_follow(driver.view, choose, chance))
+        flips += 1
 
 
 def _hesitate(driver: Driver, chance: Random) -> None:
@@ -119,7 +120,7 @@ def chosen(item: Item, chance: Random) -> Answer:
         return chance.randint(item.lowest, item.highest)
     if isinstance(item, Rating):
         return chance.randint(*item.ends)
-    return chance.choice(('say "so"', "one, two; three", "a\u2028line"[:1], "שלום עולם", "naïve – 日本"))
+    return chance.choice(('say "so"', "one, two; three", "שלום עולם", "naïve, 日本"))
 
 
 def store(folder: Path, drivers: Sequence[tuple[Driver, int]], *, simulated: bool = False, site: str = "") -> None:

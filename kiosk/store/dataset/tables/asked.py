@@ -2,117 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from statistics import fmean
 
-from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable
+from kiosk.store.dataset.column import Cell, Column, Kind, Level, Table, Variable
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.kept import Kept
 from kiosk.store.dataset.tables.shared import PARTICIPANT, columns
-from kiosk.study.declared.questionnaire import Answer, Item, Page, Questionnaire, Rating, ShortText
-from kiosk.study.events import AnswerGiven, ItemsShown
+from kiosk.study.after.answers import Answered
+from kiosk.study.after.answers import answers as answers_in
+from kiosk.study.after.scales import Score
+from kiosk.study.after.scales import scores as scores_in
+from kiosk.study.declared.questionnaire import KINDS, Item, Questionnaire, Rating, ShortText
+from kiosk.study.events import ItemsShown
 
 QUESTIONNAIRE = Variable("questionnaire", "The questionnaire, by its name.")
-VERSION = Variable("version", "The version of the questionnaire.", empty="it cannot be read any more")
-SCALE = Variable("scale", "The scale that the item belongs to.", empty="the item is not summed with others")
+VERSION = Variable("version", "The version of the questionnaire.")
+SCALE = Variable("scale", "The scale that items are summed to.", empty="the item is not summed with others")
+
+_UNANSWERED = "nothing was answered"
+_ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
 
 
-@dataclass
-class Answered:
-    """An item that was shown: what was answered in the end, and when, in ms from when it came; None if nothing was."""
-
-    questionnaire: str
-    item: str
-    place: int
-    shown_ms: int
-    value: Answer | None = None
-    first_ms: int | None = None
-    last_ms: int | None = None
-    changes: int = 0
-
-    def take(self, answer: AnswerGiven) -> None:
-        """The visitor gave an answer, changed it, or took it back."""
-        if self.first_ms is None:
-            self.first_ms = answer.at_ms - self.shown_ms
-        elif answer.value != self.value:
-            self.changes += 1
-        self.last_ms = answer.at_ms - self.shown_ms
-        self.value = answer.value
-
-
-def answered(kept: Kept) -> dict[tuple[str, str], Answered]:
-    """Every item that was shown, by questionnaire and item, in the order in which they came first."""
-    shown: dict[tuple[str, str], Answered] = {}
-    asking = ""
-    for event in kept.events:
-        match event:
-            case ItemsShown(questionnaire=asking, items=items, at_ms=at_ms):
-                for item in items:
-                    known = shown.setdefault((asking, item), Answered(asking, item, len(shown) + 1, at_ms))
-                    known.shown_ms = at_ms
-            case AnswerGiven(item=item) if (asking, item) in shown:
-                shown[asking, item].take(event)
-    return shown
-
-
-def asked(kept: Kept) -> Mapping[str, Questionnaire]:
-    """The questionnaires of a sitting by their names; none if they cannot be read."""
-    if kept.plan is None:
-        return {}
-    return {each.id: each for each in (kept.plan.about_you, *kept.plan.questionnaires)}
-
-
-def as_cell(value: Answer | None) -> Cell:
-    """An answer as it stands in a cell."""
-    return value
+def asked(kept: Kept) -> tuple[Questionnaire, ...]:
+    """The questionnaires of a sitting; none if they cannot be read."""
+    return (kept.plan.about_you, *kept.plan.questionnaires) if kept.plan else ()
 
 
 @dataclass(frozen=True)
-class Score:
-    """A scale's sum and mean; None unless every item was answered."""
-
+class _Answer:
     kept: Kept
     questionnaire: Questionnaire
-    scale: str
-    items: int
-    scored: tuple[int, ...]
-
-    @property
-    def sum(self) -> int | None:
-        """Of the items' values, reversed ones turned round."""
-        return sum(self.scored) if len(self.scored) == self.items else None
-
-    @property
-    def mean(self) -> float | None:
-        """The same, by the number of items."""
-        return fmean(self.scored) if len(self.scored) == self.items else None
-
-
-def scores(kept: Kept) -> Iterator[Score]:
-    """The scales of the questionnaires that were shown."""
-    given = answered(kept)
-    for questionnaire in asked(kept).values():
-        for scale, items in questionnaire.scales.items():
-            seen = [
-                (item, given[questionnaire.id, item.id].value) for item in items if (questionnaire.id, item.id) in given
-            ]
-            if seen:
-                scored = tuple(item.scored(value) for item, value in seen if isinstance(value, int))
-                yield Score(kept, questionnaire, scale, len(items), scored)
-
-
-@dataclass(frozen=True)
-class _Row:
-    kept: Kept
+    item: Item
+    place: int | None
     answered: Answered
-    questionnaire: Questionnaire | None
-    item: Item | None
-
-    @property
-    def typed(self) -> bool:
-        """Whether it may be anybody's own words."""
-        return isinstance(self.answered.value, str) and (self.item is None or isinstance(self.item, ShortText))
 
     @property
     def number(self) -> int | None:
@@ -121,51 +44,57 @@ class _Row:
 
     @property
     def scored(self) -> int | None:
-        if self.number is None or not isinstance(self.item, Rating):
-            return None
-        return self.item.scored(self.number)
+        return self.item.scored(self.number) if self.number is not None and isinstance(self.item, Rating) else None
 
 
-def _rows(kept: Kept) -> Iterator[_Row]:
-    questionnaires = asked(kept)
-    for answer in answered(kept).values():
-        questionnaire = questionnaires.get(answer.questionnaire)
-        items = questionnaire.items if questionnaire else ()
-        item = next((item for item in items if item.id == answer.item), None)
-        if not isinstance(item, Page):
-            yield _Row(kept, answer, questionnaire, item)
+def _answers(kept: Kept) -> Iterator[_Answer]:
+    places = _places(kept)
+    given = {(answer.questionnaire, answer.item): answer for answer in answers_in(kept.events, asked(kept))}
+    for questionnaire in asked(kept):
+        for item in questionnaire.items:
+            key = (questionnaire.id, item.id)
+            if key in given:
+                yield _Answer(kept, questionnaire, item, places.get(key), given[key])
 
 
-def answers(extras: frozenset[Extra]) -> Table[Kept, _Row]:
+def _places(kept: Kept) -> dict[tuple[str, str], int]:
+    """At which place each item came in its questionnaire, from 1."""
+    shown: dict[str, list[str]] = {}
+    for event in kept.events:
+        if isinstance(event, ItemsShown):
+            come = shown.setdefault(event.questionnaire, [])
+            come += [item for item in event.items if item not in come]
+    return {(asked, item): place for asked, items in shown.items() for place, item in enumerate(items, 1)}
+
+
+def answers(extras: frozenset[Extra]) -> Table[Kept, _Answer]:
     """The table of answers; what was typed only if it is asked for."""
     with_texts = Extra.TEXTS in extras
     typed = "" if with_texts else "; or it was typed, and such texts are left out"
 
-    def value(row: _Row) -> Cell:
-        return None if row.typed and not with_texts else as_cell(row.answered.value)
+    def value(row: _Answer) -> Cell:
+        return None if isinstance(row.item, ShortText) and not with_texts else row.answered.value
 
-    given: tuple[Column[_Row], ...] = columns(
+    given: tuple[Column[_Answer], ...] = columns(
         (PARTICIPANT, lambda row: row.kept.name),
-        (QUESTIONNAIRE, lambda row: row.answered.questionnaire),
-        (VERSION, lambda row: row.questionnaire.version if row.questionnaire else None),
-        (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.answered.item),
-        (
-            Variable("place", "At which place the item came among all that were shown, from 1.", Kind.WHOLE),
-            lambda row: row.answered.place,
-        ),
+        (QUESTIONNAIRE, lambda row: row.questionnaire.id),
+        (VERSION, lambda row: row.questionnaire.version),
+        (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.item.id),
         (
             Variable(
-                "kind",
-                "What kind of item it is, as the questionnaire declares it.",
-                empty="the questionnaire cannot be read any more",
+                "place", "At which place the item came in its questionnaire, from 1.", Kind.WHOLE, empty="it did not"
             ),
-            lambda row: row.item.kind if row.item else None,
+            lambda row: row.place,
+        ),
+        (
+            Variable("kind", "What kind of item it is.", levels=_ANSWERED_KINDS),
+            lambda row: row.item.kind,
         ),
         (
             Variable(
                 "value",
                 "The last answer: a number, the name of an option, or several with a semicolon between them.",
-                empty="nothing was answered" + typed,
+                empty=_UNANSWERED + typed,
             ),
             value,
         ),
@@ -190,42 +119,60 @@ def answers(extras: frozenset[Extra]) -> Table[Kept, _Row]:
         (
             Variable(
                 "first_response_ms",
-                "From when the item was shown to the first answer.",
+                "From when the page was shown to the first answer, less pauses.",
                 Kind.WHOLE,
                 "ms",
-                empty="nothing was answered",
+                empty=_UNANSWERED,
             ),
             lambda row: row.answered.first_ms,
         ),
         (
             Variable(
                 "last_response_ms",
-                "From when the item was shown to the answer that counts.",
+                "The same to the last answer, also one that took it back.",
                 Kind.WHOLE,
                 "ms",
-                empty="nothing was answered",
+                empty=_UNANSWERED,
             ),
             lambda row: row.answered.last_ms,
         ),
         (
-            Variable("changes", "How often the answer was changed, or taken back.", Kind.WHOLE),
+            Variable("changes", "How often the answer was changed, or taken back, after the first.", Kind.WHOLE),
             lambda row: row.answered.changes,
         ),
     )
     return Table(
         "answers",
-        "One row for every item that was shown to a participant, answered or not.",
+        "One row for every item that a participant could be asked, whether it was answered or not. Sittings whose "
+        "questionnaires cannot be read any more have none; their events tell what was answered.",
         ("participant_id", "questionnaire", "item"),
         given,
-        _rows,
+        _answers,
     )
 
 
-_SCORE_COLUMNS: tuple[Column[Score], ...] = columns(
+@dataclass(frozen=True)
+class _Score:
+    kept: Kept
+    questionnaire: Questionnaire
+    score: Score
+
+
+def scores(kept: Kept) -> tuple[Score, ...]:
+    """The scales of a sitting's questionnaires."""
+    return scores_in(answers_in(kept.events, asked(kept)), asked(kept))
+
+
+def _scores(kept: Kept) -> Iterator[_Score]:
+    questionnaires = {questionnaire.id: questionnaire for questionnaire in asked(kept)}
+    yield from (_Score(kept, questionnaires[score.questionnaire], score) for score in scores(kept))
+
+
+_SCORE_COLUMNS: tuple[Column[_Score], ...] = columns(
     (PARTICIPANT, lambda row: row.kept.name),
     (QUESTIONNAIRE, lambda row: row.questionnaire.id),
     (VERSION, lambda row: row.questionnaire.version),
-    (SCALE, lambda row: row.scale),
+    (SCALE, lambda row: row.score.scale),
     (
         Variable(
             "sum",
@@ -233,20 +180,25 @@ _SCORE_COLUMNS: tuple[Column[Score], ...] = columns(
             Kind.WHOLE,
             empty="not all of them were answered",
         ),
-        lambda row: row.sum,
+        lambda row: row.score.total,
     ),
     (
-        Variable("mean", "That sum by the number of items.", Kind.NUMBER, empty="not all of them were answered"),
-        lambda row: row.mean,
+        Variable(
+            "mean",
+            "The mean of those items of the scale that were answered, reversed ones turned round.",
+            Kind.NUMBER,
+            empty="none of them was answered",
+        ),
+        lambda row: row.score.mean,
     ),
-    (Variable("items", "How many items the scale has.", Kind.WHOLE), lambda row: row.items),
-    (Variable("answered", "How many of them were answered.", Kind.WHOLE), lambda row: len(row.scored)),
+    (Variable("items", "How many items the scale has.", Kind.WHOLE), lambda row: row.score.items),
+    (Variable("answered", "How many of them were answered.", Kind.WHOLE), lambda row: row.score.answered),
 )
 
 SCORES = Table(
     "scores",
-    "One row for every scale of a questionnaire that a participant was shown.",
-    ("participant_id", "questionnaire", "scale"),
+    "One row for every scale of the questionnaires that a participant could be asked.",
+    (PARTICIPANT.name, QUESTIONNAIRE.name, SCALE.name),
     _SCORE_COLUMNS,
-    scores,
+    _scores,
 )

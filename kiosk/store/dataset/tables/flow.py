@@ -12,7 +12,8 @@ from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.kept import Kept
 from kiosk.store.dataset.tables.shared import SIMULATED, columns
 from kiosk.store.people.counting import Counts, Fate
-from kiosk.study.events import Stage, StageEntered, Status
+from kiosk.study.after.course import Glance, glance
+from kiosk.study.events import Stage, Status
 
 
 class Quantity(Enum):
@@ -64,17 +65,16 @@ class Flow:
         """Count a sitting that is in the data set."""
         self.seen[Quantity.EXPORTED, str(kept.row["condition"])] += 1
         if kept.status is not Status.COMPLETED:
-            self.seen[Quantity.ENDED_AT, last_stage(kept).value] += 1
+            self.seen[Quantity.ENDED_AT, last_stage(glance(kept.events)).value] += 1
 
     def left_out(self, kept: Kept, why: Quantity) -> None:
         """Count one that is not."""
         self.seen[why, str(kept.row["condition"])] += 1
 
 
-def last_stage(kept: Kept) -> Stage:
+def last_stage(course: Glance) -> Stage:
     """The last stage that was more than the end."""
-    entered = [event.stage for event in kept.events if isinstance(event, StageEntered)]
-    return next((stage for stage in reversed(entered) if stage is not Stage.OVER), Stage.ATTRACT)
+    return course.last or Stage.ATTRACT
 
 
 @dataclass(frozen=True)

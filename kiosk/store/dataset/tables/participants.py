@@ -14,17 +14,8 @@ from kiosk.store.dataset.tables.measured import MEASURES
 from kiosk.store.dataset.tables.person import Person
 from kiosk.store.dataset.tables.personal import about_you, agreed, scales
 from kiosk.store.dataset.tables.shared import CONDITION, PARTICIPANT, SIMULATED, columns
-from kiosk.study.after.utterances import body_changes
 from kiosk.study.allocation import Allotted
-from kiosk.study.events import (
-    BodyName,
-    GameFinished,
-    PauseAsked,
-    PracticeEnd,
-    SittingResumed,
-    Stage,
-    Status,
-)
+from kiosk.study.events import BodyName, PracticeEnd, Stage, Status
 
 
 def participants(study: Study, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
@@ -89,7 +80,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
     ),
     (
         Variable("body_changes", "How often another body had to take over.", Kind.WHOLE),
-        lambda row: body_changes(row.kept.events),
+        lambda row: len(row.course.body_changes),
     ),
     (
         Variable(
@@ -107,19 +98,19 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
     ),
     (
         Variable("last_stage", "The last stage that the sitting reached.", levels=named(Stage)),
-        lambda row: last_stage(row.kept).value,
+        lambda row: last_stage(row.course).value,
     ),
     (
         Variable("game_completed", "Whether every pair of the game was found.", Kind.TRUTH),
-        lambda row: row.count(GameFinished) > 0,
+        lambda row: row.course.game_completed,
     ),
     (
         Variable("resumed", "How often the sitting was cut off and gone on with.", Kind.WHOLE),
-        lambda row: row.count(SittingResumed),
+        lambda row: len(row.course.resumptions),
     ),
     (
         Variable("pauses", "How often the experimenter paused the sitting.", Kind.WHOLE),
-        lambda row: row.count(PauseAsked),
+        lambda row: len(row.course.pauses),
     ),
     (
         Variable(
@@ -175,6 +166,6 @@ _WHAT_IT_FOLLOWED: tuple[Column[Person], ...] = columns(
             Kind.NAMES,
             empty="they cannot be read any more",
         ),
-        lambda row: tuple(f"{name}={each.version}" for name, each in asked(row.kept).items()) or None,
+        lambda row: tuple(f"{each.id}={each.version}" for each in asked(row.kept)) or None,
     ),
 )

@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from kiosk.store.dataset.kept import Kept
-from kiosk.store.dataset.tables.asked import Answered, Score, answered, scores
+from kiosk.store.dataset.tables.asked import asked, scores
+from kiosk.study.after.answers import Answered, answers
+from kiosk.study.after.course import Glance, glance
 from kiosk.study.after.measures import Measures, measure
+from kiosk.study.after.scales import Score
 from kiosk.study.events import PracticeEnd, PracticeFinished
 
 
@@ -18,25 +21,27 @@ class Person:
     kept: Kept
 
     @cached_property
+    def course(self) -> Glance:
+        """What became of the sitting."""
+        return glance(self.kept.events)
+
+    @cached_property
     def measures(self) -> Measures:
         """What was measured in the game."""
         return measure(self.kept.events)
 
     @cached_property
-    def answers(self) -> dict[tuple[str, str], Answered]:
-        """What was answered, by questionnaire and item."""
-        return answered(self.kept)
+    def about_you(self) -> dict[str, Answered]:
+        """What was answered about the visitor, by item."""
+        asked_first = asked(self.kept)[:1]
+        return {answer.item: answer for answer in answers(self.kept.events, asked_first)}
 
     @cached_property
     def scores(self) -> dict[tuple[str, str], Score]:
         """The scales, by questionnaire and name."""
-        return {(score.questionnaire.id, score.scale): score for score in scores(self.kept)}
+        return {(score.questionnaire, score.scale): score for score in scores(self.kept)}
 
     @property
     def practice(self) -> PracticeEnd | None:
         """How the practice ended; None if it did not."""
         return next((event.how for event in self.kept.events if isinstance(event, PracticeFinished)), None)
-
-    def count(self, kind: type[object]) -> int:
-        """How many events of a kind there are."""
-        return sum(isinstance(event, kind) for event in self.kept.events)

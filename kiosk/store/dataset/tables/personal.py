@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Variable
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.kept import PUBLISHING
 from kiosk.store.dataset.study import Study
-from kiosk.store.dataset.tables.asked import as_cell
 from kiosk.store.dataset.tables.person import Person
 from kiosk.study.declared.questionnaire import Integer, Item, Multiple, Page, Rating, ShortText, Single
 from kiosk.study.declared.words import in_language
@@ -36,20 +35,22 @@ def _agreed_to(purpose: str, row: Person) -> Cell:
 
 def about_you(study: Study, extras: frozenset[Extra], taken: set[str]) -> Iterator[Column[Person]]:
     """One column for every item about the visitor; what was typed only if it is asked for."""
-    for item in study.about_you.values():
-        if isinstance(item, Page) or (isinstance(item, ShortText) and Extra.TEXTS not in extras):
-            continue
+    for item in told_items(study.about_you.values(), extras):
         name = _free(item.id, "about_you", taken)
-        yield Column(_variable(name, item, study.language), partial(_answer_about_you, item.id))
+        yield Column(item_variable(name, item, study.language), partial(_answer_about_you, item.id))
+
+
+def told_items(items: Iterable[Item], extras: frozenset[Extra]) -> list[Item]:
+    """The items whose answers are told: all that are answered, but for typed ones that nobody asked for."""
+    untold = (Page,) if Extra.TEXTS in extras else (Page, ShortText)
+    return [item for item in items if not isinstance(item, untold)]
 
 
 def _answer_about_you(item: str, row: Person) -> Cell:
-    about = row.kept.plan.about_you.id if row.kept.plan else None
-    given = row.answers.get((about, item)) if about else None
-    return as_cell(given.value) if given else None
+    return row.about_you[item].value if item in row.about_you else None
 
 
-def _variable(name: str, item: Item, language: str) -> Variable:
+def item_variable(name: str, item: Item, language: str) -> Variable:
     """An item's column: what was asked, and what could be answered."""
     kind = Kind.TEXT
     levels: tuple[Level, ...] = ()
@@ -95,13 +96,20 @@ def scales(study: Study, taken: set[str]) -> Iterator[Column[Person]]:
             partial(_sum, (questionnaire.id, scale)),
         )
         yield Column(
-            Variable(f"{name}_mean", f"The mean {of}", Kind.NUMBER, empty=empty, least=least, most=most),
+            Variable(
+                f"{name}_mean",
+                f"The mean {of} Only those that were answered count.",
+                Kind.NUMBER,
+                empty="none of them was answered",
+                least=least,
+                most=most,
+            ),
             partial(_mean, (questionnaire.id, scale)),
         )
 
 
 def _sum(scale: tuple[str, str], row: Person) -> Cell:
-    return row.scores[scale].sum if scale in row.scores else None
+    return row.scores[scale].total if scale in row.scores else None
 
 
 def _mean(scale: tuple[str, str], row: Person) -> Cell:
