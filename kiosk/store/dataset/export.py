@@ -10,9 +10,9 @@ from pathlib import Path
 from kiosk import BadInput
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.files import new_folder
-from kiosk.store.dataset.kept import Kept, Source, source
 from kiosk.store.dataset.layouts.layout import Contents, Layout
-from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.stored.kept import Kept, Source, source
+from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.every import every
 from kiosk.store.dataset.tables.flow import Flow, Quantity
 

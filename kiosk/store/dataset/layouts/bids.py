@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from kiosk import __version__
-from kiosk.store.dataset import codebook, texts_about
+from kiosk.store.dataset import codebook, prose
 from kiosk.store.dataset.column import Kind, Shape, Table, Variable
 from kiosk.store.dataset.files import TsvFile, write_json, write_text
-from kiosk.store.dataset.kept import Kept
 from kiosk.store.dataset.layouts.layout import TASK, Contents, Layout
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.flow import Flow
 from kiosk.store.dataset.tables.personal import item_variable, told_items
 from kiosk.store.dataset.tables.shared import AT, BOARD, FLIP, PARTICIPANT
@@ -59,7 +59,7 @@ class Bids(Layout):
 
     def finish(self, flows: tuple[Flow, ...]) -> None:  # noqa: ARG002 - BIDS has no place for the flow
         """Write what describes the tables."""
-        root, task = self.root, texts_about.BIDS_TASK | {"TaskName": TASK}
+        root, task = self.root, prose.BIDS_TASK | {"TaskName": TASK}
         write_json(root / "participants.json", _described(self._people.shape.variables))
         write_json(root / f"task-{TASK}_beh.json", task | _described(_joined(self._joined)))
         write_json(root / f"task-{TASK}_events.json", task | _described(self._event_variables()))
@@ -69,8 +69,8 @@ class Bids(Layout):
             described = {"MeasurementToolMetadata": told} | _described([PARTICIPANT, *tool.items])
             write_json(root / "phenotype" / f"{_file_name(about.id)}.json", described)
         write_json(root / "dataset_description.json", self._description())
-        write_text(root / "README.md", texts_about.bids_readme(self.contents.study, self.contents.extras))
-        write_text(root / "CHANGES", texts_about.BIDS_CHANGES)
+        write_text(root / "README.md", prose.bids_readme(self.contents.study, self.contents.extras))
+        write_text(root / "CHANGES", prose.BIDS_CHANGES)
 
     def close(self) -> None:
         """Let go of all files."""
@@ -87,7 +87,7 @@ class Bids(Layout):
             "Name": study.title,
             "BIDSVersion": BIDS_VERSION,
             "DatasetType": "raw",
-            "Keywords": list(texts_about.KEYWORDS),
+            "Keywords": list(prose.KEYWORDS),
             "GeneratedBy": [{"Name": "Recollect", "Version": __version__}],
         }
 

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from kiosk.settings import Settings
 from kiosk.store.dataset.files import write_text
-from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.stored.study import Study
 from kiosk.study.plan import Plan
 
 PUBLISHED = frozenset(

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from kiosk.store.dataset import codebook, texts_about
+from kiosk.store.dataset import codebook, prose
 from kiosk.store.dataset.files import CsvFile, write_json, write_text
-from kiosk.store.dataset.kept import Kept
 from kiosk.store.dataset.layouts.layout import TASK, Contents, Layout
 from kiosk.store.dataset.layouts.materials import write_materials
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.flow import Flow
 
 
@@ -38,11 +38,11 @@ class PsychDs(Layout):
             write_json((root / file_of(shape.name)).with_suffix(".json"), codebook.CONTEXT | own)
         files = {shape.name: file_of(shape.name) for shape in shapes}
         write_text(root / "documentation" / "codebook.md", codebook.markdown(shapes, files))
-        write_text(root / "README.md", texts_about.readme(self.contents.study, shapes, files, self.contents.extras))
-        write_text(root / "CHANGES.md", texts_about.CHANGES)
-        write_text(root / ".psychdsignore", texts_about.PSYCHDSIGNORE)
-        write_text(root / "analysis" / "example.py", texts_about.EXAMPLE)
-        write_text(root / "results" / "README.md", texts_about.RESULTS)
+        write_text(root / "README.md", prose.readme(self.contents.study, shapes, files, self.contents.extras))
+        write_text(root / "CHANGES.md", prose.CHANGES)
+        write_text(root / ".psychdsignore", prose.PSYCHDSIGNORE)
+        write_text(root / "analysis" / "example.py", prose.EXAMPLE)
+        write_text(root / "results" / "README.md", prose.RESULTS)
         write_materials(root / "materials", self.contents.study)
 
     def close(self) -> None:
@@ -54,8 +54,8 @@ class PsychDs(Layout):
         study = self.contents.study
         return codebook.CONTEXT | {
             "name": study.title,
-            "description": texts_about.abstract(study, self.contents.extras),
-            "keywords": list(texts_about.KEYWORDS),
+            "description": prose.abstract(study, self.contents.extras),
+            "keywords": list(prose.KEYWORDS),
             "inLanguage": list(study.languages),
         }
 

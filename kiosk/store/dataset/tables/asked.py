@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Table, Variable
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.shared import PARTICIPANT, columns
 from kiosk.study.after.answers import Answered
 from kiosk.study.after.answers import answers as answers_in

@@ -7,13 +7,14 @@ from typing import Any
 
 from kiosk.store.dataset.column import Shape, Table
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.kept import Kept
-from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.stored.kept import Kept
+from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.asked import SCORES, answers
 from kiosk.store.dataset.tables.flow import Flow, flow
+from kiosk.store.dataset.tables.hints import HINTS
 from kiosk.store.dataset.tables.log import SENTENCES, events
 from kiosk.store.dataset.tables.participants import participants
-from kiosk.store.dataset.tables.play import CARDS, DECISIONS, FLIPS, HINTS
+from kiosk.store.dataset.tables.play import CARDS, DECISIONS, FLIPS
 
 
 @dataclass(frozen=True)

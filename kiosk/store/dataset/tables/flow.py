@@ -9,7 +9,7 @@ from enum import Enum
 
 from kiosk.store.dataset.column import Column, Kind, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.shared import SIMULATED, columns
 from kiosk.store.people.counting import Counts, Fate
 from kiosk.study.after.course import Glance, glance

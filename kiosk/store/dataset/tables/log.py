@@ -8,9 +8,9 @@ from enum import Enum
 
 from kiosk.store.dataset.column import Column, Kind, Level, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.kept import Kept, Record
+from kiosk.store.dataset.stored.free_texts import safe_fields
+from kiosk.store.dataset.stored.kept import Kept, Record
 from kiosk.store.dataset.tables.shared import AT, PARTICIPANT, SENTENCE, STAGE, UTTERANCE, columns
-from kiosk.store.dataset.texts import safe_fields
 from kiosk.study.events import (
     HintGiven,
     SentenceRepeated,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.asked import asked, scores
 from kiosk.study.after.answers import Answered, answers
 from kiosk.study.after.course import Glance, glance

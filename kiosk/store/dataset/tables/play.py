@@ -1,39 +1,30 @@
-"""The tables of what was played: the cards as they lay, the flips, the decisions about help, and the hints."""
+"""The tables of what was played: the cards as they lay, the flips, and the decisions about help."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kiosk.assistant.hint import Reason
-from kiosk.assistant.mdp import Action, Card, Outcome, Phase
-from kiosk.store.dataset.boards import Dealt, Flip, Hint, boards
+from kiosk.assistant.mdp import Card, Outcome, Phase
 from kiosk.store.dataset.column import Column, Kind, Table, Variable, named
-from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.stored.boards import Dealt, Flip, Hint, boards
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.shared import (
     ACTION,
     AT,
     BOARD,
     COLUMN,
     FLIP,
+    FOLLOWED,
     GATE,
     MOVE_CARD,
     PARTICIPANT,
     PICTURE,
     ROW,
-    SENTENCE,
     STAGE,
-    UTTERANCE,
     columns,
 )
 from kiosk.study.events import AssistanceDecided
-
-FOLLOWED = Variable(
-    "followed",
-    "Whether the flip after the hint is the hinted card, or lies in the hinted row or column.",
-    Kind.TRUTH,
-    empty="there was no hint, or no flip after it",
-)
 
 
 @dataclass(frozen=True)
@@ -63,17 +54,6 @@ class _Decision:
     event: AssistanceDecided
 
 
-@dataclass(frozen=True)
-class _Hint:
-    kept: Kept
-    dealt: Dealt
-    hint: Hint
-
-    @property
-    def decision(self) -> AssistanceDecided | None:
-        return self.dealt.decisions.get(self.hint.given.flip)
-
-
 def _cards(kept: Kept) -> Iterator[_Card]:
     for dealt in boards(kept):
         for place, picture in enumerate(dealt.event.cards):
@@ -88,11 +68,6 @@ def _flips(kept: Kept) -> Iterator[_Flip]:
 def _decisions(kept: Kept) -> Iterator[_Decision]:
     for dealt in boards(kept):
         yield from (_Decision(kept, dealt, decision) for decision in dealt.decisions.values())
-
-
-def _hints(kept: Kept) -> Iterator[_Hint]:
-    for dealt in boards(kept):
-        yield from (_Hint(kept, dealt, hint) for hint in dealt.hints.values())
 
 
 _CARD_COLUMNS: tuple[Column[_Card], ...] = columns(
@@ -197,108 +172,4 @@ DECISIONS = Table(
     ("participant_id", "board", "flip"),
     _DECISION_COLUMNS,
     _decisions,
-)
-
-_HINT_COLUMNS: tuple[Column[_Hint], ...] = columns(
-    (PARTICIPANT, lambda row: row.kept.name),
-    (BOARD, lambda row: row.dealt.number),
-    (FLIP, lambda row: row.hint.given.flip),
-    (MOVE_CARD, lambda row: row.hint.given.card.value),
-    (ACTION, lambda row: row.hint.given.action.label),
-    (
-        Variable(
-            "level",
-            "How much help that is: "
-            + ", ".join(f"{action.level:g} for {action.label}" for action in Action)
-            + "; assistance per flip is their sum over all flips.",
-            Kind.NUMBER,
-        ),
-        lambda row: row.hint.given.action.level,
-    ),
-    (
-        Variable("target_row", "The row of the card that was pointed at, from 1, told or not.", Kind.WHOLE),
-        lambda row: row.hint.given.target.row + 1,
-    ),
-    (
-        Variable("target_column", "The column of that card, from 1, told or not.", Kind.WHOLE),
-        lambda row: row.hint.given.target.column + 1,
-    ),
-    (PICTURE, lambda row: row.hint.given.name),
-    (
-        Variable(
-            "told_row", "The row that the visitor was told, from 1.", Kind.WHOLE, empty="the hint did not name a row"
-        ),
-        lambda row: None if row.hint.given.row is None else row.hint.given.row + 1,
-    ),
-    (
-        Variable(
-            "told_column",
-            "The column that the visitor was told, from 1.",
-            Kind.WHOLE,
-            empty="the hint did not name a column",
-        ),
-        lambda row: None if row.hint.given.column is None else row.hint.given.column + 1,
-    ),
-    (
-        Variable("seen", "How often the visitor had turned up the target before.", Kind.WHOLE),
-        lambda row: row.hint.given.seen,
-    ),
-    (
-        Variable("mate_seen", "How often the visitor had turned up the other card of its pair.", Kind.WHOLE),
-        lambda row: row.hint.given.mate_seen,
-    ),
-    (
-        Variable(
-            "reason",
-            "What the visitor's history gives as the reason; said only in conditions with an explanation.",
-            levels=named(Reason),
-        ),
-        lambda row: row.hint.given.reason.value,
-    ),
-    (GATE, lambda row: None if row.decision is None else row.decision.gate.name.lower()),
-    (SENTENCE, lambda row: row.hint.given.sentence),
-    (UTTERANCE, lambda row: row.hint.given.utterance),
-    (
-        Variable("given_ms", "When the sentence came, from the sitting's first event.", Kind.WHOLE, "ms"),
-        lambda row: row.hint.given.at_ms,
-    ),
-    (
-        Variable(
-            "marked_ms",
-            "When the card, row or column was marked on the board, from the sitting's first event.",
-            Kind.WHOLE,
-            "ms",
-            empty="the sitting ended before",
-        ),
-        lambda row: row.hint.marked_ms,
-    ),
-    (
-        Variable(
-            "opened_ms",
-            "When cards could be tapped again, from the sitting's first event; the clock without speech stands still "
-            "from the sentence until then.",
-            Kind.WHOLE,
-            "ms",
-            empty="the sitting ended before",
-        ),
-        lambda row: row.hint.opened_ms,
-    ),
-    (FOLLOWED, lambda row: row.dealt.followed(row.hint)),
-    (
-        Variable(
-            "move_matched",
-            "Whether the move that the hint was for ended in a match.",
-            Kind.TRUTH,
-            empty="the move did not end",
-        ),
-        lambda row: row.dealt.move_matched(row.hint.given.flip),
-    ),
-)
-
-HINTS = Table(
-    "hints",
-    "One row for every hint that was given.",
-    ("participant_id", "board", "flip"),
-    _HINT_COLUMNS,
-    _hints,
 )

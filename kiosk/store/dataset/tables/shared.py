@@ -59,6 +59,12 @@ CONDITION = Variable(
         no_assistance="no help at all",
     ),
 )
+FOLLOWED = Variable(
+    "followed",
+    "Whether the flip after the hint is the hinted card, or lies in the hinted row or column.",
+    Kind.TRUTH,
+    empty="there was no hint, or no flip after it",
+)
 SENTENCE = Variable("sentence", "What was said and shown, in the sitting's language; a sentence of the program.")
 UTTERANCE = Variable("utterance", "The number of the sentence in its sitting.", Kind.WHOLE)
 SIMULATED = Variable("simulated", "Whether a program sat there instead of a person.", Kind.TRUTH)

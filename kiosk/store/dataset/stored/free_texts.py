@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from kiosk.store.dataset.kept import Kept, Record
+from kiosk.store.dataset.stored.kept import Kept, Record
 from kiosk.study.declared.questionnaire import ShortText
 from kiosk.study.events import AnswerGiven, BodyChanged, EndAsked, RobotLost, SpeechFailed
 

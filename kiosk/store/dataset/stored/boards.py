@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from kiosk.store.dataset.kept import Kept
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.study.after.measures import CARDS_IN_A_MOVE, followed
 from kiosk.study.events import (
     AssistanceDecided,

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from kiosk import __version__
 from kiosk.store.dataset.column import Shape
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.kept import PUBLISHING
-from kiosk.store.dataset.study import Study
+from kiosk.store.dataset.stored.kept import PUBLISHING
+from kiosk.store.dataset.stored.study import Study
 from kiosk.study.condition import Condition
 
 KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")
@@ -134,12 +134,12 @@ def _missing(extras: frozenset[Extra]) -> list[str]:
     return [f"- {text}" for text in (*_NOT_HERE, *left_out)]
 
 
-_HOW_TO_READ_BIDS = """There are no recordings of the brain here: behaviour alone. `participants.tsv` has a row for every
-participant; `sub-*/beh/*_beh.tsv` a row for every card that was turned up, with the decision before it and the hint for
-it; `*_events.tsv` a row for every event; `phenotype/` the answers to each questionnaire. The JSON files describe every
-column. `n/a` means that there is nothing to tell. Times are in milliseconds from the first event of the sitting, and
-`onset` in seconds. The Psych-DS form of this data set holds more: the cards as they lay, every sentence, response
-times, and how many people came."""
+_HOW_TO_READ_BIDS = """Here is behaviour alone, without recordings of the brain. `participants.tsv` has a row for
+every participant; `sub-*/beh/*_beh.tsv` a row for every card that was turned up, with the decision before it and the
+hint for it; `*_events.tsv` a row for every event; `phenotype/` the answers to each questionnaire. The JSON files
+describe every column. `n/a` means that there is nothing to tell. Times are in milliseconds from the first event of the
+sitting, and `onset` in seconds. The Psych-DS form of this data set holds more: the cards as they lay, every sentence,
+response times, and how many people came."""
 
 _HOW_TO_READ = """Every column is described in [the codebook](documentation/codebook.md) and, for programs, in
 `dataset_description.json` and beside each table. `participant_id` joins the tables; `board` and `flip` join flips,
