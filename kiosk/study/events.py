@@ -240,6 +240,18 @@ class EndAsked(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class NextAsked(WorldEvent):
+    """The experimenter gets ready for the next visitor, as this one is being thanked already."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoundChanged(WorldEvent):
+    """The experimenter made voice and sounds silent, or heard again; the text stays."""
+
+    quiet: bool
+
+
+@dataclass(frozen=True, kw_only=True)
 class SittingResumed(WorldEvent):
     """A sitting that was cut off goes on, from the start of the stage it was in; ``body`` helps from here on."""
 

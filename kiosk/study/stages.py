@@ -25,6 +25,7 @@ from kiosk.study.events import (
     Event,
     GameFinished,
     KioskClosed,
+    NextAsked,
     PauseAsked,
     PauseEnded,
     PracticeFinished,
@@ -34,6 +35,7 @@ from kiosk.study.events import (
     RobotLost,
     SittingResumed,
     SkipTapped,
+    SoundChanged,
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
@@ -77,6 +79,7 @@ _ANYWHERE = (
     RepeatAsked,
     PauseAsked,
     PauseEnded,
+    SoundChanged,
     SittingResumed,
 )
 _LEAVING = (VisitorLeft, EndAsked, KioskClosed)
@@ -105,7 +108,7 @@ TABLE: Mapping[Stage, Mapping[type[Event], Turn]] = MappingProxyType(
         Stage.RESULT: _underway(_READ),
         Stage.QUESTIONS: _underway(_ASK),
         Stage.DEBRIEF: _underway(_READ),
-        Stage.THANKS: _underway({ContinueTapped: Turn.ON, Thanked: Turn.ON}),
+        Stage.THANKS: _underway({ContinueTapped: Turn.ON, NextAsked: Turn.ON, Thanked: Turn.ON}),
         # Only a sitting that was cut off with the program may go on; Session sees to that.
         Stage.OVER: MappingProxyType({SittingResumed: Turn.STAY}),
     }

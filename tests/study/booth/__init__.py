@@ -1,0 +1,1 @@
+"""The booth's rules: who may do what, and when."""
