@@ -1,7 +1,7 @@
-"""Which body helps: the robot as long as it can, else the avatar.
+"""Which body helps: the robot as long as it can, else the avatar; or the avatar because the experimenter wants it so.
 
 A robot that fails is not used again in the same sitting. Between sittings it is looked for with growing pauses, and
-taken back only there.
+taken back only there; a preference, too, holds from the next sitting on.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from kiosk.robot.body import Body, Health, Listener
+from kiosk.robot.quiet import Mouth
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.events import BodyName
@@ -41,6 +42,8 @@ class Bodies:
         self._avatar: Body | None = None
         self._robot: RobotBody | None = None
         self._current: Body | None = None
+        self._mouth: Mouth | None = None
+        self._prefers_avatar = False
         self._in_sitting = False
         self._unsettled = False
         self._pause = settings.retry_first
@@ -50,7 +53,22 @@ class Bodies:
     @property
     def current(self) -> Body | None:
         """The body that helps now."""
-        return self._current
+        return self._mouth
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether no sentence is heard."""
+        return self._mouth is not None and self._mouth.shut
+
+    @property
+    def prefers_avatar(self) -> bool:
+        """Whether the avatar helps even when the robot is well."""
+        return self._prefers_avatar
+
+    @property
+    def has_robot(self) -> bool:
+        """Whether there is a robot to choose, well or not."""
+        return self._robot is not None
 
     @property
     def health(self) -> Mapping[BodyName, Health]:
@@ -69,13 +87,30 @@ class Bodies:
 
     def take(self, avatar: Body) -> None:
         """Have this body help whenever no robot does."""
-        self._avatar = self._current = avatar
+        self._avatar = avatar
+        self._enter(avatar)
 
     def take_robot(self, robot: RobotBody) -> None:
         """Look for this robot, and have it help as soon as it is found and no sitting is under way."""
         self._robot = robot
         self._unsettled = True
         robot.look_for()
+
+    def prefer(self, name: BodyName) -> None:
+        """Have the avatar help, or the robot whenever it is well, from the next sitting on."""
+        self._prefers_avatar = name is BodyName.AVATAR
+        if not self._in_sitting:
+            self._choose()
+
+    def be_quiet(self) -> None:
+        """Let no sentence be heard; one that is being said breaks off."""
+        if self._mouth is not None:
+            self._mouth.shut_up()
+
+    def be_heard(self) -> None:
+        """Let sentences be heard again."""
+        if self._mouth is not None:
+            self._mouth.open()
 
     def begin(self, language: str) -> None:
         """A sitting begins in this language: the body stays as it is, unless the robot is lost."""
@@ -107,15 +142,19 @@ class Bodies:
             self._robot.close()
 
     def speech_started(self, utterance: int) -> None:
-        """The robot began to say a sentence."""
+        """The body began to say a sentence."""
         self._listener.speech_started(utterance)
 
     def speech_finished(self, utterance: int) -> None:
-        """The robot has said a sentence."""
+        """The body has said a sentence."""
+        if self._mouth is not None:
+            self._mouth.said(utterance)
         self._listener.speech_finished(utterance)
 
     def speech_failed(self, utterance: int, why: str) -> None:
-        """The robot will not say a sentence."""
+        """The body will not say a sentence."""
+        if self._mouth is not None:
+            self._mouth.said(utterance)
         self._listener.speech_failed(utterance, why)
 
     def robot_found(self) -> None:
@@ -138,7 +177,7 @@ class Bodies:
 
     def _choose(self) -> None:
         well = self._robot is not None and self._robot.health.well
-        self._enter(self._robot if well else self._avatar)
+        self._enter(self._robot if well and not self._prefers_avatar else self._avatar)
 
     def _enter(self, body: Body | None) -> None:
         before, self._current = self._current, body
@@ -147,7 +186,14 @@ class Bodies:
         if before is not None:
             before.withdraw()
         if body is not None:
+            self._lend_mouth(body)
             body.appear()
+
+    def _lend_mouth(self, body: Body) -> None:
+        """One mouth for whoever helps: whether it is shut outlasts a change of body."""
+        if self._mouth is None:
+            self._mouth = Mouth(body, self._listener)
+        self._mouth.body = body
 
     def _wait_for_robot(self, ms: int) -> None:
         """After so long see to it; if somebody is playing then, as soon as they are gone."""

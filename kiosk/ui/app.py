@@ -50,7 +50,7 @@ class App:
         self._voice = _voice(settings, mode, self.clock, owner)
         self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
         board = settings.screen.board
-        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.conductor, board, owner))
+        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.bodies, board, owner))
         self.conductor.take(self.bodies)
         self._landing = Landing()
         self._take_robot(robot or robot_of(settings.robot, desk.study.languages[0]), settings)

@@ -73,6 +73,9 @@ class BodyFake:
     health: Health = Health(well=True, words="it is a fake")  # noqa: RUF009 - it is frozen
     did: list[tuple[object, ...]] = field(default_factory=list)
 
+    def speak(self, language: str) -> None:
+        self.did.append(("speak", language))
+
     def say(self, utterance: int, sentence: str) -> None:
         self.did.append(("say", utterance, sentence))
 
