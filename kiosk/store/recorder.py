@@ -51,6 +51,7 @@ class Recorder:
 
         ``site`` stands before the participants' numbers and codes, where data of several places will be merged.
         """
+        self.folder = folder
         self._site = checked_site(site)
         self._lock = lock(folder)
         self._sitting = 0

@@ -43,6 +43,11 @@ class Conductor:
         self.play: Callable[[Effect], None] = lambda _: None
         self.trouble: Callable[[str], None] = lambda _: None
         """Is told, in words for the experimenter, of what the disk did not take."""
+        self.begun: Callable[[], None] = lambda: None
+        """Is told when a visitor has begun, or a sitting goes on."""
+        self.rested: Callable[[], None] = lambda: None
+        """Is told when no sitting is under way any more."""
+        self._shut = False
         self._recorder = recorder
         self._clock = clock
         self._desk = desk
@@ -60,6 +65,21 @@ class Conductor:
         """The stage of the sitting that is under way; attract if there is none."""
         return Stage.ATTRACT if self._session is None else self._session.stage
 
+    @property
+    def gives_way(self) -> bool:
+        """Whether the calm screen is up, where nobody can begin."""
+        return self._session is None and self._performer.screens.kiosk.shown == "pause"
+
+    def accepts(self, kind: type[WorldEvent], **what: object) -> bool:
+        """Whether this event has a place in the sitting now."""
+        if self._session is None:
+            return False
+        try:
+            self._session.check(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+        except UnexpectedEvent:
+            return False
+        return True
+
     def take(self, bodies: Bodies) -> None:
         """Let these bodies speak; bodies report to the conductor, so it is there before them."""
         self._performer.bodies = bodies
@@ -76,6 +96,7 @@ class Conductor:
         record = Record(self._recorder, sitting, partial(self._desk.kept, sitting))
         self._begin(sitting, record, self._clock.now_ms())
         self.tell(happened.StartTapped)
+        self.begun()
 
     def resume(self, sitting: Provenance, number: int, past: tuple[WorldEvent, ...]) -> None:
         """Go on with a sitting that was cut off after these events, from the start of the stage it was in.
@@ -91,6 +112,7 @@ class Conductor:
         record = Record.resumed(self._recorder, sitting, number)
         self._begin(sitting, record, self._clock.now_ms() - past[-1].at_ms, session)
         self.tell(happened.SittingResumed, body=resumed.body)
+        self.begun()
 
     def tell(self, kind: type[WorldEvent], **what: object) -> None:
         """Something happened just now; without a sitting it does not matter."""
@@ -124,10 +146,17 @@ class Conductor:
     def pause(self) -> None:
         """Something failed that the visitor can do nothing about: drop the sitting behind a calm screen, then go on."""
         self._rest("pause")
-        self._clock.after(PAUSE_MS, self._return)
+        self._clock.after(PAUSE_MS, self.go_on)
 
-    def _return(self) -> None:
-        if self._session is None:
+    def go_on(self) -> None:
+        """Leave the calm screen; nothing happens while a sitting is under way."""
+        if self.gives_way:
+            self._rest("attract")
+
+    def shut(self, shut: bool) -> None:  # noqa: FBT001 - it is what is set
+        """Let nobody begin, or everybody again; a sitting that is under way goes on to its end."""
+        self._shut = shut
+        if self._session is None and shut is not self.gives_way:
             self._rest("attract")
 
     def _begin(self, sitting: Provenance, record: Record, begun_at: int, session: Session | None = None) -> None:
@@ -145,7 +174,8 @@ class Conductor:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""
         self._queue.clear()
         self._session = self._record = None
-        self._performer.reset(screen)
+        self._performer.reset("pause" if self._shut else screen)
+        self.rested()
 
     def _work(self) -> None:
         self._working = True

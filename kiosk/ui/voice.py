@@ -47,6 +47,9 @@ class Voice(QObject):
     def speak(self, language: str) -> None:
         """Speak this language from the next sentence on."""
 
+    def turn(self, volume: float) -> None:
+        """Speak so loud, 0 to 1, from the next sentence on."""
+
     def say(self, number: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""
         raise NotImplementedError
@@ -139,9 +142,17 @@ class EngineVoice(Voice):
 
     def speak(self, language: str) -> None:
         """End the process that speaks another language, and start one that speaks this one."""
-        if language == self._language:
-            return
-        self._language = language
+        if language != self._language:
+            self._language = language
+            self._start_anew()
+
+    def turn(self, volume: float) -> None:
+        """End the process that speaks louder or softer, and start one that speaks so loud."""
+        if volume != self._settings.volume:
+            self._settings = self._settings.model_copy(update={"volume": volume})
+            self._start_anew()
+
+    def _start_anew(self) -> None:
         self._failures = 0
         process = self._let_go_of_process()
         if process is not None:

@@ -34,8 +34,6 @@ class Tell(Protocol):
 class Screens:
     """Everything that can be shown."""
 
-    resting: Catalogue
-    """The language while nobody is there."""
     kiosk: KioskScreen
     attract: AttractScreen
     about: AboutScreen
@@ -55,7 +53,6 @@ class Screens:
         catalogues = [plan.catalogue for plan in study.plans]
         first, find = catalogues[0], study.settings.find
         return cls(
-            resting=first,
             kiosk=KioskScreen(first, owner),
             attract=AttractScreen(_pictures(study, partial(find, "cards")), catalogues, owner),
             about=AboutScreen(owner),
@@ -81,7 +78,7 @@ class Screens:
             screen.speak(catalogue)
 
     def clear(self) -> None:
-        """Leave nothing of a visitor, and show the first language again."""
+        """Leave nothing of a visitor, and show the language again that is shown at rest."""
         for screen in (
             self.kiosk,
             self.attract,
@@ -97,7 +94,7 @@ class Screens:
             self.avatar,
         ):
             screen.clear()
-        self.speak(self.resting)
+        self.speak(self.attract.resting)
 
     def listen(self, start: Callable[[str], None], tell: Tell) -> None:
         """Hand on what visitors do: ``start`` takes the language of a new one, ``tell`` everything after that."""

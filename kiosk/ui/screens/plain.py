@@ -155,8 +155,17 @@ class AttractScreen(QObject):
         super().__init__(parent)
         self._pictures = list(pictures)
         self._catalogues = tuple(catalogues)
-        self._shown = self._language = 0
+        self._shown = self._language = self._first = 0
         self._up = True
+
+    @property
+    def resting(self) -> Catalogue:
+        """The language while nobody is there."""
+        return self._catalogues[self._first]
+
+    def rest_in(self, language: str) -> None:
+        """Show this language first, from the next time on that nobody is there."""
+        self._first = [catalogue.language for catalogue in self._catalogues].index(language)
 
     def turn(self) -> None:
         """Turn back the card that is up; or, when none is, turn up the next one: two never move at once."""
@@ -177,7 +186,7 @@ class AttractScreen(QObject):
 
     def clear(self) -> None:
         """Begin anew, with the first card and the first language."""
-        self._shown = self._language = 0
+        self._shown, self._language = 0, self._first
         self._up = True
         self.changed.emit()
 
