@@ -43,6 +43,11 @@ class Desk:
             recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
 
     @property
+    def simulated(self) -> bool:
+        """Whether nobody real sits there, as in a rehearsal."""
+        return self._origin.simulated
+
+    @property
     def chosen(self) -> Condition | None:
         """The condition that the experimenter chose for the next sitting; None for the list's."""
         return self._chosen

@@ -1,0 +1,174 @@
+"""What a booth does for itself between sittings: copies of its database, and a look at the room on the disk.
+
+Both are slow work, done elsewhere; what comes of them is written down and shown, and never stops a sitting.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from kiosk import BadInput
+from kiosk.store.care.backup import FOLDER, back_up, backups
+from kiosk.store.care.disk import Level, Room, room
+from kiosk.store.recorder import StoreFailed
+from kiosk.study.booth.notes import Note
+from kiosk.ui.clock import MS_PER_SECOND, Clock
+from kiosk.ui.panel.lock import Write
+from kiosk.ui.work import Work
+
+BEAT_MS = 60_000
+"""How often the disk is looked at, and whether a copy is due."""
+
+MS_PER_MINUTE = 60_000
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Copied:
+    """What became of the last copy: when, in ms since 1970, and where, or why not."""
+
+    at_ms: int
+    file: Path | None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Care:
+    """How copies are made, and the disk is looked at; another one stands in for it in tests."""
+
+    copy: Callable[[], Path]
+    """Raises BadInput or StoreFailed."""
+    last_copy: Callable[[], Path | None]
+    room: Callable[[], Room]
+    """Raises BadInput."""
+
+    @classmethod
+    def of(cls, folder: Path, keep: int) -> Care:
+        """Take care of a data folder; of its copies so many are kept."""
+        into = folder / FOLDER
+        return cls(
+            partial(back_up, folder, into, keep),
+            lambda: next(reversed(backups(into)), None) if into.is_dir() else None,
+            partial(room, folder),
+        )
+
+
+class Upkeep:
+    """The booth's own care, beat by beat."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - whom it has to do with
+        self,
+        care: Care,
+        every_minutes: int,
+        clock: Clock,
+        now_ms: Callable[[], int],
+        work: Work,
+        write: Write,
+        resting: Callable[[], bool],
+        shut: Callable[[bool], None],
+    ) -> None:
+        """``resting`` tells whether no sitting is under way; ``shut`` lets nobody begin, or everybody again."""
+        self._care = care
+        self._every_ms = every_minutes * MS_PER_MINUTE
+        self._clock = clock
+        self._now_ms = now_ms
+        self._work = work
+        self._write = write
+        self._resting = resting
+        self._shut = shut
+        self._copied_at = clock.now_ms()
+        self._wished = self._busy = False
+        self.copied: Copied | None = None
+        """What became of the last copy; None before the first."""
+        self.room: Room | None = None
+        """The room that is left; None as long as nobody has looked, or can tell."""
+        self.changed: Callable[[], None] = lambda: None
+
+    @property
+    def busy(self) -> bool:
+        """Whether a copy is being made."""
+        return self._busy
+
+    @property
+    def waits(self) -> bool:
+        """Whether a copy is to be made as soon as the sitting is over."""
+        return self._wished
+
+    def begin(self) -> None:
+        """See how things are, and go on seeing to them."""
+        self._work(self._care.last_copy, self._found_copy)
+        self._beat()
+
+    def look(self) -> None:
+        """Look at the disk now, and make a copy if one is due."""
+        self._work(self._look_at_room, self._found_room)
+        if self._clock.now_ms() - self._copied_at >= self._every_ms:
+            self._wished = True
+        self.rested()
+
+    def back_up(self) -> None:
+        """Make a copy now, or as soon as no sitting is under way."""
+        self._wished = True
+        self.rested()
+        self.changed()
+
+    def rested(self) -> None:
+        """Make the copy that has waited for the end of a sitting."""
+        if self._wished and not self._busy and self._resting():
+            self._wished, self._busy = False, True
+            self._copied_at = self._clock.now_ms()
+            self._work(self._copy, self._have_copied)
+
+    def _beat(self) -> None:
+        self.look()
+        self._clock.after(BEAT_MS, self._beat)
+
+    def _copy(self) -> Copied:
+        try:
+            return Copied(self._now_ms(), self._care.copy())
+        except (BadInput, StoreFailed) as failure:
+            return Copied(self._now_ms(), None, str(failure))
+
+    def _have_copied(self, copied: Copied) -> None:
+        self._busy = False
+        self.copied = copied
+        if copied.file is not None:
+            self._write(Note.BACKUP_MADE, {"file": copied.file.name})
+        else:
+            _log.error("%s", copied.why)
+            self._write(Note.BACKUP_FAILED, {"why": copied.why})
+        self.changed()
+
+    def _found_copy(self, file: Path | None) -> None:
+        if file is not None and self.copied is None:
+            at_ms = int(file.stat().st_mtime * MS_PER_SECOND)
+            self.copied = Copied(at_ms, file)
+            self._copied_at -= max(0, self._now_ms() - at_ms)
+            self.changed()
+
+    def _look_at_room(self) -> Room | None:
+        try:
+            return self._care.room()
+        except BadInput as failure:
+            _log.error("%s", failure)
+            return None
+
+    def _found_room(self, found: Room | None) -> None:
+        before, self.room = self.room, found
+        level = found.level if found else Level.ENOUGH
+        if level is not (before.level if before else Level.ENOUGH):
+            free_mib = found.free_mib if found else None
+            _log.log(
+                logging.INFO if level is Level.ENOUGH else logging.WARNING,
+                "the disk has %s MiB left%s",
+                free_mib,
+                "; nobody can begin" if level is Level.REFUSE else "",
+            )
+            self._write(Note.ROOM_CHANGED, {"level": level.value, "free_mib": free_mib})
+            self._shut(level is Level.REFUSE)
+        self.changed()
