@@ -21,13 +21,16 @@ from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
 from kiosk.ui.desk import Desk
 from kiosk.ui.loop import Loop
+from kiosk.ui.panel.booth import Experimenter, read_for
+from kiosk.ui.panel.deeds import Booth
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.every import Screens
 from kiosk.ui.screens.life import IdleLife
+from kiosk.ui.sounds import Effect
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
 from kiosk.ui.watchdog import watched
 from kiosk.ui.window import Display, Mode, Pace, Window
-from kiosk.ui.work import Landing
+from kiosk.ui.work import AtOnce, Landing, Worker
 
 _log = logging.getLogger(__name__)
 
@@ -55,12 +58,17 @@ class App:
         self._landing = Landing()
         self._take_robot(robot or robot_of(settings.robot, desk.study.languages[0]), settings)
         if settings.voice.sounds:
-            self.conductor.play = lambda effect: self._voice.play(effect.file)
+            self.conductor.play = self._play
         if mode.pace is Pace.WALL and settings.screen.motion:
             # Kept, for Qt alone does not keep alive whom it calls back.
             shown = self.screens
             self._life = IdleLife(shown.kiosk, shown.avatar, shown.attract, self.clock, Random())
         self._loop = Loop(self.clock, owner, self.fault)
+        virtual = mode.pace is Pace.VIRTUAL
+        self._work, self._slow = (AtOnce() if virtual else Worker(self._landing) for _ in range(2))
+        self.experimenter = Experimenter(self._reached(recorder, desk), self.window, self._work, self._slow)
+        if not virtual:
+            self.experimenter.upkeep.begin()
         self.screens.kiosk.left.connect(self.quit)
 
     def __enter__(self) -> Self:
@@ -94,8 +102,11 @@ class App:
         """End the sitting that is under way, and everything but the application object."""
         self.conductor.close()
         self._loop.close()
+        self.experimenter.close()
         self.bodies.close()
         self._landing.close()
+        self._work.close()
+        self._slow.close()
         self._voice.close()
         if self.booth is not None:
             self.booth.release()
@@ -112,6 +123,24 @@ class App:
             return BoothWindow(self.window, settings.screen.number, self._window.owner)
         self._window.show()
         return None
+
+    def _reached(self, recorder: Recorder, desk: Desk) -> Booth:
+        """What the experimenter can do something to."""
+        return Booth(
+            conductor=self.conductor,
+            desk=desk,
+            bodies=self.bodies,
+            voice=self._voice,
+            recorder=recorder,
+            screens=self.screens,
+            clock=self.clock,
+            read_cut_off=read_for(self._work, recorder.folder),
+            leave=self.quit,
+        )
+
+    def _play(self, effect: Effect) -> None:
+        if not self.bodies.is_quiet:
+            self._voice.play(effect.file)
 
     def _take_robot(self, device: Robot | None, settings: Settings) -> None:
         if device is None:

@@ -42,6 +42,7 @@ class Experimenter:
         settings = study.settings
         catalogue = study.plans[0].catalogue
         screen = booth.screens.experimenter
+        card, note, panel = screen.parts
         folder = booth.recorder.folder
         self._booth = booth
         self._window = window
@@ -51,7 +52,7 @@ class Experimenter:
         self._simulated = booth.desk.simulated
         self._write = Writing(booth.recorder)
         self._lock = Lock(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write)
-        self._asking = Asking(screen.card, self._lock, booth.clock, catalogue)
+        self._asking = Asking(card, self._lock, booth.clock, catalogue)
         self.upkeep = Upkeep(
             Care.of(folder, settings.experimenter.backups),
             settings.experimenter.backup_every,
@@ -62,10 +63,10 @@ class Experimenter:
             lambda: self.deeds.resting,
             booth.conductor.shut,
         )
-        self.deeds = Deeds(booth, self._asking, screen.note, self._write, self.upkeep, catalogue)
+        self.deeds = Deeds(booth, self._asking, note, self._write, self.upkeep, catalogue)
         look = partial(_look, folder, simulated=self._simulated)
         self.panel = Panel(
-            screen.panel,
+            panel,
             booth,
             self.deeds,
             self._asking,
@@ -99,11 +100,9 @@ class Experimenter:
             room=self.upkeep.room,
             copied=self.upkeep.copied,
             trouble=self._write.trouble,
-            clocks=Clocks(
-                self._now_ms(), self._began_ms, booth.clock.now_ms() - self._run_from_ms, self._written_ms
-            ),
+            clocks=Clocks(self._now_ms(), self._began_ms, booth.clock.now_ms() - self._run_from_ms, self._written_ms),
             has_pin=self._lock.has_pin,
-            screen=f"{width} × {height}",
+            screen=f"{width} x {height}",
             screen_well=self._window.isExposed(),
         )
 
@@ -120,5 +119,3 @@ def _look(folder: Path, *, simulated: bool) -> Glance | str:
         return glance(folder, int(today.timestamp() * MS_PER_SECOND), simulated=simulated)
     except BadInput as failure:
         return str(failure)
-
-

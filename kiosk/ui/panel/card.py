@@ -42,7 +42,7 @@ class CardScreen(QObject):
         self._title = self._line = self._text = ""
         self._reasons: list[str] = []
 
-    def show(self, step: Step, title: str, line: str = "", text: str = "", reasons: tuple[str, ...] = ()) -> None:  # noqa: PLR0913, PLR0917 - all that a card holds
+    def show(self, step: Step, title: str, line: str = "", text: str = "", reasons: tuple[str, ...] = ()) -> None:
         """Ask for something; ``text`` is what was typed so far, as it may be seen."""
         self._step, self._title, self._line, self._text, self._reasons = step, title, line, text, list(reasons)
         self.changed.emit()

@@ -29,8 +29,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Clocks:
-    """The wall's clock, in ms since 1970: now, when the program began, and when anything was last written before that;
-    and how long the program has run by a clock that nobody can set, in ms."""
+    """The wall's clock, in ms since 1970: now, when the program began, and when anything was last written before that.
+
+    ``run_ms`` is how long the program has run by a clock that nobody can set.
+    """
 
     now_ms: int
     began_ms: int

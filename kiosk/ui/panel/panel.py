@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 from kiosk.assistant.wording import Catalogue
 from kiosk.store.glance import Glance
-from kiosk.study.booth.deeds import Deed, rule
+from kiosk.study.booth.deeds import Deed, Effect, rule
 from kiosk.study.booth.notes import Note
 from kiosk.study.events import BodyName, PauseEnded, Stage
 from kiosk.ui.clock import Wait
@@ -83,6 +83,7 @@ class Panel:
         self._asking.unlocked = False
         self._asking.cancel()
         self._screen.open(False)  # noqa: FBT003 - it is what is set
+        self._booth.screens.kiosk.step_back(False)  # noqa: FBT003 - it is what is set
         self._deeds.panel_closed()
         self.changed()
 
@@ -95,6 +96,9 @@ class Panel:
         self._asking.unlocked = True
         self._deeds.panel_opened()
         self.stir()
+        self._booth.screens.kiosk.step_back(True)  # noqa: FBT003 - it is what is set
+        # All that it shows is there before it comes.
+        self._screen.show_choices(self._choices())
         self._screen.open(True)  # noqa: FBT003 - it is what is set
         self._see()
         self.changed()
@@ -144,8 +148,7 @@ class Panel:
             "sitting": told("desk-sitting-paused") if under_way else told("desk-sitting-none"),
             "underWay": under_way,
             "conditions": [
-                {"value": each.value if each else AUTOMATIC, "label": condition_name(each, told)}
-                for each in deeds.turn
+                {"value": each.value if each else AUTOMATIC, "label": condition_name(each, told)} for each in deeds.turn
             ],
             "condition": booth.desk.chosen.value if booth.desk.chosen else AUTOMATIC,
             "bodies": [
@@ -162,6 +165,7 @@ class Panel:
             "language": booth.screens.attract.resting.language,
             "volumes": [{"value": str(volume), "label": f"{volume:.0%}"} for volume in LOUDNESS],
             "volume": str(min(LOUDNESS, key=lambda volume: abs(volume - deeds.volume))),
+            "canBeNext": rule(Deed.NEXT, deeds.stage).effect is not Effect.REFUSED,
             "quiet": bodies.is_quiet,
             "staysPaused": booth.conductor.accepts(PauseEnded) and not deeds.paused_by_panel,
             "backup": told("desk-backup-busy")

@@ -112,6 +112,11 @@ class ExperimenterScreen(QObject):
         self._chords: list[Row] = []
         self._card, self._note, self._panel = CardScreen(self), NoteScreen(self), PanelScreen(self)
 
+    @property
+    def parts(self) -> tuple[CardScreen, NoteScreen, PanelScreen]:
+        """The card, the note and the panel."""
+        return self._card, self._note, self._panel
+
     def listen_for(self, chords: dict[str, str]) -> None:
         """Listen for these chords, by the names of their deeds."""
         self._chords = [{"deed": deed, "chord": chord} for deed, chord in chords.items()]

@@ -4,6 +4,7 @@ import QtQuick
 import QtQuick.Window
 import Recollect
 import "."
+import "panel"
 
 Window {
     id: root
@@ -20,6 +21,7 @@ Window {
     required property DebriefScreen debrief
     required property ThanksScreen thanks
     required property AvatarScreen avatar
+    required property ExperimenterScreen experimenter
     required property url cardBack
     required property url cardShadow
     required property real textSize
@@ -49,12 +51,6 @@ Window {
     Binding { target: Theme; property: "textSize"; value: root.textSize }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
-
-    Shortcut {
-        sequence: "Ctrl+Shift+Q"
-        context: Qt.ApplicationShortcut
-        onActivated: root.kiosk.leave()
-    }
 
     Item {
         id: stage
@@ -164,6 +160,10 @@ Window {
         visible: root.kiosk.paused || root.kiosk.screen === "pause"
         title: root.kiosk.words["pause-title"]
         line: root.kiosk.words["pause-line"]
+    }
+    PanelLayer {
+        anchors.fill: parent
+        experimenter: root.experimenter
     }
     Loader {
         id: controls

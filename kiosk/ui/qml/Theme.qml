@@ -30,6 +30,8 @@ QtObject {
     readonly property real heading: size(46)
     readonly property real body: size(32)
     readonly property real small: size(26)
+    // What the experimenter reads, who sits close and wants all of it at once.
+    readonly property real dense: 22 * unit * textSize
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
 

@@ -14,6 +14,7 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.study import events as happened
 from kiosk.study.events import WorldEvent
 from kiosk.study.plan import Study
+from kiosk.ui.panel.screen import ExperimenterScreen
 from kiosk.ui.screens.avatar import AvatarScreen
 from kiosk.ui.screens.board import BoardScreen
 from kiosk.ui.screens.deciding import AgeScreen, ConsentScreen
@@ -46,6 +47,7 @@ class Screens:
     debrief: DebriefScreen
     thanks: ThanksScreen
     avatar: AvatarScreen
+    experimenter: ExperimenterScreen
 
     @classmethod
     def of(cls, study: Study, owner: QObject) -> Screens:
@@ -65,7 +67,13 @@ class Screens:
             debrief=DebriefScreen(first, owner),
             thanks=ThanksScreen(owner),
             avatar=AvatarScreen(owner),
+            experimenter=ExperimenterScreen(owner),
         )
+
+    @property
+    def resting(self) -> Catalogue:
+        """The language while nobody is there."""
+        return self.attract.resting
 
     @property
     def by_name(self) -> dict[str, QObject]:
@@ -94,7 +102,7 @@ class Screens:
             self.avatar,
         ):
             screen.clear()
-        self.speak(self.attract.resting)
+        self.speak(self.resting)
 
     def listen(self, start: Callable[[str], None], tell: Tell) -> None:
         """Hand on what visitors do: ``start`` takes the language of a new one, ``tell`` everything after that."""

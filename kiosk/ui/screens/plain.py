@@ -35,7 +35,7 @@ class KioskScreen(QObject):
         self._words = words(catalogue)
         self._screen = "attract"
         self._asks_still_there = False
-        self._paused = False
+        self._paused = self._behind_panel = False
         self._leaving = False
         self._settled = True
 
@@ -66,8 +66,13 @@ class KioskScreen(QObject):
             self._paused = paused
             self._unsettle()
 
+    def step_back(self, steps_back: bool) -> None:  # noqa: FBT001 - it is what is set
+        """Leave input to the experimenter's panel, or take it again."""
+        self._behind_panel = steps_back
+        self._unsettle()
+
     def clear(self) -> None:
-        """Nothing lies over the screen."""
+        """Nothing of a sitting lies over the screen."""
         self.ask_still_there(asks=False)
         self.pause(paused=False)
 
@@ -83,8 +88,8 @@ class KioskScreen(QObject):
 
     @property
     def covered(self) -> bool:
-        """Whether a question or a calm word lies over the screen."""
-        return self._asks_still_there or self._paused
+        """Whether a question, a calm word or the experimenter's panel lies over the screen."""
+        return self._asks_still_there or self._paused or self._behind_panel
 
     @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def words(self) -> dict[str, str]:

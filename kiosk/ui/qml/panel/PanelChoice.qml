@@ -1,0 +1,39 @@
+// A question of the panel with its answers: one of them holds.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Column {
+    id: choice
+
+    required property string title
+    required property var options
+    required property string chosen
+    required property string deed
+    signal picked(string value)
+
+    spacing: 8 * Theme.unit
+    visible: options.length > 0
+
+    Text {
+        width: parent.width
+        text: choice.title
+        font.pixelSize: Theme.dense
+        color: Theme.faintInk
+        elide: Text.ElideRight
+    }
+    Flow {
+        width: parent.width
+        spacing: 9 * Theme.unit
+        Repeater {
+            model: choice.options
+            delegate: PanelButton {
+                required property var modelData
+                objectName: choice.deed + "-" + modelData.value
+                text: modelData.label
+                chosen: modelData.value === choice.chosen
+                onClicked: choice.picked(modelData.value)
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+// Who has come, by condition, against what was planned.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+PanelSection {
+    id: counts
+
+    required property var words
+    required property var records
+    readonly property real first: width * 0.25
+    readonly property real second: width * 0.22
+    readonly property real other: (width - first - second - 1.6 * Theme.gap) / 5
+
+    title: words["desk-counts"]
+
+    Row {
+        Text { width: counts.first; text: " "; font.pixelSize: Theme.dense }
+        PanelCell { width: counts.second; words: counts.words["desk-counts-done"]; heading: true }
+        Repeater {
+            model: ["dropped", "overridden", "beyond", "unlisted", "withdrawn"]
+            delegate: PanelCell {
+                required property string modelData
+                width: counts.other
+                words: counts.words["desk-counts-" + modelData]
+                heading: true
+                number: true
+            }
+        }
+    }
+    Repeater {
+        model: counts.records.cells
+        delegate: Row {
+            id: cell
+            required property var modelData
+            Text {
+                width: counts.first
+                text: cell.modelData.name
+                font { pixelSize: Theme.dense; bold: true }
+                color: Theme.ink
+                elide: Text.ElideRight
+            }
+            Item {
+                width: counts.second
+                height: done.height
+                Rectangle {
+                    anchors { left: parent.left; verticalCenter: parent.verticalCenter }
+                    width: parent.width * 0.5
+                    height: 12 * Theme.unit
+                    radius: height / 2
+                    color: Theme.sand
+                    Rectangle {
+                        width: parent.width * cell.modelData.share
+                        height: parent.height
+                        radius: height / 2
+                        color: Theme.sea
+                    }
+                }
+                Text {
+                    id: done
+                    x: parent.width * 0.56
+                    text: cell.modelData.done
+                    font.pixelSize: Theme.dense
+                    color: Theme.ink
+                }
+            }
+            Repeater {
+                model: cell.modelData.counts
+                delegate: PanelCell {
+                    required property string modelData
+                    width: counts.other
+                    words: modelData
+                    number: true
+                }
+            }
+        }
+    }
+    Text {
+        width: parent.width
+        text: counts.records.visits
+        font.pixelSize: Theme.dense * 0.92
+        color: Theme.faintInk
+        wrapMode: Text.WordWrap
+    }
+}

@@ -1,0 +1,27 @@
+// One thing that was not as planned today: when, what, and why.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Row {
+    id: row
+
+    required property var deviation
+
+    spacing: 10 * Theme.unit
+    Text {
+        id: when
+        text: row.deviation.when
+        font.pixelSize: Theme.dense
+        color: Theme.faintInk
+    }
+    Text {
+        width: row.width - when.width - row.spacing
+        text: row.deviation.words + (row.deviation.reason === "" ? "" : " · " + row.deviation.reason)
+        font.pixelSize: Theme.dense
+        color: Theme.ink
+        wrapMode: Text.WordWrap
+        maximumLineCount: 2
+        elide: Text.ElideRight
+    }
+}

@@ -1,0 +1,12 @@
+// Says that a list is empty.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Text {
+    required property string words
+
+    text: words
+    font.pixelSize: Theme.dense
+    color: Theme.faintInk
+}

@@ -1,0 +1,39 @@
+// All of the experimenter: the chords, the card that asks, the note at the edge, and the panel over everything.
+pragma ComponentBehavior: Bound
+import QtQuick
+import QtQml
+import Recollect
+import ".."
+
+Item {
+    id: desk
+
+    required property ExperimenterScreen experimenter
+
+    Instantiator {
+        model: desk.experimenter.chords
+        delegate: Shortcut {
+            id: chord
+            required property var modelData
+            sequence: chord.modelData.chord
+            context: Qt.ApplicationShortcut
+            autoRepeat: false
+            onActivated: desk.experimenter.press(chord.modelData.deed)
+        }
+    }
+    Loader {
+        id: panel
+        anchors.fill: parent
+        active: desk.experimenter.panel.shown
+        focus: active
+        sourceComponent: PanelView { panel: desk.experimenter.panel }
+    }
+    PanelNote {
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: 14 * Theme.unit }
+        note: desk.experimenter.note
+    }
+    PinCard {
+        anchors { top: parent.top; right: parent.right; margins: Theme.gap }
+        card: desk.experimenter.card
+    }
+}

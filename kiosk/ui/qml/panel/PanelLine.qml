@@ -1,0 +1,30 @@
+// How one thing is: a mark, its name, and words.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Row {
+    id: row
+
+    required property var line
+
+    spacing: 10 * Theme.unit
+    PanelMark { id: mark; well: row.line.well }
+    Text {
+        id: name
+        width: row.width * 0.25
+        text: row.line.name
+        font { pixelSize: Theme.dense; bold: true }
+        color: Theme.ink
+        elide: Text.ElideRight
+    }
+    Text {
+        width: row.width - mark.width - name.width - 2 * row.spacing
+        text: row.line.words
+        font.pixelSize: Theme.dense
+        color: row.line.well ? Theme.faintInk : Theme.deepAmber
+        wrapMode: Text.WordWrap
+        maximumLineCount: 3
+        elide: Text.ElideRight
+    }
+}

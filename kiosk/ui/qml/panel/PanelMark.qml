@@ -1,0 +1,13 @@
+// Whether something is well, told by shape and colour: a disc, or a triangle with its word beside it.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Text {
+    required property bool well
+
+    text: well ? "●" : "▲"
+    font.pixelSize: Theme.dense
+    color: well ? Theme.sea : Theme.deepAmber
+    Accessible.ignored: true
+}

@@ -1,0 +1,43 @@
+// A note at the screen's edge, for a moment: a few words, or dots of which one is filled.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+Rectangle {
+    id: edge
+
+    required property NoteScreen note
+
+    objectName: "experimenter-note"
+    visible: note.text !== "" || note.dots > 0
+    width: content.width + 2 * Theme.gap
+    height: content.height + Theme.gap
+    radius: height / 2
+    color: Theme.white
+    border { color: Theme.sea; width: 2 * Theme.unit }
+
+    Row {
+        id: content
+        anchors.centerIn: parent
+        spacing: 12 * Theme.unit
+        Text {
+            visible: edge.note.text !== ""
+            text: edge.note.text
+            font.pixelSize: Theme.dense
+            color: Theme.ink
+        }
+        Repeater {
+            model: edge.note.dots
+            delegate: Rectangle {
+                id: dot
+                required property int index
+                width: 16 * Theme.unit
+                height: width
+                radius: width / 2
+                color: dot.index === edge.note.chosen ? Theme.sea : "transparent"
+                border { color: Theme.sea; width: 2 * Theme.unit }
+            }
+        }
+    }
+}

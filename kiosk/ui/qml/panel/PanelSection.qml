@@ -1,0 +1,31 @@
+// A part of the panel: a heading, and what stands below it.
+pragma ComponentBehavior: Bound
+import QtQuick
+import ".."
+
+Rectangle {
+    id: section
+
+    required property string title
+    default property alias content: body.data
+
+    height: body.height + heading.height + 2.4 * Theme.gap
+    radius: Theme.radius
+    color: Theme.white
+    border { color: Theme.sand; width: 2 * Theme.unit }
+
+    Text {
+        id: heading
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
+        text: section.title
+        font { pixelSize: Theme.dense * 1.12; bold: true }
+        color: Theme.ink
+        elide: Text.ElideRight
+    }
+    Column {
+        id: body
+        anchors { top: heading.bottom; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
+        anchors.topMargin: 0.5 * Theme.gap
+        spacing: 10 * Theme.unit
+    }
+}

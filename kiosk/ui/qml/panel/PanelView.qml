@@ -1,0 +1,149 @@
+// The panel: how everything is, who has come, and what can be done, at one glance and by keyboard alone.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+FocusScope {
+    id: view
+
+    required property PanelScreen panel
+    readonly property var words: panel.words
+    readonly property bool wide: width >= height
+    readonly property real space: 0.75 * Theme.gap
+
+    objectName: "panel"
+    Keys.onEscapePressed: panel.wish("panel", "")
+    Component.onCompleted: close.forceActiveFocus(Qt.OtherFocusReason)
+
+    Rectangle {
+        anchors.fill: parent
+        color: Theme.paper
+        MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true; Accessible.ignored: true }
+    }
+    Item {
+        id: head
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
+        height: close.height
+
+        Text {
+            id: title
+            anchors.verticalCenter: parent.verticalCenter
+            text: view.words["desk-title"]
+            font { pixelSize: Theme.dense * 1.35; bold: true }
+            color: Theme.ink
+        }
+        Text {
+            anchors { left: title.right; right: close.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+            text: view.panel.choices.sitting
+            font.pixelSize: Theme.dense
+            color: Theme.faintInk
+            elide: Text.ElideRight
+        }
+        PanelButton {
+            id: close
+            objectName: "panel-close"
+            anchors.right: parent.right
+            text: view.words["desk-close"]
+            focus: true
+            onClicked: view.panel.wish("panel", "")
+        }
+    }
+    Rectangle {
+        id: summary
+        anchors { top: head.bottom; left: parent.left; right: parent.right; margins: view.space }
+        height: sentence.height + Theme.gap
+        radius: Theme.radius
+        color: view.panel.health.well ? Theme.sea : Theme.amber
+        Text {
+            id: sentence
+            objectName: "panel-summary"
+            anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+            text: (view.panel.health.well ? "✓   " : "▲   ") + view.panel.health.summary
+            font { pixelSize: Theme.dense * 1.12; bold: true }
+            color: view.panel.health.well ? Theme.white : Theme.ink
+            wrapMode: Text.WordWrap
+            maximumLineCount: 3
+            elide: Text.ElideRight
+        }
+    }
+    Flickable {
+        id: pane
+        anchors { top: summary.bottom; left: parent.left; right: parent.right; bottom: foot.top; margins: view.space }
+        contentHeight: content.height
+        clip: true
+        boundsBehavior: Flickable.StopAtBounds
+
+        // Where the keyboard is, there the eye is.
+        readonly property Item held: view.Window.activeFocusItem
+        onHeldChanged: {
+            if (held === null || held.parent === null || held === close)
+                return
+            const at = held.mapToItem(content, 0, 0).y
+            if (at >= 0 && (at < contentY || at + held.height > contentY + height))
+                contentY = Math.max(0, Math.min(contentHeight - height, at - height / 2))
+        }
+
+        Item {
+            id: content
+            width: pane.width
+            height: view.wide ? Math.max(left.height, middle.height, right.height)
+                              : Math.max(left.height, right.height) + view.space + middle.height
+
+            Column {
+                id: left
+                width: view.wide ? content.width * 0.29 : (content.width - view.space) * 0.5
+                spacing: view.space
+                PanelSection {
+                    width: parent.width
+                    title: view.words["desk-health"]
+                    Repeater {
+                        model: view.panel.health.lines
+                        delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
+                    }
+                }
+                PanelSection {
+                    width: parent.width
+                    title: view.words["desk-deviations"]
+                    PanelEmpty {
+                        words: view.words["desk-deviations-none"]
+                        visible: view.panel.records.deviations.length === 0
+                    }
+                    Repeater {
+                        model: view.panel.records.deviations
+                        delegate: PanelDeviation {
+                            required property var modelData
+                            deviation: modelData
+                            width: parent.width
+                        }
+                    }
+                }
+            }
+            Column {
+                id: middle
+                x: view.wide ? left.width + view.space : 0
+                y: view.wide ? 0 : Math.max(left.height, right.height) + view.space
+                width: view.wide ? content.width * 0.41 : content.width
+                spacing: view.space
+                PanelCounts { width: parent.width; words: view.words; records: view.panel.records }
+                PanelSittings { width: parent.width; words: view.words; records: view.panel.records }
+            }
+            PanelDeeds {
+                id: right
+                x: content.width - width
+                width: view.wide ? content.width - left.width - middle.width - 2 * view.space
+                                 : (content.width - view.space) * 0.5
+                panel: view.panel
+                space: view.space
+            }
+        }
+    }
+    Text {
+        id: foot
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
+        text: view.words["desk-keys"]
+        font.pixelSize: Theme.dense * 0.9
+        color: Theme.faintInk
+        wrapMode: Text.WordWrap
+    }
+}

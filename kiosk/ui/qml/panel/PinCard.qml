@@ -1,0 +1,72 @@
+// A small card in the corner that asks the experimenter for the PIN or for a reason, and says nothing else.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+Rectangle {
+    id: pin
+
+    required property CardScreen card
+    readonly property bool listing: card.step === "reason"
+
+    objectName: "pin-card"
+    visible: card.step !== ""
+    width: 430 * Theme.unit * Math.max(1, Theme.textSize)
+    height: content.height + 2 * Theme.gap
+    radius: Theme.radius
+    color: Theme.white
+    border { color: Theme.sea; width: 3 * Theme.unit }
+
+    // Nothing below it is pressed through it.
+    MouseArea { anchors.fill: parent; Accessible.ignored: true }
+
+    Column {
+        id: content
+        anchors { top: parent.top; left: parent.left; right: parent.right; margins: Theme.gap }
+        spacing: 12 * Theme.unit
+
+        Text {
+            text: pin.card.title
+            font { pixelSize: Theme.body; bold: true }
+            color: Theme.ink
+        }
+        Rectangle {
+            visible: !pin.listing
+            width: parent.width
+            height: 64 * Theme.unit * Theme.textSize
+            radius: 12 * Theme.unit
+            color: Theme.paper
+            border { color: pin.card.step === "wait" ? Theme.deepAmber : Theme.sea; width: 2 * Theme.unit }
+            Text {
+                anchors { fill: parent; leftMargin: 16 * Theme.unit; rightMargin: 16 * Theme.unit }
+                text: pin.card.text
+                font { pixelSize: Theme.body; letterSpacing: pin.card.step === "pin" ? 8 * Theme.unit : 0 }
+                color: Theme.ink
+                elide: Text.ElideLeft
+                verticalAlignment: Text.AlignVCenter
+            }
+        }
+        Repeater {
+            model: pin.card.reasons
+            delegate: PanelButton {
+                id: reason
+                required property int index
+                required property string modelData
+                objectName: "reason-" + (reason.index + 1)
+                width: content.width
+                text: (reason.index + 1) + "   " + reason.modelData
+                focusPolicy: Qt.NoFocus
+                onClicked: pin.card.choose(reason.index + 1)
+            }
+        }
+        Text {
+            objectName: "pin-line"
+            width: parent.width
+            text: pin.card.line
+            font.pixelSize: Theme.dense
+            color: pin.card.step === "wait" ? Theme.deepAmber : Theme.faintInk
+            wrapMode: Text.WordWrap
+        }
+    }
+}
