@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from functools import partial
 from random import Random
 from types import TracebackType
 from typing import Self
@@ -21,7 +22,7 @@ from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
 from kiosk.ui.desk import Desk
 from kiosk.ui.loop import Loop
-from kiosk.ui.panel.booth import Experimenter, read_for
+from kiosk.ui.panel.booth import Experimenter, read_for, wall_ms
 from kiosk.ui.panel.deeds import Booth
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.every import Screens
@@ -33,6 +34,8 @@ from kiosk.ui.window import Display, Mode, Pace, Window
 from kiosk.ui.work import AtOnce, Landing, Worker
 
 _log = logging.getLogger(__name__)
+
+_BEGAN_MS = wall_ms()
 
 
 class App:
@@ -66,7 +69,8 @@ class App:
         self._loop = Loop(self.clock, owner, self.fault)
         virtual = mode.pace is Pace.VIRTUAL
         self._work, self._slow = (AtOnce() if virtual else Worker(self._landing) for _ in range(2))
-        self.experimenter = Experimenter(self._reached(recorder, desk), self.window, self._work, self._slow)
+        now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
+        self.experimenter = Experimenter(self._reached(recorder, desk), self.window, self._work, self._slow, now_ms)
         if not virtual:
             self.experimenter.upkeep.begin()
         self.screens.kiosk.left.connect(self.quit)
@@ -135,6 +139,7 @@ class App:
             screens=self.screens,
             clock=self.clock,
             read_cut_off=read_for(self._work, recorder.folder),
+            window_health=lambda: self.booth.health if self.booth else (),
             leave=self.quit,
         )
 
@@ -152,6 +157,11 @@ class App:
 
 def _clock(mode: Mode, owner: QObject) -> Clock:
     return VirtualClock() if mode.pace is Pace.VIRTUAL else WallClock(owner, mode.speed)
+
+
+def _virtual_wall_ms(clock: Clock) -> int:
+    """A wall's clock for virtual time, which began with the program."""
+    return _BEGAN_MS + clock.now_ms()
 
 
 def _voice(settings: Settings, mode: Mode, clock: Clock, owner: QObject) -> Voice:

@@ -79,7 +79,6 @@ desk-counts-done = of quota
 desk-counts-dropped = left early
 desk-counts-overridden = chosen
 desk-counts-beyond = beyond
-desk-counts-unlisted = no list
 desk-counts-withdrawn = withdrawn
 desk-visits = Played without being stored: { $declined } declined, { $under_age } under age, { $left } left before deciding
 desk-automatic = automatic

@@ -79,7 +79,6 @@ desk-counts-done = de cuota
 desk-counts-dropped = dejadas
 desk-counts-overridden = elegidas
 desk-counts-beyond = de más
-desk-counts-unlisted = sin reparto
 desk-counts-withdrawn = retiradas
 desk-visits = Jugaron sin quedar registrados: { $declined } sin consentimiento, { $under_age } menores, { $left } se fueron antes de decidir
 desk-automatic = automática

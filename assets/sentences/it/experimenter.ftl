@@ -79,7 +79,6 @@ desk-counts-done = su quota
 desk-counts-dropped = lasciate
 desk-counts-overridden = scelte
 desk-counts-beyond = oltre
-desk-counts-unlisted = senza lista
 desk-counts-withdrawn = ritirate
 desk-visits = Hanno giocato senza essere registrati: { $declined } senza consenso, { $under_age } minorenni, { $left } andati via prima di decidere
 desk-automatic = automatica

@@ -6,6 +6,7 @@ The sitting goes on meanwhile as if nothing were.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from math import ceil
 
 from kiosk.assistant.wording import Catalogue
@@ -94,7 +95,7 @@ class Asking:
         if step is Step.PIN and typed:
             question = self._question
             self._show_typed("")
-            self._lock.check(typed, lambda right: self._checked(question, right=right))
+            self._lock.check(typed, partial(self._checked, question))
         elif step is Step.WORDS and typed:
             self._done(f"{Reason.OTHER.value}: {typed}")
 

@@ -93,6 +93,7 @@ class Experimenter:
         booth = self._booth
         robot = next((health for name, health in booth.bodies.health.items() if name is not BodyName.AVATAR), None)
         width, height = self._window.width(), self._window.height()
+        held = booth.window_health()
         return State(
             robot=robot,
             voice=booth.voice.health,
@@ -102,8 +103,8 @@ class Experimenter:
             trouble=self._write.trouble,
             clocks=Clocks(self._now_ms(), self._began_ms, booth.clock.now_ms() - self._run_from_ms, self._written_ms),
             has_pin=self._lock.has_pin,
-            screen=f"{width} x {height}",
-            screen_well=self._window.isExposed(),
+            screen="; ".join((f"{width} x {height}", *(health.words for health in held))),
+            screen_well=all(health.well for health in held),
         )
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from kiosk import BadInput
 from kiosk.assistant.wording import Catalogue
 from kiosk.robot.bodies import Bodies
+from kiosk.robot.body import Health
 from kiosk.store.cut_off import CutOff, Unreadable
 from kiosk.store.recorder import Recorder, StoreFailed
 from kiosk.study import events as happened
@@ -47,6 +48,7 @@ class Booth:
     clock: Clock
     read_cut_off: Callable[[int, Callable[[CutOff | Unreadable], None]], None]
     """Reads a sitting that was cut off, and hands it over soon."""
+    window_health: Callable[[], tuple[Health, ...]]
     leave: Callable[[], None]
 
 

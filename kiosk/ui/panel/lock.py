@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, Protocol
 
 from kiosk.study.booth.notes import Note
 from kiosk.study.booth.pin import Wrong, matches
@@ -12,6 +12,14 @@ from kiosk.ui.work import Work
 
 Write = Callable[[Note, Mapping[str, Any]], bool]
 """Writes down what happened at the booth; whether the disk took it."""
+
+
+class Told(Protocol):
+    """Is told whether a PIN was the right one."""
+
+    def __call__(self, *, right: bool) -> None:
+        """It was, or it was not."""
+        ...
 
 
 class Lock:
@@ -35,18 +43,18 @@ class Lock:
         """How long nobody may try again, in ms."""
         return self._wrong.left_ms(self._now_ms())
 
-    def check(self, pin: str, told: Callable[[bool], None]) -> None:
+    def check(self, pin: str, told: Told) -> None:
         """Tell, soon, whether this is the PIN; while nobody may try, it is not even looked at."""
         if self.left_ms:
-            told(False)
+            told(right=False)
             return
         self._work(partial(matches, pin, self._line), partial(self._checked, told))
 
-    def _checked(self, told: Callable[[bool], None], right: bool) -> None:  # noqa: FBT001 - it is what was found out
+    def _checked(self, told: Told, right: bool) -> None:  # noqa: FBT001 - it is what was found out
         if right:
             self._wrong = Wrong()
             self._write(Note.PIN_ACCEPTED, {})
         else:
             self._wrong = Wrong(self._wrong.times + 1, self._now_ms())
             self._write(Note.PIN_REFUSED, {"in_a_row": self._wrong.times, "wait_ms": self._wrong.wait_ms})
-        told(right)
+        told(right=right)

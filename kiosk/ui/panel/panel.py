@@ -22,7 +22,7 @@ LOOK_MS = 1_000
 CLOSE_MS = 60_000
 """Without a hand on it for so long, the panel closes."""
 
-LOUDNESS = tuple(step / 5 for step in range(6))
+LOUDNESS = (0.2, 0.4, 0.6, 0.8, 1.0)
 """The volumes to choose from."""
 
 
@@ -185,7 +185,6 @@ WORDS = (
     "desk-counts-dropped",
     "desk-counts-overridden",
     "desk-counts-beyond",
-    "desk-counts-unlisted",
     "desk-counts-withdrawn",
     "desk-sittings",
     "desk-sittings-none",

@@ -48,7 +48,7 @@ def _cell(condition: Condition, cell: Cell, told: Told) -> Row:
     done, quota = cell.fates[Fate.CONSUMED], cell.quota
     return {
         "name": condition_name(condition, told),
-        "done": f"{done} / {quota}" if quota else "-",
+        "done": f"{done} / {quota}" if quota else str(cell.fates[Fate.UNLISTED] or ""),
         "share": min(1.0, done / quota) if quota else 0.0,
         "counts": [
             str(number or "")
@@ -56,7 +56,6 @@ def _cell(condition: Condition, cell: Cell, told: Told) -> Row:
                 cell.fates[Fate.DROPPED_OUT],
                 cell.fates[Fate.OVERRIDDEN],
                 cell.fates[Fate.BEYOND],
-                cell.fates[Fate.UNLISTED],
                 cell.withdrawn,
             )
         ],

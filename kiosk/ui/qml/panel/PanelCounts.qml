@@ -10,7 +10,7 @@ PanelSection {
     required property var records
     readonly property real first: width * 0.25
     readonly property real second: width * 0.22
-    readonly property real other: (width - first - second - 1.6 * Theme.gap) / 5
+    readonly property real other: (width - first - second - 1.6 * Theme.gap) / 4
 
     title: words["desk-counts"]
 
@@ -18,7 +18,7 @@ PanelSection {
         Text { width: counts.first; text: " "; font.pixelSize: Theme.dense }
         PanelCell { width: counts.second; words: counts.words["desk-counts-done"]; heading: true }
         Repeater {
-            model: ["dropped", "overridden", "beyond", "unlisted", "withdrawn"]
+            model: ["dropped", "overridden", "beyond", "withdrawn"]
             delegate: PanelCell {
                 required property string modelData
                 width: counts.other

@@ -29,7 +29,7 @@ Item {
         sourceComponent: PanelView { panel: desk.experimenter.panel }
     }
     PanelNote {
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: 14 * Theme.unit }
+        anchors { horizontalCenter: parent.horizontalCenter; top: parent.top; topMargin: 14 * Theme.unit }
         note: desk.experimenter.note
     }
     PinCard {

@@ -7,6 +7,7 @@ Text {
     required property bool well
 
     text: well ? "●" : "▲"
+    width: Theme.dense
     font.pixelSize: Theme.dense
     color: well ? Theme.sea : Theme.deepAmber
     Accessible.ignored: true
