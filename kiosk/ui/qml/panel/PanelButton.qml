@@ -9,6 +9,7 @@ Button {
 
     // One of several, and the one that holds.
     property bool chosen: false
+    property int alignment: Text.AlignHCenter
 
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
@@ -28,7 +29,7 @@ Button {
         text: button.text
         font: button.font
         color: button.chosen ? Theme.white : Theme.sea
-        horizontalAlignment: Text.AlignHCenter
+        horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
         elide: Text.ElideRight
     }

@@ -56,6 +56,7 @@ Rectangle {
                 objectName: "reason-" + (reason.index + 1)
                 width: content.width
                 text: (reason.index + 1) + "   " + reason.modelData
+                alignment: Text.AlignLeft
                 focusPolicy: Qt.NoFocus
                 onClicked: pin.card.choose(reason.index + 1)
             }
