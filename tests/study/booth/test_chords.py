@@ -1,4 +1,4 @@
-"""What the study file gives as chords: each can be pressed, none by accident, and no two are the same."""
+"""What the study file gives as chords can be heard: beyond what the file refuses by itself."""
 
 from __future__ import annotations
 
@@ -26,26 +26,16 @@ def test_a_chord_is_modifiers_and_a_key_or_a_function_key(chord: str) -> None:
 @pytest.mark.parametrize(
     ("chord", "why"),
     [
-        ("P", "needs Ctrl, Alt or Meta"),
-        ("Shift+P", "needs Ctrl, Alt or Meta"),
-        ("Space", "needs Ctrl, Alt or Meta"),
-        ("Ctrl+", "is no chord"),
-        ("Ctrl+Shift", "is no chord"),
-        ("Strg+P", "is no chord"),
-        ("Ctrl+Ctrl+P", "is no chord"),
-        ("ctrl+p", "is no chord"),
-        ("Ctrl+X, Ctrl+P", "is no chord"),
-        ("F25", "is no chord"),
+        ("Ctrl+Shift", "has no key"),
+        ("Ctrl+Strg", "has no key"),
+        ("Ctrl+Ctrl+P", "names a key twice"),
+        ("F25", "has no key"),
         ("Ctrl+V", "means something else"),
+        ("Ctrl+Shift+z", "means something else"),
         ("Alt+F4", "means something else"),
     ],
 )
-def test_what_can_be_no_chord_is_refused_in_one_sentence(chord: str, why: str) -> None:
+def test_a_chord_that_could_never_be_heard_is_refused_in_one_sentence(chord: str, why: str) -> None:
     with pytest.raises(BadInput, match=why) as refusal:
         chords(Keys(panel=chord))
-    assert str(refusal.value).startswith("keys.panel: ")
-
-
-def test_a_chord_that_stands_twice_is_refused_however_it_is_spelt() -> None:
-    with pytest.raises(BadInput, match=r"keys\.leave: .* is also that of keys\.end"):
-        chords(Keys(end="Ctrl+Shift+E", leave="Shift+Ctrl+E"))
+    assert str(refusal.value).startswith("panel: ")

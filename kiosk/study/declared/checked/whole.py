@@ -17,6 +17,7 @@ from kiosk.assistant.wording import CARD, Catalogue
 from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import ASSETS, Game, Practice, Settings
 from kiosk.study.allocation import places
+from kiosk.study.booth.chords import chords
 from kiosk.study.condition import Condition
 from kiosk.study.declared.checked import naming
 from kiosk.study.declared.information import Information, check_alike
@@ -34,6 +35,7 @@ def read_study(settings: Settings) -> Study:
     """Everything that a study file names, read; raises BadInput with a sentence for everything that is wrong."""
     look = _Look(settings)
     look.at("stages", partial(Course.of, settings.stages))
+    look.at("keys", partial(chords, settings.keys))
     look.check_allocation()
     catalogues = look.catalogues()
     sheets = look.sheets()
