@@ -88,9 +88,6 @@ class BodyFake:
     def attend(self, place: Place | None) -> None:
         self.did.append(("attend", place))
 
-    def speak(self, language: str) -> None:
-        self.did.append(("speak", language))
-
     def appear(self) -> None:
         self.did.append(("appear",))
 

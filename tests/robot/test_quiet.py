@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.quiet import WHY
+from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName
 from tests.robot.recording import BodyFake, Interface, Reports, RobotFake, Waits
-from kiosk.robot.robot_body import RobotBody
 
 SETTINGS = RobotSettings(kind="furhat")
 
