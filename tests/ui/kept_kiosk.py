@@ -11,6 +11,8 @@ import sys
 from pathlib import Path
 from unittest.mock import patch
 
+from PySide6.QtCore import QTimer
+
 from kiosk.cli.front import main
 from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
@@ -26,9 +28,14 @@ class Guest(Rehearsal):
             super()._think()
 
 
-def faulty(*_: object) -> None:
+def fault() -> None:
     """A fault of ours."""
     raise RuntimeError("a fault on purpose")
+
+
+def fault_soon(*_: object) -> None:
+    """A fault in the event loop itself, not in whatever Python is at just now."""
+    QTimer.singleShot(0, fault)
 
 
 def endless(*_: object) -> None:
@@ -39,7 +46,7 @@ def endless(*_: object) -> None:
 
 def run(app: App) -> None:
     """Run as ever, with the visitor inside if it is the first time."""
-    signal.signal(signal.SIGUSR1, faulty)
+    signal.signal(signal.SIGUSR1, fault_soon)
     signal.signal(signal.SIGUSR2, endless)
     if not MARKER.exists():
         MARKER.touch()

@@ -29,6 +29,7 @@ import click
 
 from kiosk.store.reading import archive
 from kiosk.study.events import Status
+from kiosk.ui.conductor import PAUSE_MS
 
 STAGES = ("attract", "introduction", "game", "result", "questions")
 """By the names of the screens."""
@@ -52,6 +53,7 @@ FAULTS: dict[str, Callable[[int], None]] = {
 """What strikes the process of the kiosk."""
 MENDED_INSIDE = {"exception"}
 """What the kiosk itself answers with its own calm screen, without being started again."""
+CALM_S = PAUSE_MS / 1000 + 1
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class Revival:
     def faults(self) -> list[str]:
         """Whatever must not be; nothing, if all is well."""
         wrong = {
-            "it took too long": self.back_s > LONGEST_S and self.fault not in MENDED_INSIDE,
+            "it took too long": self.back_s > (CALM_S if self.fault in MENDED_INSIDE else LONGEST_S),
             "the sitting is not marked": self.sitting
             not in {Status.INTERRUPTED.value, "none" if self.stage == "attract" else ""},
             "something was left behind": bool(self.left_behind),
@@ -168,7 +170,10 @@ def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | No
         FAULTS[fault](struck)
         if shots is not None:
             threading.Timer(0.2, _photograph, [shots / f"{stage}-{fault}.png", environment]).start()
-        back = kept.wait_for("attract", STOPPED_S) - at
+        try:
+            back = kept.wait_for("attract", STOPPED_S) - at
+        except queue.Empty:
+            back = float("inf")
         left = int(fault not in MENDED_INSIDE and Path(f"/proc/{struck}").exists())
         kept.end()
         left += len([*folder.glob("recollect-*")])
