@@ -30,6 +30,7 @@ _COMMANDS = {
     "verify": "kiosk.cli.care:verify",
     "withdraw": "kiosk.cli.care:withdraw",
     "merge": "kiosk.cli.care:merge",
+    "export": "kiosk.cli.export:export",
     "train": "kiosk.cli.learning:train",
     "simulate": "kiosk.cli.learning:simulate",
     "policy": "kiosk.cli.learning:policy",

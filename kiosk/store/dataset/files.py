@@ -20,6 +20,8 @@ UNDATED = datetime(1980, 1, 2, tzinfo=UTC).timestamp()
 NOTHING = "n/a"
 """How BIDS writes an empty cell."""
 
+_WITHIN_A_LINE = str.maketrans("\t\r\n", "   ")
+
 
 class CsvFile:
     """A table as CSV (RFC 4180) in UTF-8; halves of characters, which no file can hold, stand escaped."""
@@ -51,7 +53,7 @@ class TsvFile:
     def write(self, rows: Iterable[Sequence[str]]) -> None:
         """Add rows."""
         for row in rows:
-            self._file.write("\t".join(" ".join(cell.split()) or NOTHING for cell in row) + "\n")
+            self._file.write("\t".join(cell.translate(_WITHIN_A_LINE) or NOTHING for cell in row) + "\n")
 
     def close(self) -> None:
         """Nothing follows."""

@@ -64,6 +64,13 @@ RESULTS = """# Results
 Nothing has been worked out here yet. What is made from the tables in `data/` belongs into this folder.
 """
 
+MATERIALS = """# Materials
+
+What the sittings followed, each under the first characters of its hash: questionnaires, information sheets, the tables
+that chose how much to help, and settings. Of the settings, what concerns people, devices, keys and seeds is left out,
+so their hash is that of more than stands here. What a program of today cannot read any more is missing.
+"""
+
 EXAMPLE = '''"""Moves by condition, of all who completed the game; needs Python and nothing else."""
 
 import csv

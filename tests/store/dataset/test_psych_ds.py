@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from kiosk.study.condition import Condition
 from tests.store.dataset.psych_ds import issues
 
 TABLE = "data/task-concentration_description-flips_data.csv"
@@ -110,3 +112,28 @@ def test_each_fault_would_be_seen(code: str, small: Path, tmp_path: Path) -> Non
     shutil.copytree(small, root)
     FAULTS[code](root)
     assert code in {issue.split()[0] for issue in issues(root)}
+
+
+def test_the_example_of_the_data_set_runs(small: Path) -> None:
+    command = [sys.executable, str(small / "analysis" / "example.py")]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    assert [line.split()[0] for line in lines] == sorted(condition.value for condition in Condition)
+
+
+def test_the_example_of_the_page_runs_and_says_the_same(small: Path, tmp_path: Path) -> None:
+    page = (Path(__file__).parents[3] / "docs" / "data-set.md").read_text("utf-8")
+    example = page.split("<!-- example -->\n```python\n")[1].split("```\n<!-- /example -->")[0]
+    assert len(example.replace("\n\n", "\n").splitlines()) == 10
+    (tmp_path / "my-study").symlink_to(small)
+    outputs = [
+        subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+        for command in ([sys.executable, "-c", example], [sys.executable, str(small / "analysis" / "example.py")])
+    ]
+    assert outputs[0] == outputs[1] != ""
+
+
+def test_the_page_names_every_table_that_there_is(small: Path) -> None:
+    page = (Path(__file__).parents[3] / "docs" / "data-set.md").read_text("utf-8")
+    tables = {path.name.split("description-")[1].removesuffix("_data.csv") for path in small.glob("data/*.csv")}
+    listed = page.split("## What is in it")[1].split("## ")[0]
+    assert {line.split("`")[1] for line in listed.splitlines() if line.startswith("| `")} == tables

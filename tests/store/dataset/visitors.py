@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from types import MappingProxyType
 
 from kiosk.game import Position
 from kiosk.settings import ASSETS
@@ -95,8 +96,11 @@ def _follow(view: View, choose: Callable[[View], Position], chance: Random) -> P
     return next((place for place in view.closed if row in (None, place.row) and column in (None, place.column)), own)
 
 
-def answer_all(driver: Driver, chance: Random) -> None:
-    """Answer page by page, with second thoughts, and skip what need not be answered now and then."""
+def answer_all(driver: Driver, chance: Random, given: Mapping[str, Answer] = MappingProxyType({})) -> None:
+    """Answer page by page, with second thoughts, and skip what need not be answered now and then.
+
+    What is ``given`` for an item is its last answer.
+    """
     here = driver.stage
     while driver.stage is here:
         for item in driver.view.page.items if driver.view.page else ():
@@ -105,7 +109,9 @@ def answer_all(driver: Driver, chance: Random) -> None:
             for _ in range(chance.choice((1, 1, 1, 2, 3))):
                 driver.spend(chance.randrange(100, 3000))
                 driver.answer(chosen(item, chance), item.id)
-            if not item.required and chance.random() < 0.03:
+            if item.id in given:
+                driver.answer(given[item.id], item.id)
+            elif not item.required and chance.random() < 0.03:
                 driver.answer(None, item.id)
         driver.go_on()
 

@@ -43,6 +43,7 @@ class PsychDs(Layout):
         write_text(root / ".psychdsignore", prose.PSYCHDSIGNORE)
         write_text(root / "analysis" / "example.py", prose.EXAMPLE)
         write_text(root / "results" / "README.md", prose.RESULTS)
+        write_text(root / "materials" / "README.md", prose.MATERIALS)
         write_materials(root / "materials", self.contents.study)
 
     def close(self) -> None:
