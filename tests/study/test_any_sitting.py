@@ -10,44 +10,60 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from kiosk.assistant.gate import NO_GATE, Gate
 from kiosk.game import Position
-from kiosk.settings import Game
+from kiosk.settings import STAGES, Game, Practice
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Record, Wait
 from kiosk.study.condition import Condition
-from kiosk.study.events import Stage, Status, Timer, WorldEvent
-from kiosk.study.session import Session
-from kiosk.study.stages import UnexpectedEvent
-from tests.samples import mixed, plan
-from tests.study.driver import View, notes, with_memory
+from kiosk.study.declared.questionnaire import Page
+from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
+from kiosk.study.session import Keeping, Session
+from kiosk.study.stages import BEFORE_DECIDING, UnexpectedEvent
+from tests.samples import ABOUT_YOU, CLOSING, INFORMATION, SHORT, mixed, plan
+from tests.study.driver import notes, some_answer, with_memory
+from tests.study.view import View
 
 TIMES = st.integers(0, 10**6)
+ITEMS = [item.id for item in (*ABOUT_YOU.items, *CLOSING.items)]
+PURPOSES = [purpose.id for purpose in INFORMATION.consent.purposes]
+ANSWERS = st.one_of(
+    st.none(),
+    st.integers(),
+    st.integers(-1, 7),
+    st.text(max_size=3),
+    st.lists(st.sampled_from(["en", "it", "xx"]), max_size=3).map(tuple),
+)
 ANYTHING = st.one_of(
     st.builds(happened.StartTapped, at_ms=TIMES),
     st.builds(happened.ContinueTapped, at_ms=TIMES),
+    st.builds(happened.PurposeTicked, at_ms=TIMES, purpose=st.sampled_from([*PURPOSES, ""]), ticked=st.booleans()),
+    st.builds(happened.AgreeTapped, at_ms=TIMES),
+    st.builds(happened.SkipTapped, at_ms=TIMES),
     st.builds(happened.CardTapped, at_ms=TIMES, position=st.builds(Position, st.integers(), st.integers())),
     st.builds(happened.CardTapped, at_ms=TIMES, position=st.builds(Position, st.integers(-1, 3), st.integers(-1, 3))),
-    st.builds(happened.AnswerGiven, at_ms=TIMES, item=st.text(max_size=3), value=st.integers()),
-    st.builds(
-        happened.AnswerGiven,
-        at_ms=TIMES,
-        item=st.sampled_from(["enjoyed", "helped", "understood"]),
-        value=st.integers(-1, 7),
-    ),
+    st.builds(happened.AnswerGiven, at_ms=TIMES, item=st.text(max_size=3), value=ANSWERS),
+    st.builds(happened.AnswerGiven, at_ms=TIMES, item=st.sampled_from(ITEMS), value=ANSWERS),
     st.builds(happened.StillHereTapped, at_ms=TIMES),
     st.builds(happened.TimerEnded, at_ms=TIMES, timer=st.sampled_from(Timer)),
     st.builds(happened.SpeechStarted, at_ms=TIMES, utterance=st.integers()),
     st.builds(happened.SpeechFinished, at_ms=TIMES, utterance=st.integers(-1, 40)),
     st.builds(happened.RobotLost, at_ms=TIMES, why=st.text(max_size=3)),
     st.builds(happened.SpeechFailed, at_ms=TIMES, utterance=st.integers(-1, 40), why=st.text(max_size=3)),
+    st.builds(happened.RepeatAsked, at_ms=TIMES),
+    st.builds(happened.PauseAsked, at_ms=TIMES),
+    st.builds(happened.PauseEnded, at_ms=TIMES),
+    st.builds(happened.SittingResumed, at_ms=TIMES, body=st.sampled_from(BodyName)),
 )
-"""Sense and nonsense, but not the end of the program: that comes seldom enough as a rule of its own."""
+"""Sense and nonsense, but not what ends a sitting, nor what decides against a record: that comes by its own rules."""
 
 OPENS = {
     Wait.SPEAKING: {Timer.READING, Timer.SPEECH_DEADLINE},
     Wait.TURNING_BACK: {Timer.TURN_BACK},
 }
 """The waits that see to it that the board is not held for ever."""
+
+BOARDS = {Stage.PRACTICE, Stage.GAME}
+COURSES = (STAGES, SHORT, ("about", "age", "consent", "questions", "practice", "game", "about_you", "thanks"))
 
 
 class AnySitting(RuleBasedStateMachine):
@@ -59,42 +75,68 @@ class AnySitting(RuleBasedStateMachine):
         self.running: set[Timer] = set()
         self.now = 0
         self.found = 0
+        self.dealt = 0
 
     @initialize(
         condition=st.sampled_from(Condition),
         seed=st.integers(0, 10**6),
         gate=st.sampled_from([NO_GATE, Gate(2, 2, 4)]),
         shape=st.sampled_from([(2, 2), (3, 4)]),
-        stage=st.sampled_from(list(Stage)[:-1]),
+        course=st.sampled_from(COURSES),
+        data=st.data(),
     )
-    def prepare(self, condition: Condition, seed: int, gate: Gate, shape: tuple[int, int], stage: Stage) -> None:
-        board = Game(rows=shape[0], columns=shape[1])
-        self.session, self.twin = (Session(plan(condition, mixed(seed, gate), game=board), seed) for _ in range(2))
-        self.hurry_to(stage)
+    def prepare(  # noqa: PLR0913, PLR0917 - what differs between sittings
+        self, condition: Condition, seed: int, gate: Gate, shape: tuple[int, int], course: tuple[str, ...], data: Any
+    ) -> None:
+        board, practice = Game(rows=shape[0], columns=shape[1]), Practice(rows=2, columns=2)
+        self.plan = plan(condition, mixed(seed, gate), course, game=board, practice=practice)
+        self.session, self.twin = (Session(self.plan, seed) for _ in range(2))
+        self.hurry_to(data.draw(st.sampled_from([Stage.ATTRACT, *self.plan.course.stages])))
 
     def hurry_to(self, stage: Stage) -> None:
         """Come to this stage by a visitor who does nothing but what is asked for."""
-        visitor = with_memory(1)
+        self.visitor = with_memory(1)
         while self.session.stage is not stage:
-            opening = self.running & {*OPENS[Wait.SPEAKING], *OPENS[Wait.TURNING_BACK], Timer.FINISH}
-            if self.session.stage is Stage.ATTRACT:
+            self.do_what_is_asked()
+
+    def do_what_is_asked(self) -> None:
+        """Take one step further."""
+        opening = self.running & {*OPENS[Wait.SPEAKING], *OPENS[Wait.TURNING_BACK], Timer.FINISH}
+        match self.session.stage:
+            case Stage.ATTRACT:
                 self.start()
-            elif self.session.stage is not Stage.GAME:
-                self.go_on()
-            elif opening:
+            case Stage.CONSENT if "store" not in self.view.ticks:
+                self.send(happened.PurposeTicked(at_ms=self.now, purpose="store", ticked=True))
+            case Stage.CONSENT:
+                self.send(happened.AgreeTapped(at_ms=self.now))
+            case Stage.AGE:
+                self.say_age(adult=True)
+            case Stage.PRACTICE | Stage.GAME if opening:
                 self.send(happened.TimerEnded(at_ms=self.now, timer=opening.pop()))
-            else:
-                self.send(happened.CardTapped(at_ms=self.now, position=visitor(self.view)))
+            case Stage.PRACTICE | Stage.GAME:
+                self.send(happened.CardTapped(at_ms=self.now, position=self.visitor(self.view)))
+            case Stage.ABOUT_YOU | Stage.QUESTIONS:
+                self.answer_all()
+                self.go_on()
+            case _:
+                self.go_on()
+
+    def answer_all(self) -> None:
+        """Answer everything on the page."""
+        for item in self.view.page.items if self.view.page else ():
+            if not isinstance(item, Page):
+                self.send(happened.AnswerGiven(at_ms=self.now, item=item.id, value=some_answer(item)))
 
     def send(self, event: WorldEvent) -> None:
         """Hand over one event; only what is accepted reaches the twin, which must then answer the same."""
-        stage, measures = self.session.stage, self.session.measures
+        stage, measures, keeping = self.session.stage, self.session.measures, self.session.keeping
         try:
             commands = self.session.handle(event)
         except UnexpectedEvent:
-            assert (self.session.stage, self.session.measures) == (stage, measures)
+            assert (self.session.stage, self.session.measures, self.session.keeping) == (stage, measures, keeping)
             return
         assert stage is not Stage.OVER
+        assert not (self.view.paused and event.by_visitor)
         assert self.twin.handle(event) == commands
         self.look_at(event, commands)
 
@@ -109,7 +151,9 @@ class AnySitting(RuleBasedStateMachine):
                 assert command.after_ms >= 0
             elif isinstance(command, do.StopTimer):
                 self.running.discard(command.timer)
-            elif isinstance(command, do.OpenBoard) and self.view.bubble:
+            elif isinstance(command, do.ShowBoard):
+                self.found = 0
+            elif isinstance(command, do.OpenBoard) and self.view.bubble and self.view.screen == "board":
                 assert self.view.mark is not None
             self.view.obey([command])
         if isinstance(event, happened.CardTapped):
@@ -128,14 +172,20 @@ class AnySitting(RuleBasedStateMachine):
     def go_on(self) -> None:
         self.send(happened.ContinueTapped(at_ms=self.now))
 
-    @precondition(lambda self: self.session.stage is Stage.GAME and self.view.closed and self.view.held is None)
+    @precondition(lambda self: self.can_flip(*BOARDS))
     @rule(data=st.data())
     def flip(self, data: Any) -> None:
-        flips = self.session.measures.flips
+        flips, up = self.session.measures.flips, len(self.view.up)
         self.send(happened.CardTapped(at_ms=self.now, position=data.draw(st.sampled_from(self.view.closed))))
-        assert self.session.measures.flips == flips + 1
+        assert self.session.measures.flips == flips + (self.session.stage is Stage.GAME)
+        assert len(self.view.up) == up + 1
 
-    @precondition(lambda self: self.session.stage is Stage.GAME and self.view.closed and self.view.held is None)
+    def can_flip(self, *stages: Stage) -> bool:
+        """Whether a card can be flipped in one of these stages."""
+        open_now = bool(self.view.closed) and self.view.held is None and not self.view.paused
+        return self.session.stage in stages and open_now
+
+    @precondition(lambda self: self.can_flip(Stage.GAME))
     @rule(data=st.data())
     def follow_the_mark(self, data: Any) -> None:
         row, column = self.view.mark or (None, None)
@@ -166,11 +216,66 @@ class AnySitting(RuleBasedStateMachine):
         }
         self.send(events[how])
 
-    @precondition(lambda self: self.view.question is not None)
-    @rule(value=st.integers(1, 5))
-    def answer(self, value: int) -> None:
-        assert self.view.question is not None
-        self.send(happened.AnswerGiven(at_ms=self.now, item=self.view.question.item, value=value))
+    @precondition(lambda self: self.session.stage in (Stage.ABOUT_YOU, Stage.QUESTIONS))
+    @rule(data=st.data())
+    def answer(self, data: Any) -> None:
+        assert self.view.page is not None
+        item = data.draw(st.sampled_from(self.view.page.items))
+        value = data.draw(st.sampled_from([None, some_answer(item)]))
+        self.send(happened.AnswerGiven(at_ms=self.now, item=item.id, value=value))
+
+    @precondition(lambda self: not self.view.paused and self.session.stage is not Stage.OVER)
+    @rule()
+    def do_as_one_is_asked(self) -> None:
+        self.do_what_is_asked()
+
+    @precondition(lambda self: self.session.stage is Stage.CONSENT)
+    @rule()
+    def decline(self) -> None:
+        self.send(happened.DeclineTapped(at_ms=self.now))
+
+    @precondition(lambda self: self.session.stage is Stage.AGE)
+    @rule(adult=st.booleans())
+    def say_age(self, *, adult: bool) -> None:
+        self.send(happened.AgeTapped(at_ms=self.now, adult=adult))
+
+    # The experimenter
+
+    @rule()
+    def pause(self) -> None:
+        self.send(happened.PauseAsked(at_ms=self.now))
+
+    @precondition(lambda self: self.view.paused)
+    @rule()
+    def end_the_pause(self) -> None:
+        self.send(happened.PauseEnded(at_ms=self.now))
+        assert not self.view.paused
+
+    @precondition(lambda self: self.view.bubble)
+    @rule()
+    def say_it_again(self) -> None:
+        sentence, speaking = self.view.bubble, self.view.speaking
+        self.send(happened.RepeatAsked(at_ms=self.now))
+        assert self.view.bubble == sentence
+        assert speaking is None or self.view.speaking == speaking
+
+    @precondition(lambda self: self.session.keeping is Keeping.KEPT)
+    @rule(body=st.sampled_from(BodyName))
+    def go_on_after_a_cut(self, body: BodyName) -> None:
+        stage = self.session.stage
+        self.send(happened.SittingResumed(at_ms=self.now, body=body))
+        assert self.session.stage is stage
+        if stage not in (Stage.GAME, Stage.OVER):
+            assert (self.view.paused, self.view.still_there) == (False, False)
+        if stage in (Stage.ABOUT_YOU, Stage.QUESTIONS):
+            assert self.view.page is not None
+            assert (self.view.page.number, self.view.answers) == (1, {})
+
+    @precondition(lambda self: self.session.measures.flips > 6)
+    @rule()
+    def end_the_sitting(self) -> None:
+        self.send(happened.EndAsked(at_ms=self.now, reason="a fire drill"))
+        assert self.session.stage is Stage.OVER
 
     # Nonsense
 
@@ -187,27 +292,46 @@ class AnySitting(RuleBasedStateMachine):
 
     @invariant()
     def the_board_is_not_held_for_ever(self) -> None:
-        if self.session.stage is Stage.GAME and self.view.held is not None:
+        if self.session.stage in BOARDS and self.view.held is not None:
             assert self.running & OPENS[self.view.held]
 
     @invariant()
     def a_finished_game_goes_on(self) -> None:
-        if self.session.stage is Stage.GAME and self.session.measures.pairs * 2 == self.view.rows * self.view.columns:
+        if self.session.stage in BOARDS and len(self.view.found) == self.view.rows * self.view.columns:
             assert Timer.FINISH in self.running
+
+    @invariant()
+    def a_practice_and_thanks_end_by_themselves(self) -> None:
+        assert (Timer.PRACTICE in self.running) is (self.session.stage is Stage.PRACTICE)
+        assert (Timer.THANKS in self.running) is (self.session.stage is Stage.THANKS)
 
     @invariant()
     def somebody_is_waited_for(self) -> None:
         if self.session.stage not in (Stage.ATTRACT, Stage.OVER):
-            assert self.running & {Timer.IDLE, Timer.STILL_THERE}
+            assert bool(self.running & {Timer.IDLE, Timer.STILL_THERE}) is not self.view.paused
             assert self.view.still_there is (Timer.STILL_THERE in self.running)
 
     @invariant()
     def found_pairs_stay_found(self) -> None:
         assert len(self.view.found) >= self.found
         self.found = len(self.view.found)
-        assert self.found == 2 * self.session.measures.pairs
+        if self.session.stage is not Stage.PRACTICE and self.view.screen != "practice":
+            assert self.found == 2 * self.session.measures.pairs
         assert self.view.found <= set(self.view.up)
         assert len(set(self.view.up) - self.view.found) <= 2
+
+    @invariant()
+    def it_is_kept_or_forgotten_once_and_never_both(self) -> None:
+        stage, kept = self.session.stage, self.view.kept
+        expected = {Keeping.UNDECIDED: [], Keeping.KEPT: [do.KeepSitting]}
+        assert [type(said) for said in kept] == expected.get(self.session.keeping, [do.ForgetSitting])
+        assert (not kept) is (stage is Stage.ATTRACT or stage in BEFORE_DECIDING) or self.view.forgotten is not None
+
+    @invariant()
+    def nobody_whose_sitting_is_forgotten_is_asked_anything(self) -> None:
+        if self.view.forgotten is not None:
+            asking = {Stage.CONSENT, Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF}
+            assert self.session.stage not in asking
 
     @invariant()
     def a_mark_goes_with_its_sentence(self) -> None:
@@ -218,6 +342,7 @@ class AnySitting(RuleBasedStateMachine):
     def what_is_over_is_over(self) -> None:
         over = self.session.stage is Stage.OVER
         assert over is (self.view.ended is not None)
+        assert not (over and (self.view.paused or self.view.still_there or self.view.speaking or self.view.bubble))
         if over:
             assert not self.running
             assert isinstance(self.view.ended, Status)

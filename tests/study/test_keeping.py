@@ -109,13 +109,10 @@ def test_whoever_decides_against_it_plays_all_the_same_and_is_forgotten(
     assert driver.view.kept == [do.ForgetSitting(why)]
     assert driver.session.keeping is Keeping.FORGOTTEN
     assert driver.view.ended is Status.COMPLETED
-    later = [event.stage for step in driver.steps[asked - 1 :] for event in notes(step.commands) if _entered(event)]
+    concluded = (event for step in driver.steps[asked - 1 :] for event in notes(step.commands))
+    later = [event.stage for event in concluded if isinstance(event, happened.StageEntered)]
     assert later == [Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.RESULT, Stage.THANKS, Stage.OVER]
     assert driver.session.measures.pairs == 3
-
-
-def _entered(event: happened.Event) -> bool:
-    return isinstance(event, happened.StageEntered)
 
 
 def test_somebody_too_young_is_not_asked_for_consent_afterwards() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -170,7 +171,7 @@ def test_whatever_is_answered_the_last_word_counts(given_ones: list[tuple[str, i
         mine, when = values[answered.item], times[answered.item]
         assert answered.value == (mine[-1] if mine else None)
         assert (answered.first_ms, answered.last_ms) == ((when[0], when[-1]) if when else (None, None))
-        assert answered.changes == sum(one != other for one, other in zip(mine, mine[1:], strict=False))
+        assert answered.changes == sum(one != other for one, other in pairwise(mine))
 
 
 @pytest.mark.parametrize("order", Order)

@@ -27,10 +27,12 @@ SOCIAL = questionnaire(
 )
 """The study's four scales: four items each, on 1 to 5, two of the items reversed."""
 
+NAMES = tuple(item.id for item in SOCIAL.items)
+
 Given = dict[str, int | None]
 
 
-def scored(given_ones: Given, items: tuple[str, ...] = tuple(item.id for item in SOCIAL.items)) -> dict[str, Score]:
+def scored(given_ones: Given, items: tuple[str, ...] = NAMES) -> dict[str, Score]:
     """The scales of these answers, by name."""
     told = [Answered("social", item, given_ones.get(item)) for item in items]
     return {score.scale: score for score in scores(told, [SOCIAL])}
@@ -98,7 +100,7 @@ def test_the_same_item_of_another_questionnaire_is_not_counted() -> None:
     assert [score.total for score in scores(told, [twin, other])] == [1, 5]
 
 
-@given(st.dictionaries(st.sampled_from([item.id for item in SOCIAL.items]), st.none() | st.integers(1, 5)))
+@given(st.dictionaries(st.sampled_from(NAMES), st.none() | st.integers(1, 5)))
 def test_sums_and_means_keep_to_their_ends_and_agree(given_ones: Given) -> None:
     for scale, score in scored(given_ones).items():
         there = [item for item in given_ones if item.startswith(scale) and given_ones[item] is not None]
@@ -109,7 +111,7 @@ def test_sums_and_means_keep_to_their_ends_and_agree(given_ones: Given) -> None:
         assert score.total is None or (4 <= score.total <= 20 and score.total == 4 * (score.mean or 0))
 
 
-@given(st.fixed_dictionaries({item.id: st.integers(1, 5) for item in SOCIAL.items}))
+@given(st.fixed_dictionaries(dict.fromkeys(NAMES, st.integers(1, 5))))
 def test_turning_every_answer_round_turns_every_sum_round(given_ones: Given) -> None:
     turned: Given = {item: 6 - value for item, value in given_ones.items() if value is not None}
     for scale, score in scored(given_ones).items():
@@ -117,9 +119,9 @@ def test_turning_every_answer_round_turns_every_sum_round(given_ones: Given) -> 
         assert scored(turned)[scale].total == 24 - score.total
 
 
-@given(st.fixed_dictionaries({item.id: st.integers(1, 5) for item in SOCIAL.items}), st.randoms())
+@given(st.fixed_dictionaries(dict.fromkeys(NAMES, st.integers(1, 5))), st.randoms())
 def test_the_order_in_which_items_were_asked_does_not_matter(given_ones: Given, chance: Random) -> None:
-    names = [item.id for item in SOCIAL.items]
+    names = list(NAMES)
     chance.shuffle(names)
     assert scored(given_ones, tuple(names)) == scored(given_ones)
 

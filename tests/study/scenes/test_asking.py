@@ -248,7 +248,7 @@ def test_a_page_has_as_many_items_as_fit_and_a_text_stands_alone(
 
 def shuffled(seed: int) -> list[str]:
     """The order in which nine items come, with a text in their middle."""
-    items = [*(likert(f"a{n}") for n in range(4)), PAGE, *(likert(f"b{n}") for n in range(4))]
+    items: list[Item] = [*(likert(f"a{n}") for n in range(4)), PAGE, *(likert(f"b{n}") for n in range(4))]
     driver = asking(*items, seed=seed, order=Order.SHUFFLED)
     driver.to(Stage.OVER)
     return [name for event in driver.noted(happened.ItemsShown) for name in event.items]

@@ -20,9 +20,9 @@ TOLD = (happened.BoardDealt, happened.AssistanceDecided, happened.HintGiven, hap
 HELPFUL = always(Action.SUG_CARD)
 
 
-def practising(**practice: int) -> Driver:
+def practising(longest: int = 300_000) -> Driver:
     """A practice that has just begun, in a study whose assistant helps before every flip."""
-    return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(**practice)))
+    return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(longest=longest)))
 
 
 def within(driver: Driver, stage: Stage) -> list[Event]:
