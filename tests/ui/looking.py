@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 
 from PySide6.QtCore import QPointF, QRect, QRectF, QSizeF
 from PySide6.QtGui import QColor, QImage
-from PySide6.QtQml import QQmlProperty, qmlContext
+from PySide6.QtQml import QQmlComponent, QQmlEngine, QQmlProperty, qmlContext
 from PySide6.QtQuick import QQuickItem
 
-from kiosk.ui.app import App
+from kiosk.ui.app import QML, App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck, lay_out
 
 HANDLERS = {"QQuickTapHandler", "QQuickDragHandler"}
@@ -90,6 +90,36 @@ def background(picture: QImage, where: QRect) -> QColor:
             pixel = picture.pixel(x, y)
             counted[pixel] = counted.get(pixel, 0) + 1
     return QColor(max(counted, key=lambda pixel: counted[pixel]))
+
+
+def colours(palette: str) -> dict[str, QColor]:
+    """What the theme says in this palette."""
+    engine = QQmlEngine()
+    component = QQmlComponent(engine)
+    high = "true" if palette == "high" else "false"
+    made_so = f"property var theme: Theme; Component.onCompleted: Theme.highContrast = {high}"
+    source = f'import QtQuick; import "."; QtObject {{ {made_so} }}'
+    component.setData(source.encode(), QML.as_uri())
+    made = component.create()
+    assert made is not None, component.errorString()
+    theme = made.property("theme")
+    names = (
+        "paper",
+        "white",
+        "sand",
+        "edge",
+        "ink",
+        "faintInk",
+        "sea",
+        "lightSea",
+        "amber",
+        "deepAmber",
+        "done",
+        "held",
+    )
+    found = {name: theme.property(name) for name in names}
+    made.deleteLater()
+    return found
 
 
 class Tour(Rehearsal):

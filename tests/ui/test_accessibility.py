@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QColor, QImage
-from PySide6.QtQml import QQmlComponent, QQmlEngine
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -15,11 +14,12 @@ from pytestqt.qtbot import QtBot
 from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.study.events import Status
-from kiosk.ui.app import QML, App
+from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck, find, lay_out
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import (
     background,
+    colours,
     contrast,
     is_a,
     is_control,
@@ -142,36 +142,6 @@ def test_high_contrast_knows_no_pale_tint_and_nothing_that_steps_back() -> None:
     for name in ("ink", "faintInk", "sea", "lightSea", "deepAmber", "edge"):
         assert contrast(theme[name], theme["paper"]) >= LEAST_CONTRAST["high"], name
     assert theme["done"] == theme["held"] == 1
-
-
-def colours(palette: str) -> dict[str, QColor]:
-    """What the theme says in this palette."""
-    engine = QQmlEngine()
-    component = QQmlComponent(engine)
-    high = "true" if palette == "high" else "false"
-    made_so = f"property var theme: Theme; Component.onCompleted: Theme.highContrast = {high}"
-    source = f'import QtQuick; import "."; QtObject {{ {made_so} }}'
-    component.setData(source.encode(), QML.as_uri())
-    made = component.create()
-    assert made is not None, component.errorString()
-    theme = made.property("theme")
-    names = (
-        "paper",
-        "white",
-        "sand",
-        "edge",
-        "ink",
-        "faintInk",
-        "sea",
-        "lightSea",
-        "amber",
-        "deepAmber",
-        "done",
-        "held",
-    )
-    found = {name: theme.property(name) for name in names}
-    made.deleteLater()
-    return found
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.0])

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
-from PySide6.QtGui import QWindow
+from PySide6.QtGui import QGuiApplication, QWindow
 
 from kiosk.ui.booth.full_screen import FullScreen
 
@@ -19,6 +19,8 @@ HIDDEN_LOOKS = 2
 """After so many looks at which the window was on no screen it is shown anew."""
 IDLE_LOOKS = 2
 """The same for a window that does not get or keep the keyboard, however often it asks; each time twice as many."""
+GRABBING = {"xcb", "windows"}
+"""Where a window can take every key and click; elsewhere Qt would only complain."""
 
 
 class Desktop(Protocol):
@@ -96,8 +98,7 @@ class Hold(QObject):
         self._soon.stop()
         for changed in self._changes:
             changed.disconnect(self._look_soon)
-        self._window.setKeyboardGrabEnabled(False)
-        self._window.setMouseGrabEnabled(False)
+        self._grab(grab=False)
         if self._desktop is not None:
             self._desktop.close()
 
@@ -125,8 +126,14 @@ class Hold(QObject):
             if self._desktop is not None:
                 self._desktop.activate()
         # While a window is hidden, and while another program has them, they cannot be taken; so ask again.
-        keyboard, mouse = self._window.setKeyboardGrabEnabled(True), self._window.setMouseGrabEnabled(True)
-        self._has_input = keyboard and mouse
+        self._has_input = self._grab(grab=True)
+
+    def _grab(self, *, grab: bool) -> bool:
+        """Take every key and click before the desktop does, or stop; whether that was done."""
+        if QGuiApplication.platformName() not in GRABBING:
+            return False
+        keyboard, mouse = self._window.setKeyboardGrabEnabled(grab), self._window.setMouseGrabEnabled(grab)
+        return keyboard and mouse
 
     def _count(self) -> None:
         """For how many looks the window has been hidden, and without the keyboard or covered."""

@@ -94,24 +94,33 @@ class XServer:
 class XWayland(XServer):
     """An X server whose windows a Wayland compositor stacks and activates as it likes.
 
-    What can be done is to come as a new window; so a window that lies over ours is told of once, and not lowered.
+    What can be done is to come as a new window; so one that lies over ours is not lowered, but told of until then.
     """
 
     def __init__(self, window: int) -> None:
         """As with any X server."""
         super().__init__(window)
-        self._told: set[int] = set()
+        self._below: set[int] = set()
+        self._covered = False
 
     def stick(self) -> None:
-        """The window is new: whatever was over it is so no more."""
-        self._told = {window.id for window in self._over()}
+        """The window is new: whatever was over it is so no more, wherever the server has it."""
+        self._below = {window.id for window in self._over()}
+        self._covered = False
 
     def activate(self) -> None:
         """The compositor would not hear of it, and we would only seem to be active."""
 
     def clear(self) -> bool:
-        """Whether a window has come over ours since it was new."""
-        return any(window.id not in self._told for window in self._over())
+        """Whether a window has come over ours since it was new, or was made the active one."""
+        came_over = any(window.id not in self._below for window in self._over())
+        self._covered = self._covered or came_over or self._active() not in {X.NONE, self._window.id}
+        return self._covered
+
+    def _active(self) -> int:
+        """The number of the window that the compositor has made the active one."""
+        active = self._root.get_full_property(self._display.intern_atom("_NET_ACTIVE_WINDOW"), Xatom.WINDOW)
+        return int(active.value[0]) if active is not None and active.value else X.NONE
 
 
 def keep_lit() -> Callable[[], None]:

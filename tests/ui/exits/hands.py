@@ -27,6 +27,7 @@ GAPS = ((0, 7), (2, 9), (8, 15), (16, 23))
 MODIFIERS = {"ctrl": "Control_L", "alt": "Alt_L", "shift": "Shift_L", "super": "Super_L"}
 BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5, "back": 8, "forward": 9}
 STEPS = 12
+SETTLE_S = 0.5
 
 for group in ("xf86", "xkb"):
     XK.load_keysym_group(group)
@@ -64,7 +65,7 @@ class Hands:
         self.root = self.display.screen().root
         self.window = self.display.create_resource_object("window", kiosk.begun["window"])
         self.made: list[Window] = []
-        self._samples = self.samples()
+        self._samples = self._settled()
 
     # Input
 
@@ -168,6 +169,15 @@ class Hands:
             )
         except (XError, OSError):
             return Standing(self.kiosk.lives, *[False] * 4)
+
+    def _settled(self) -> list[int]:
+        """The colours once nothing changes any more."""
+        before = self.samples()
+        sleep(SETTLE_S)
+        while (now := self.samples()) != before:
+            before = now
+            sleep(SETTLE_S)
+        return now
 
     @property
     def _is_drawn_by_another(self) -> bool:
