@@ -15,9 +15,7 @@ from typing import Any
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.wiring import make_plan
-from kiosk.settings import Settings
-from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.recorder import Recorder
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.events import BodyName
@@ -26,6 +24,7 @@ from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.window import Display, Mode, Pace
 from tests.robot.furhat_fake import FurhatFake
 from tests.robot.furhat_fake import Mode as Fault
+from tests.ui.headless import headless, short
 
 SITTINGS = 5
 LOSSES = 20
@@ -37,9 +36,7 @@ FAR_TOO_LONG_MS = 500
 def kiosk(data: Path, pace: Pace, fake: FurhatFake) -> Iterator[App]:
     """A kiosk with this robot, which is tried again soon after a loss."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "retry_first": 5, "retry_longest": 5}
-    plan = make_plan(Settings.model_validate({"robot": robot}))
-    provenance = Provenance(plan, 1, "avatar", "a bench", simulated=True)
-    with Recorder(data) as recorder, App(plan, Mode(Display.NOWHERE, pace), recorder, lambda: provenance) as app:
+    with headless(short(robot=robot), data, mode=Mode(Display.NOWHERE, pace)) as app:
         yield app
 
 
@@ -117,7 +114,7 @@ def test_from_a_failure_to_the_avatars_voice(qtbot: QtBot, tmp_path: Path) -> No
             )
             fake.mode = Fault.RESET
             lost.clear()
-            app.screens.attract.start()
+            app.screens.attract.start("en")
             qtbot.waitUntil(lambda: bool(lost and spoke and spoke[-1] > lost[-1]), timeout=10_000)
             taken.append(spoke[-1] - lost[-1])
             app.conductor.close()

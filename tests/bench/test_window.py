@@ -15,13 +15,10 @@ from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPoint, Qt
 from PySide6.QtQuick import QQuickView, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.cli.wiring import make_plan
 from kiosk.settings import Settings
-from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import find, lay_out, middle
-from kiosk.ui.window import Display, Mode, Pace
+from kiosk.ui.rehearsing.hand import find, lay_out, middle
 from tests.bench.percentiles import tell_percentiles
+from tests.ui.headless import headless
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}
 
@@ -42,14 +39,17 @@ KIOSK = """
     import sys
     from pathlib import Path
 
-    from kiosk.cli.wiring import code_commit, make_plan, read_settings
-    from kiosk.store.recorder import Provenance, Recorder
-    from kiosk.ui.app import App, Display, Mode
+    from kiosk.cli.wiring import code_commit, read_settings
+    from kiosk.store.recorder import Recorder
+    from kiosk.study.declared.checked.whole import read_study
+    from kiosk.ui.app import App
+    from kiosk.ui.desk import Desk, Origin
+    from kiosk.ui.window import Display, Mode
 
-    plan = make_plan(read_settings(None))
-    provenance = Provenance(plan, 1, "avatar", code_commit(), simulated=True)
+    study = read_study(read_settings(None))
+    origin = Origin(code_commit(), simulated=True, seed=lambda: 1)
     with Recorder(Path(sys.argv[1])) as recorder:
-        with App(plan, Mode(Display.NOWHERE), recorder, lambda: provenance) as app:
+        with App(Mode(Display.NOWHERE), recorder, Desk(study, recorder, origin)) as app:
             app.window.frameSwapped.connect(app.quit)
             app.window.update()
             app.run()
@@ -100,11 +100,8 @@ def release(window: QQuickWindow) -> None:
 @pytest.mark.benchmark(group="tap to first changed frame")
 def test_tap_to_first_changed_frame(benchmark: Any, tmp_path: Path) -> None:
     """From the press on a card until the card is drawn smaller, on the full board at 1080 lines."""
-    plan = make_plan(Settings())
-    provenance = Provenance(plan, 1, "avatar", "a bench", simulated=True)
-    mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
-    with Recorder(tmp_path) as recorder, App(plan, mode, recorder, lambda: provenance) as app:
-        app.screens.board.deal(4, 6, 12)
+    with headless(Settings(), tmp_path) as app:
+        app.screens.board.deal(4, 6, 12, "animals")
         app.screens.kiosk.show("game")
         lay_out(app.window)
         card = find(app.window.contentItem(), "card-9")

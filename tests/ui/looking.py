@@ -9,8 +9,10 @@ from PySide6.QtGui import QColor, QImage
 from PySide6.QtQml import QQmlComponent, QQmlEngine, QQmlProperty, qmlContext
 from PySide6.QtQuick import QQuickItem
 
-from kiosk.ui.app import QML, App
-from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck, lay_out
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.hand import Stuck, lay_out
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.window import QML
 
 HANDLERS = {"QQuickTapHandler", "QQuickDragHandler"}
 LINEAR_FROM = 0.04045

@@ -15,7 +15,8 @@ from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.study.events import Status
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import Rehearsal, Stuck, find, lay_out
+from kiosk.ui.rehearsing.hand import Stuck, find, lay_out
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import (
     background,

@@ -20,7 +20,7 @@ from kiosk.cli.case import languages
 from kiosk.keeping.notice import SocketListener
 from kiosk.settings import ASSETS
 from kiosk.ui.meanwhile import _window
-from kiosk.ui.rehearsing.rehearsal import lay_out
+from kiosk.ui.rehearsing.hand import lay_out
 
 LONG = 20.0
 """Seconds; nothing here takes as long unless it fails."""

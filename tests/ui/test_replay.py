@@ -18,7 +18,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import events as happened
 from kiosk.study.after.replay import Step, first_difference, replayed
 from kiosk.study.commands import TurnUp
-from kiosk.ui.rehearsing.rehearsal import lay_out
+from kiosk.ui.rehearsing.hand import lay_out
 from kiosk.ui.replaying.replay import Replay
 from kiosk.ui.window import Display, Mode, Pace
 from tests.samples import whole

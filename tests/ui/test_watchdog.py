@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.keeping.notice import SocketListener
 from kiosk.ui.screens.plain import KioskScreen
 from kiosk.ui.watchdog import watched
+from tests.samples import ENGLISH
 from tests.ui.conftest import Booth
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
@@ -55,7 +56,7 @@ def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
         told.extend(heard(listener))
         return told.count(("WATCHDOG", "1")) >= least
 
-    with watched(window, KioskScreen(), listener.environment | EVERY_40_MS):
+    with watched(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
         assert heard(listener) == []
         window.show()
         qtbot.waitUntil(lambda: beats(3))
@@ -64,7 +65,7 @@ def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
 
 
 def test_a_loop_that_does_not_turn_is_silent(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
-    with watched(window, KioskScreen(), listener.environment | EVERY_40_MS):
+    with watched(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
         window.show()
         qtbot.waitUntil(lambda: ("WATCHDOG", "1") in heard(listener))
         heard(listener)
@@ -72,7 +73,7 @@ def test_a_loop_that_does_not_turn_is_silent(qtbot: QtBot, window: QQuickWindow,
 
 
 def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
-    kiosk = KioskScreen()
+    kiosk = KioskScreen(ENGLISH)
     with watched(window, kiosk, listener.environment):
         kiosk.show("game")
         assert heard(listener) == [("STATUS", "game")]
@@ -82,7 +83,7 @@ def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, li
 
 
 def test_without_a_wish_for_beats_there_are_none(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
-    with watched(window, KioskScreen(), listener.environment):
+    with watched(window, KioskScreen(ENGLISH), listener.environment):
         window.show()
         qtbot.waitUntil(lambda: ("READY", "1") in heard(listener))
         qtbot.wait(50)

@@ -18,11 +18,12 @@ from PySide6.QtTest import QTest
 from Xlib import X
 from Xlib.display import Display
 
-from kiosk.cli.wiring import log_into, make_plan
+from kiosk.cli.wiring import log_into
 from kiosk.settings import Settings
-from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.app import App, Mode
-from kiosk.ui.rehearsing.rehearsal import find, lay_out, middle
+from kiosk.ui.app import App
+from kiosk.ui.rehearsing.hand import find, lay_out, middle
+from kiosk.ui.window import Mode
+from tests.ui.headless import headless
 
 CARDS = 24
 STEPS = 8
@@ -38,7 +39,7 @@ def tell(**what: object) -> None:
 
 def show_board(app: App) -> None:
     """Show a closed board that takes taps, and tell where its cards are."""
-    app.screens.board.deal(4, 6, 12)
+    app.screens.board.deal(4, 6, 12, "animals")
     app.screens.kiosk.show("game")
     app.screens.board.tapped.connect(lambda position: tell(tapped=app.screens.board.location(position)))
     lay_out(app.window)
@@ -107,9 +108,8 @@ TOUCHES: dict[str, Callable[[Fingers], None]] = {
 
 def main(data: Path) -> None:
     """Open the kiosk until its standard input ends."""
-    plan = make_plan(Settings.model_validate({"voice": {"enabled": False, "sounds": False}}))
-    provenance = Provenance(plan, 1, "avatar", "a test", simulated=True)
-    with Recorder(data) as recorder, App(plan, Mode(), recorder, lambda: provenance) as app:
+    settings = Settings.model_validate({"voice": {"enabled": False, "sounds": False}})
+    with headless(settings, data, mode=Mode()) as app:
         log_into(data)
         fingers = Fingers(app)
 
