@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.quiet import WHY
 from kiosk.robot.robot_body import RobotBody
@@ -44,12 +46,12 @@ def test_the_avatar_helps_from_the_next_sitting_on_when_the_experimenter_prefers
     place = Place()
     place.find_robot()
     place.bodies.begin("en")
-    place.bodies.prefer(BodyName.AVATAR)
-    assert place.helper is BodyName.FURHAT
-    place.bodies.rest()
-    assert place.helper is BodyName.AVATAR
-    place.bodies.prefer(BodyName.FURHAT)
-    assert place.helper is BodyName.FURHAT
+    helped = []
+    prefer = partial(partial, place.bodies.prefer)
+    for do in (prefer(BodyName.AVATAR), place.bodies.rest, prefer(BodyName.FURHAT)):
+        do()
+        helped.append(place.helper)
+    assert helped == [BodyName.FURHAT, BodyName.AVATAR, BodyName.FURHAT]
     place.bodies.close()
 
 

@@ -30,7 +30,7 @@ def test_two_booths_with_the_same_pin_do_not_keep_the_same_line() -> None:
     assert "2580" not in LINE
 
 
-@pytest.mark.parametrize("pin", ["", "123", "1234567890123", "12a4", "１２３４", "12 34", "1234\n"])
+@pytest.mark.parametrize("pin", ["", "123", "1234567890123", "12a4", "\uff11\uff12\uff13\uff14", "12 34", "1234\n"])
 def test_a_pin_is_some_digits(pin: str) -> None:
     with pytest.raises(BadInput, match="4 to 12 digits"):
         kept(pin, SALT)
