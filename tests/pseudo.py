@@ -60,6 +60,12 @@ def text(source: str) -> str:
     return FluentSerializer().serialize(resource)
 
 
+def sentence(english: str) -> str:
+    """One text that stands outside of the catalogues, in the pseudo-language."""
+    more = english[: math.ceil(LONGER * len(english))].rstrip()
+    return f"{START}{english} {more}{END}".translate(_ACCENTED)
+
+
 def write(languages: Path, source: Path = ASSETS / "sentences" / "en") -> Path:
     """Write the pseudo-language's folder among other languages' folders; returns it."""
     folder = languages / LANGUAGE

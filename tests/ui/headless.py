@@ -17,6 +17,16 @@ from tests.samples import SHORT
 
 VIRTUAL = Mode(Display.NOWHERE, Pace.VIRTUAL)
 
+SMALL = Settings.model_validate(
+    {
+        "game": {"rows": 2, "columns": 3},
+        "practice": {"rows": 2, "columns": 2},
+        "questionnaires": ["gallery"],
+        "consent": {"contact": "study@university.test"},
+    }
+)
+"""Every stage and every kind of item, on small boards."""
+
 
 def short(**sections: object) -> Settings:
     """A study without anything to be decided beforehand; ``sections`` are those of a study file."""

@@ -11,7 +11,6 @@ import pytest
 from PySide6.QtCore import QAbstractListModel, QObject
 from PySide6.QtQuick import QQuickItem
 
-from kiosk.settings import Settings
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
 from kiosk.study.events import AnswerGiven, Stage, StageEntered, WorldEvent
@@ -20,22 +19,16 @@ from kiosk.ui.rehearsing.hand import lay_out
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.rehearsing.visitor import Character, Manner
 from tests.ui.conftest import MakeBooth
-
-SMALL = Settings.model_validate(
-    {
-        "game": {"rows": 2, "columns": 3},
-        "practice": {"rows": 2, "columns": 2},
-        "questionnaires": ["gallery"],
-        "consent": {"contact": "study@university.test"},
-    }
-)
-"""Every stage and every kind of item, on small boards."""
+from tests.ui.headless import SMALL
 
 KEPT_BY_AN_ITEM = (
     *("visible", "enabled", "opacity", "focus", "text", "checked", "value", "contentX", "contentY", "cursorPosition"),
     *("selectedText", "currentIndex", "source", "capitals", "byKeyboard", "position"),
 )
 """Whatever of an item a visitor could leave something in."""
+
+OF_EVERY_OBJECT = QObject().metaObject().propertyCount()
+"""Properties that have nothing to do with screens."""
 
 PLACE = ("x", "y", "width", "height")
 """The same of an item that is seen; one that is not is laid out anew before it is."""
@@ -48,8 +41,9 @@ def of_screens(app: App) -> dict[str, object]:
     found: dict[str, object] = {}
     for name, screen in app.screens.by_name.items():
         about = screen.metaObject()
-        for index in range(QObject.staticMetaObject.propertyCount(), about.propertyCount()):
-            found[f"{name}.{about.property(index).name()}"] = about.property(index).read(screen)
+        for index in range(OF_EVERY_OBJECT, about.propertyCount()):
+            known = str(about.property(index).name())
+            found[f"{name}.{known}"] = screen.property(known)
         if isinstance(screen, QAbstractListModel):
             found[f"{name}.rows"] = screen.rowCount()
     return found

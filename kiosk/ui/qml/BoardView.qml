@@ -16,8 +16,9 @@ FocusScope {
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
     readonly property real footer: 64 * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)
-    readonly property real cell: Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
-                                          (height - header - numbers - footer) / Math.max(1, board.rows))
+    // A whole number, or the last column might not fit into the sum of all by a rounding error.
+    readonly property real cell: Math.floor(Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
+                                                     (height - header - numbers - footer) / Math.max(1, board.rows)))
 
     Text {
         anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: Theme.gap }

@@ -11,6 +11,9 @@ Item {
     property alias spacing: column.spacing
     default property alias content: column.data
 
+    // What is to stay in view while things around it find their places.
+    property Item wanted: null
+
     readonly property bool long: column.height > room + 1
     readonly property real step: 0.8 * flick.height
 
@@ -20,19 +23,27 @@ Item {
     onHeightChanged: flick.returnToBounds()
 
     function scroll(by: real) {
+        wanted = null
         flick.contentY = Math.max(0, Math.min(flick.contentHeight - flick.height, flick.contentY + by))
     }
     // The bar does not follow by itself once there is nothing to scroll.
     function rewind() {
+        wanted = null
         flick.contentY = 0
         bar.position = 0
     }
     function reveal(item: Item) {
-        const y = item.mapToItem(column, 0, 0).y
+        wanted = item
+        bring()
+    }
+    function bring() {
+        if (!wanted)
+            return
+        const y = wanted.mapToItem(column, 0, 0).y
         if (y < flick.contentY)
             flick.contentY = y
-        else if (y + item.height > flick.contentY + flick.height)
-            flick.contentY = Math.max(0, Math.min(y, y + item.height - flick.height))
+        else if (y + wanted.height > flick.contentY + flick.height)
+            flick.contentY = Math.max(0, Math.min(y, y + wanted.height - flick.height))
     }
     // For the keys of a view: those that scroll are used up, if there is anything to scroll.
     function turn(event: var) {
@@ -59,6 +70,9 @@ Item {
         flickableDirection: Flickable.VerticalFlick
         // Nothing is cut off that fits: rings around buttons reach a little beyond them.
         clip: pane.long
+        onHeightChanged: pane.bring()
+        onContentHeightChanged: pane.bring()
+        onMovementStarted: pane.wanted = null
         Column {
             id: column
             width: flick.width - (pane.long ? bar.width + Theme.gap : 0)

@@ -27,12 +27,14 @@ Item {
     readonly property real beside: (width - span) / 2 - Theme.gap
     readonly property bool below: alone || beside < 210 * Theme.unit * Theme.textSize
 
-    height: row.height + (below ? Math.max(lowest.height, highest.height) + 0.5 * Theme.gap : 0)
+    readonly property real words: Math.max(lowest.height, highest.height)
+
+    height: below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
 
     Text {
         id: lowest
         x: scale.below ? row.x : 0
-        y: scale.below ? row.height + 0.5 * Theme.gap : (row.height - height) / 2
+        y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
         width: scale.below ? scale.span / 2 - Theme.gap : scale.beside
         text: scale.leftEnd
         horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
@@ -43,7 +45,7 @@ Item {
     Text {
         id: highest
         x: scale.below ? row.x + row.width - width : scale.width - width
-        y: lowest.y + (scale.below ? 0 : (lowest.height - height) / 2)
+        y: scale.below ? lowest.y : (scale.height - height) / 2
         width: lowest.width
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
@@ -54,6 +56,7 @@ Item {
     Row {
         id: row
         anchors.horizontalCenter: parent.horizontalCenter
+        y: scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons

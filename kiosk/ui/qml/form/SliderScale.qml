@@ -22,11 +22,13 @@ Item {
     readonly property bool below: alone || width < 4 * beside
     readonly property real thickness: (alone ? 68 : 56) * Theme.unit
 
-    height: slider.height + (below ? Math.max(lower.height, upper.height) + 0.3 * Theme.gap : 0)
+    readonly property real words: Math.max(lower.height, upper.height)
+
+    height: below ? slider.height + words + 0.3 * Theme.gap : Math.max(slider.height, words)
 
     Text {
         id: lower
-        y: scale.below ? slider.height + 0.3 * Theme.gap : (slider.height - height) / 2
+        y: scale.below ? slider.height + 0.3 * Theme.gap : (scale.height - height) / 2
         x: scale.below ? slider.x : 0
         width: scale.below ? slider.width / 2 - Theme.gap : scale.beside
         text: scale.leftEnd
@@ -37,7 +39,7 @@ Item {
     }
     Text {
         id: upper
-        y: lower.y
+        y: scale.below ? lower.y : (scale.height - height) / 2
         x: scale.below ? slider.x + slider.width - width : scale.width - width
         width: lower.width
         text: scale.rightEnd
@@ -55,6 +57,7 @@ Item {
         }
         objectName: `slider-${scale.item}`
         anchors.horizontalCenter: parent.horizontalCenter
+        y: scale.below ? 0 : (scale.height - height) / 2
         width: scale.below ? Math.min(scale.width, 900 * Theme.unit) : scale.width - 2 * scale.beside - 2 * Theme.gap
         height: scale.thickness
         padding: 0

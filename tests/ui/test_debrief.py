@@ -1,0 +1,81 @@
+"""The code to withdraw with: large, in words, and as a QR code that says what it should and can be photographed."""
+
+from __future__ import annotations
+
+from urllib.parse import unquote
+
+import pytest
+import segno
+from PySide6.QtCore import QPoint, QRectF
+from PySide6.QtGui import QImage
+from pytestqt.qtbot import QtBot
+
+from kiosk.study.declared.information import Page
+from kiosk.ui.screens.reading import QUIET_MODULES
+from tests.ui.conftest import Booth
+
+PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
+MAIL, CODE = "study@university.test", "7K3M9QX"
+
+
+@pytest.fixture
+def debriefed(booth: Booth) -> Booth:
+    """A booth at the debrief."""
+    booth.app.screens.debrief.show(PAGE)
+    booth.app.screens.debrief.give_contact(MAIL)
+    booth.app.screens.debrief.give_code(CODE)
+    booth.app.screens.kiosk.show("debrief")
+    booth.settle()
+    return booth
+
+
+def drawn(booth: Booth) -> list[list[bool]]:
+    """The squares of the QR code as they are on the screen, its white frame included; True for a dark one."""
+    item = booth.item("qr")
+    squares = int(str(booth.app.screens.debrief.property("squares")))
+    image: QImage = booth.app.window.grabWindow()
+    place: QRectF = item.mapRectToScene(QRectF(0, 0, item.width(), item.height()))
+    size = place.width() / squares
+
+    def dark(row: int, column: int) -> bool:
+        at = QPoint(round(place.x() + (column + 0.5) * size), round(place.y() + (row + 0.5) * size))
+        return image.pixelColor(at).lightness() < 128
+
+    return [[dark(row, column) for column in range(squares)] for row in range(squares)]
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (1920, 1080), (1080, 1920)])
+def test_the_qr_code_on_the_screen_is_the_letter_with_its_white_frame(
+    debriefed: Booth, qtbot: QtBot, width: int, height: int
+) -> None:
+    window = debriefed.app.window
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.contentItem().width() == width)
+    wanted = segno.make(debriefed.app.screens.debrief.payload, micro=False)
+    matrix = [[bool(square) for square in row] for row in wanted.matrix_iter(border=QUIET_MODULES)]
+    qtbot.waitUntil(lambda: any(map(any, drawn(debriefed))))
+    assert drawn(debriefed) == matrix
+
+
+def test_it_is_a_letter_to_the_contact_that_names_the_code(debriefed: Booth) -> None:
+    payload = debriefed.app.screens.debrief.payload
+    assert payload.startswith(f"mailto:{MAIL}?subject=")
+    assert CODE in unquote(payload)
+    assert " " not in payload
+
+
+@pytest.mark.parametrize("contact", ["", "Room 12"])
+def test_without_a_mail_address_it_says_what_to_tell(debriefed: Booth, contact: str) -> None:
+    debriefed.app.screens.debrief.give_contact(contact)
+    assert debriefed.app.screens.debrief.payload == f"Please delete my data: {CODE}\n{contact}".rstrip()
+
+
+def test_the_code_is_the_largest_text_of_the_page(debriefed: Booth) -> None:
+    assert debriefed.item("code").property("text") == CODE
+    assert debriefed.item("code").property("font").pixelSize() >= 60
+
+
+def test_without_a_code_nothing_is_said_about_withdrawing(debriefed: Booth) -> None:
+    debriefed.app.screens.debrief.give_code("")
+    assert not debriefed.sees("qr")
+    assert not debriefed.sees("code")

@@ -1,0 +1,116 @@
+"""Consent and age: nothing is decided for the visitor, and both answers are as easy as each other."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtQuick import QQuickItem
+
+from kiosk.study.declared.information import ConsentPage, Purpose
+from kiosk.ui.rehearsing.hand import Hand
+from tests.ui.conftest import Booth
+
+PAGE = ConsentPage(
+    title="Before you begin",
+    paragraphs=("We record your moves.",),
+    purposes=(
+        Purpose(id="take_part", text="I take part."),
+        Purpose(id="store", text="You may store it."),
+        Purpose(id="share", text="You may share it.", required=False),
+    ),
+)
+REQUIRED = frozenset({"take_part", "store"})
+
+Done = list[object]
+
+
+@pytest.fixture
+def done(booth: Booth) -> Done:
+    """What is done on the consent page, which is shown."""
+    did: Done = []
+    consent = booth.app.screens.consent
+    consent.ticked.connect(lambda purpose, ticked: did.append((purpose, ticked)))
+    consent.agreed.connect(lambda: did.append("agreed"))
+    consent.declined.connect(lambda: did.append("declined"))
+    consent.show(PAGE)
+    booth.app.screens.kiosk.show("consent")
+    booth.settle()
+    return did
+
+
+def says(item: QQuickItem, text: str) -> bool:
+    """Whether a text is to be seen in an item."""
+    return item.isVisible() and (item.property("text") == text or any(says(child, text) for child in item.childItems()))
+
+
+@pytest.mark.usefixtures("done")
+def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth) -> None:
+    for purpose in PAGE.purposes:
+        box = booth.item(f"purpose-{purpose.id}")
+        assert not box.property("ticked")
+        assert says(box, "needed to take part" if purpose.required else "up to you")
+
+
+def test_a_tap_reports_a_tick_and_shows_none_before_it_counts(booth: Booth, done: Done) -> None:
+    booth.click("purpose-store")
+    assert done == [("store", True)]
+    assert not booth.item("purpose-store").property("ticked")
+    booth.app.screens.consent.show_ticks(frozenset({"store"}))
+    assert booth.item("purpose-store").property("ticked")
+    booth.click("purpose-store")
+    assert done[-1] == ("store", False)
+
+
+def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
+    Hand(booth.app.window).double_click("purpose-store")
+    assert done == [("store", True)]
+
+
+def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_can_be_tapped(
+    booth: Booth, done: Done
+) -> None:
+    assert booth.item("agree").property("quiet")
+    booth.click("agree")
+    assert done == ["agreed"]
+    booth.app.screens.consent.show_ticks(REQUIRED)
+    assert not booth.item("agree").property("quiet")
+
+
+def test_what_is_missing_is_said_in_words_until_it_is_ticked(booth: Booth, done: Done) -> None:
+    words = "Please tick this box if you want to take part."
+    booth.app.screens.consent.show_missing(("store",))
+    assert says(booth.item("purpose-store"), words)
+    assert not says(booth.item("purpose-take_part"), words)
+    booth.press(Qt.Key.Key_Return)
+    assert done == [("store", True)]
+    booth.app.screens.consent.show_ticks(frozenset({"store"}))
+    assert not says(booth.item("purpose-store"), words)
+
+
+def test_to_decline_is_as_easy_to_see_as_to_agree(booth: Booth, done: Done) -> None:
+    agree, decline = booth.item("agree"), booth.item("decline")
+    assert decline.height() == agree.height()
+    assert decline.width() >= agree.width()
+    assert decline.property("font") == agree.property("font")
+    booth.click("decline")
+    assert done == ["declined"]
+
+
+def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:
+    booth.press(Qt.Key.Key_Space)
+    for _ in range(4):
+        booth.press(Qt.Key.Key_Tab)
+    booth.press(Qt.Key.Key_Return)
+    assert done == [("take_part", True), "declined"]
+
+
+def test_both_answers_about_the_age_look_the_same(booth: Booth) -> None:
+    told: list[bool] = []
+    booth.app.screens.age.answered.connect(told.append)
+    booth.app.screens.age.ask(18)
+    booth.app.screens.kiosk.show("age")
+    yes, no = booth.item("age-yes"), booth.item("age-no")
+    assert (yes.width(), yes.height(), yes.property("quiet")) == (no.width(), no.height(), no.property("quiet"))
+    booth.click("age-no")
+    booth.click("age-yes")
+    assert told == [False, True]

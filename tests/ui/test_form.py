@@ -1,0 +1,250 @@
+"""A page of items: every kind is answered by mouse and by keyboard, nothing typed is lost, and what lacks is said."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtQuick import QQuickItem
+from pytestqt.qtbot import QtBot
+
+from kiosk.settings import ASSETS
+from kiosk.study.declared.questionnaire import Answer, Item, Questionnaire
+from kiosk.ui.rehearsing.hand import Hand, find
+from tests.samples import CATALOGUES
+from tests.ui.conftest import Booth
+
+ITEMS: dict[str, Item] = {
+    item.kind: item for item in Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml").items
+}
+TAB, RIGHT, RETURN, SPACE = Qt.Key.Key_Tab, Qt.Key.Key_Right, Qt.Key.Key_Return, Qt.Key.Key_Space
+
+Given = list[tuple[str, object]]
+
+
+@pytest.fixture
+def given(booth: Booth) -> Given:
+    """What the form reports, which is shown as the study would show it."""
+    answers: Given = []
+
+    def take(item: str, value: Answer | None) -> None:
+        answers.append((item, value))
+        booth.app.screens.form.show_answer(item, value)
+
+    booth.app.screens.form.answered.connect(take)
+    booth.app.screens.form.continued.connect(lambda: answers.append(("", "continued")))
+    return answers
+
+
+def ask(booth: Booth, *items: Item) -> None:
+    """Show a page of these items."""
+    booth.app.screens.form.show(items, 1, 1)
+    booth.app.screens.kiosk.show("form")
+    booth.settle()
+
+
+def required(kind: str) -> Item:
+    """An item of this kind that has to be answered."""
+    return ITEMS[kind].model_copy(update={"required": True})
+
+
+def press(booth: Booth, *keys: Qt.Key) -> None:
+    """Press these keys, one after another."""
+    for key in keys:
+        booth.press(key)
+
+
+def shown(booth: Booth, name: str, text: str) -> bool:
+    """Whether a text is to be seen within an item."""
+
+    def within(item: QQuickItem) -> bool:
+        return item.isVisible() and (item.property("text") == text or any(within(child) for child in item.childItems()))
+
+    return within(booth.item(name))
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "value"),
+    [
+        ("likert", "answer-enjoyed-6", 6),
+        ("differential", "answer-clear-1", 1),
+        ("pictures", "answer-mood-4", 4),
+        ("single", "option-plays-monthly", "monthly"),
+        ("integer", "more-alone", 0),
+        ("integer", "less-alone", 12),
+    ],
+)
+def test_one_click_answers(booth: Booth, given: Given, kind: str, name: str, value: object) -> None:
+    ask(booth, ITEMS[kind])
+    booth.click(name)
+    assert given == [(ITEMS[kind].id, value)]
+
+
+def test_a_slider_has_no_handle_until_it_is_put_somewhere(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["slider"])
+    assert not booth.sees("handle-effort")
+    Hand(booth.app.window).click("slider-effort", across=0.8)
+    assert booth.sees("handle-effort")
+    ((item, value),) = given
+    assert item == "effort"
+    assert isinstance(value, int)
+    assert 75 <= value <= 85
+
+
+def test_a_slider_s_first_key_puts_it_in_the_middle_and_the_next_move_it(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["slider"])
+    press(booth, TAB, RIGHT, RIGHT, Qt.Key.Key_Left, Qt.Key.Key_Left)
+    assert [value for _, value in given] == [50, 51, 50, 49]
+
+
+def test_several_options_are_added_and_taken_away_and_none_is_no_answer(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["multiple"])
+    for option in ("names", "place", "names", "place"):
+        booth.click(f"option-used-{option}")
+    assert [value for _, value in given] == [("names",), ("place", "names"), ("place",), None]
+
+
+def test_a_double_click_is_one_tick(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["multiple"])
+    Hand(booth.app.window).double_click("option-used-place")
+    assert given == [("used", ("place",))]
+
+
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [("likert", 3), ("differential", 3), ("pictures", 3), ("single", "monthly"), ("multiple", ("story",))],
+)
+def test_arrows_move_and_a_key_chooses(booth: Booth, given: Given, kind: str, value: object) -> None:
+    ask(booth, ITEMS[kind])
+    press(booth, TAB, RIGHT, RIGHT, SPACE)
+    assert given == [(ITEMS[kind].id, value)]
+
+
+def test_the_keyboard_stops_once_at_each_scale_and_then_at_the_way_on(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["likert"], ITEMS["differential"], ITEMS["single"])
+    press(booth, TAB, RETURN, TAB, RETURN, TAB, RETURN, TAB, RETURN)
+    assert [item for item, _ in given] == ["enjoyed", "clear", "plays", ""]
+
+
+def test_a_number_is_typed_with_the_keys_on_the_screen(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"])
+    for name in ("number-alone", "key-1", "key-3", "key-delete", "key-1", "key-done"):
+        booth.click(name)
+    assert given == [("alone", 11)]
+    assert not booth.sees("key-1")
+
+
+def test_a_number_that_cannot_be_is_not_sent_and_has_to_be_mended(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"])
+    booth.click("number-alone")
+    Hand(booth.app.window).type("99")
+    booth.click("continue")
+    assert given == []
+    assert booth.app.screens.form.property("missing") == ["alone"]
+    booth.click("number-alone")
+    press(booth, Qt.Key.Key_Backspace)
+    booth.click("continue")
+    assert given == [("alone", 9), ("", "continued")]
+
+
+def test_what_is_typed_is_sent_once_and_not_letter_by_letter(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["text"])
+    booth.click("text-remark")
+    Hand(booth.app.window).type("Perché no? ¡Qué bien!")
+    assert given == []
+    press(booth, RETURN)
+    assert given == [("remark", "Perché no? ¡Qué bien!")]
+
+
+def test_what_is_typed_is_not_lost_when_the_visitor_goes_on_at_once(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["text"])
+    booth.click("text-remark")
+    Hand(booth.app.window).type("nice")
+    booth.click("continue")
+    assert given == [("remark", "nice"), ("", "continued")]
+
+
+def test_a_text_is_typed_with_the_keys_on_the_screen_in_capitals_too(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["text"])
+    booth.click("text-remark")
+    for key in ("shift", "q", "u", "é", "space", "ñ", "o", "delete", "done"):
+        booth.click(f"key-{key}")
+    assert given == [("remark", "Qué ñ")]
+
+
+def test_a_question_over_the_screen_does_not_take_a_half_typed_text_for_an_answer(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["text"])
+    booth.click("text-remark")
+    Hand(booth.app.window).type("half a")
+    kiosk = booth.app.screens.kiosk
+    kiosk.ask_still_there(asks=True)
+    assert given == []
+    kiosk.ask_still_there(asks=False)
+    booth.settle()
+    Hand(booth.app.window).type(" text")
+    booth.click("continue")
+    assert given == [("remark", "half a text"), ("", "continued")]
+
+
+def test_a_text_that_was_refused_is_sent_again_with_the_way_on(booth: Booth) -> None:
+    form, given = booth.app.screens.form, list[tuple[str, object]]()
+    ask(booth, ITEMS["text"])
+    form.answered.connect(lambda item, value: given.append((item, value)))
+    form.draft("remark", "once more")
+    form.finish("remark")
+    form.proceed()
+    assert given == [("remark", "once more")] * 2
+
+
+@pytest.mark.usefixtures("given")
+def test_the_way_on_says_whether_something_is_left_out(booth: Booth) -> None:
+    ask(booth, ITEMS["differential"], ITEMS["text"])
+    assert booth.item("continue").property("text") == "Skip"
+    booth.click("text-remark")
+    Hand(booth.app.window).type("x")
+    assert booth.item("continue").property("text") == "Finish"
+    ask(booth, required("likert"))
+    assert booth.item("continue").property("text") == "Finish"
+    booth.app.screens.form.show((ITEMS["page"],), 1, 2)
+    assert booth.item("continue").property("text") == "Next"
+
+
+def small(booth: Booth, qtbot: QtBot) -> None:
+    """Make the window a small one."""
+    booth.app.window.resize(1280, 720)
+    qtbot.waitUntil(lambda: booth.app.window.contentItem().width() == 1280)
+
+
+def test_what_is_missing_is_said_in_words_and_brought_into_view(booth: Booth, qtbot: QtBot) -> None:
+    small(booth, qtbot)
+    many = [required("likert").model_copy(update={"id": f"item{number}"}) for number in range(8)]
+    ask(booth, *many)
+    booth.app.screens.form.show_missing(("item7",))
+    assert shown(booth, "item-item7", "Please answer this one first.")
+    assert not shown(booth, "item-item6", "Please answer this one first.")
+    place = booth.item("answer-item7-1").mapToScene(booth.item("answer-item7-1").boundingRect().bottomLeft())
+    assert place.y() < booth.item("continue").mapToScene(booth.item("continue").boundingRect().topLeft()).y()
+    press(booth, RETURN)
+    booth.app.screens.form.show_answer("item7", 1)
+    assert not shown(booth, "item-item7", "Please answer this one first.")
+
+
+def test_a_long_page_scrolls_by_key_and_by_its_sign(booth: Booth, qtbot: QtBot) -> None:
+    small(booth, qtbot)
+    ask(booth, *(ITEMS["likert"].model_copy(update={"id": f"item{number}"}) for number in range(8)))
+    assert booth.item("more").isEnabled()
+    first = booth.item("item-item0")
+    before = first.mapToScene(first.boundingRect().topLeft()).y()
+    press(booth, Qt.Key.Key_PageDown)
+    booth.item("item-item0")
+    assert first.mapToScene(first.boundingRect().topLeft()).y() < before
+    press(booth, Qt.Key.Key_PageUp)
+    booth.click("more")
+    assert first.mapToScene(first.boundingRect().topLeft()).y() < before
+
+
+def test_a_page_in_another_language_is_in_that_language(booth: Booth) -> None:
+    booth.app.screens.speak(CATALOGUES["it"])
+    ask(booth, ITEMS["differential"])
+    assert shown(booth, "item-clear", ITEMS["differential"].text["it"])
+    assert find(booth.app.window.contentItem(), "continue") is not None
+    assert booth.item("continue").property("text") == "Salta"
