@@ -109,6 +109,7 @@ class Driver:
         """Hand the session an event as it is and obey what it says; a refusal passes through and leaves no step."""
         commands = self.session.handle(event)
         self.steps.append(Step(event, commands))
+        self.view.hear(event)
         self.view.obey(commands)
         for command in commands:
             self._obey(command)

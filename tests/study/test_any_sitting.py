@@ -143,6 +143,7 @@ class AnySitting(RuleBasedStateMachine):
     def look_at(self, event: WorldEvent, commands: tuple[Command, ...]) -> None:
         kinds = [isinstance(command, Record) for command in commands]
         assert kinds == sorted(kinds, reverse=True)
+        self.view.hear(event)
         if isinstance(event, happened.TimerEnded):
             self.running.discard(event.timer)
         for command in commands:
@@ -257,7 +258,8 @@ class AnySitting(RuleBasedStateMachine):
         sentence, speaking = self.view.bubble, self.view.speaking
         self.send(happened.RepeatAsked(at_ms=self.now))
         assert self.view.bubble == sentence
-        assert speaking is None or self.view.speaking == speaking
+        assert (self.view.speaking == speaking) is (speaking is not None)
+        assert self.view.speaking is not None
 
     @precondition(lambda self: self.session.keeping is Keeping.KEPT)
     @rule(body=st.sampled_from(BodyName))

@@ -58,7 +58,7 @@ def test_what_is_written_stands_before_what_is_done() -> None:
 def test_leaving_a_stage_takes_its_sentence_with_it() -> None:
     driver = Driver(plan(policy=always(Action.NO_HELP)), 2)
     driver.start()
-    assert driver.view.bubble in ENGLISH.wordings("introduction-speech")
+    assert driver.view.bubble in ENGLISH.wordings("introduction-speech", cards=24, pairs=12)
     commands = driver.go_on()
     assert commands.index(do.StopSpeaking()) < commands.index(do.ClearBubble())
     assert seen(driver, "screen", "bubble", "speaking") == ("board", None, None)

@@ -9,7 +9,7 @@ from kiosk.game import Position
 from kiosk.study import commands as do
 from kiosk.study.commands import Command, Mood, Wait
 from kiosk.study.declared.questionnaire import Answer
-from kiosk.study.events import Status, Unstored
+from kiosk.study.events import SpeechFailed, SpeechFinished, Status, Unstored, WorldEvent
 
 
 @dataclass
@@ -50,6 +50,11 @@ class View:
     def forgotten(self) -> Unstored | None:
         """Why nothing of it is kept, if so."""
         return next((said.why for said in self.kept if isinstance(said, do.ForgetSitting)), None)
+
+    def hear(self, event: WorldEvent) -> None:
+        """The body says nothing any more of a sentence that it reports as finished or failed."""
+        if isinstance(event, SpeechFinished | SpeechFailed) and event.utterance == self.speaking:
+            self.speaking = None
 
     def obey(self, commands: Iterable[Command]) -> None:
         """Show what these commands say."""
