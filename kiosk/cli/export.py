@@ -32,8 +32,8 @@ def export(data: Path, out: Path, *, bids: bool, as_json: bool, **also: bool) ->
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return
-    click.echo(f"The data set in {out} holds {exported.participants} participants.")
+    click.echo(f"The data set in {out} holds {exported.participants} sittings.")
     if exported.not_shared:
-        click.echo(f"{exported.not_shared} did not agree to publishing and are left out; --with-unshared keeps them.")
+        click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
     if exported.under_way:
-        click.echo(f"{exported.under_way} sittings are still under way and are left out.")
+        click.echo(f"Left out, as they are still under way: {exported.under_way}.")

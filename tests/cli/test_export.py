@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from kiosk import BadInput
 from kiosk.cli.front import recollect
 from tests.store.dataset.conftest import rows_of
-from tests.store.dataset.visitors import store, visitor
+from tests.store.dataset.visitors import store, unsharing, visitor
 
 
 @pytest.fixture
@@ -27,8 +27,14 @@ def run(*arguments: object) -> Result:
 
 def test_it_says_how_many_are_in_the_data_set(data: Path, tmp_path: Path) -> None:
     done = run("--data", data, "--out", tmp_path / "out")
-    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 participants.\n")
+    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 sittings.\n")
     assert len(rows_of(tmp_path / "out", "participants")) == 1
+
+
+def test_it_says_how_many_were_left_out(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(visitor(1), 1), (unsharing(2), 2)])
+    done = run("--data", tmp_path / "data", "--out", tmp_path / "out")
+    assert done.output.splitlines()[1:] == ["Left out, as their visitors did not agree to publishing: 1."]
 
 
 def test_it_tells_programs_the_same(data: Path, tmp_path: Path) -> None:

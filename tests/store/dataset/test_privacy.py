@@ -24,7 +24,7 @@ from kiosk.store.dataset.layouts.psych_ds import PsychDs
 from kiosk.study.declared.questionnaire import ShortText
 from kiosk.study.events import AnswerGiven, Stage
 from tests.store.dataset.conftest import rows_of
-from tests.store.dataset.visitors import answer_all, store, study_plan, visitor
+from tests.store.dataset.visitors import answer_all, store, study_plan, unsharing, visitor
 from tests.study.driver import Driver
 
 NAME_TYPED = "Zaphod Beeblebrox"
@@ -117,16 +117,6 @@ def test_the_start_of_each_sitting_is_told_to_those_who_ask_for_it(few: Path, tm
     started = [datetime.fromisoformat(row["started_at"]) for row in rows_of(out, "participants")]
     assert all(when.tzinfo is not None for when in started)
     assert "started_at" not in rows_of(out, "flips")[0]
-
-
-def unsharing(seed: int) -> Driver:
-    """A visitor who takes part, but does not want to be published."""
-    driver = Driver(study_plan(), seed)
-    driver.to(Stage.CONSENT)
-    driver.tick("store")
-    driver.agree()
-    driver.to(Stage.OVER)
-    return driver
 
 
 def test_who_did_not_agree_to_publishing_is_left_out_and_counted(tmp_path: Path) -> None:

@@ -129,6 +129,16 @@ def chosen(item: Item, chance: Random) -> Answer:
     return chance.choice(('say "so"', "one, two; three", "שלום עולם", "naïve, 日本"))
 
 
+def unsharing(seed: int) -> Driver:
+    """A visitor who takes part, but does not want to be published."""
+    driver = Driver(study_plan(), seed)
+    driver.to(Stage.CONSENT)
+    driver.tick("store")
+    driver.agree()
+    driver.to(Stage.OVER)
+    return driver
+
+
 def store(folder: Path, drivers: Sequence[tuple[Driver, int]], *, simulated: bool = False, site: str = "") -> None:
     """Write sittings that were played into a data folder, all at once each."""
     with Recorder(folder, site) as recorder:
