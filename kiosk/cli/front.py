@@ -20,6 +20,7 @@ _COMMANDS = {
     "open": "kiosk.cli.sitting:open_kiosk",
     "keep": "kiosk.cli.keep:keep",
     "rehearse": "kiosk.cli.rehearsal:rehearse",
+    "check": "kiosk.cli.check:check",
     "study": "kiosk.cli.study:study",
     "robot": "kiosk.cli.robot:robot",
     "sittings": "kiosk.cli.records:sittings",
@@ -36,6 +37,7 @@ _COMMANDS = {
     "policy": "kiosk.cli.learning:policy",
 }
 _WORKERS = {
+    "display": "kiosk.cli.display:display",
     "meanwhile": "kiosk.cli.keep:meanwhile",
     "voice": "kiosk.cli.voice:voice",
 }

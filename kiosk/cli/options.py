@@ -22,3 +22,6 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, 
 robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
 robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), help="The robot's port.")
 study_option = click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML).")
+site_option = click.option(
+    "--site", default="", help="Where this kiosk stands, if data of several will be merged: A, B, ROME."
+)

@@ -8,7 +8,7 @@ from random import SystemRandom
 
 import click
 
-from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, study_option
+from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, site_option, study_option
 from kiosk.cli.wiring import code_commit, log_into, read_settings
 from kiosk.store.recorder import Recorder
 from kiosk.study.declared.checked.whole import read_study
@@ -24,7 +24,7 @@ SEED_BITS = 32
 @study_option
 @robot_host_option
 @robot_port_option
-@click.option("--site", default="", help="Where this kiosk stands, if data of several will be merged: A, B, ROME.")
+@site_option
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
 @json_option
 def open_kiosk(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import logging
 import subprocess
+import traceback
+from datetime import UTC, datetime
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
+from types import TracebackType
 
 from platformdirs import user_data_path
 
@@ -43,6 +46,24 @@ class _SharedFile(logging.FileHandler):
         self.close()
 
 
+class _WithoutWords(logging.Formatter):
+    """Tells where a fault arose and of what kind it is, and not its message: that may repeat what a visitor typed.
+
+    The record plays the sitting, and the fault with it, again.
+    """
+
+    def formatException(  # noqa: N802 - logging's name
+        self,
+        ei: tuple[type[BaseException], BaseException, TracebackType | None] | tuple[None, None, None],
+    ) -> str:
+        fault = ei[1]
+        lines: list[str] = []
+        while fault is not None:
+            lines = [*traceback.format_tb(fault.__traceback__), f"{type(fault).__name__}\n", *lines]
+            fault = fault.__cause__ or fault.__context__
+        return "".join(lines).rstrip()
+
+
 def log_into(folder: Path, *, shared: bool = False) -> None:
     """Keep a log in a data folder, in files that never grow large; it holds faults and failures, nothing personal.
 
@@ -57,18 +78,30 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
             handler = RotatingFileHandler(folder / LOG, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8")
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
-    logging.basicConfig(
-        handlers=[handler], level=logging.WARNING, format="%(asctime)s %(levelname)s %(name)s: %(message)s"
-    )
+    handler.setFormatter(_WithoutWords("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    logging.basicConfig(handlers=[handler], level=logging.WARNING)
 
 
 def code_commit() -> str:
     """The commit that runs, with "-dirty" if it was changed since; "released" outside a checkout and a build."""
     if _BUILT_FROM.is_file():
         return _BUILT_FROM.read_text("utf-8")
+    return _git("describe", "--always", "--dirty", "--abbrev=40", "--exclude=*") or "released"
+
+
+def code_made() -> datetime:
+    """When the program was made: its commit in a checkout, else its files."""
+    committed = "" if _BUILT_FROM.is_file() else _git("log", "-1", "--format=%cI")
+    if committed:
+        return datetime.fromisoformat(committed)
+    return datetime.fromtimestamp(Path(__file__).stat().st_mtime, UTC)
+
+
+def _git(*arguments: str) -> str:
+    """What git says of the checkout; empty outside of one."""
     try:
-        described = subprocess.run(
-            ["git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"],  # noqa: S607 - git is on the path
+        said = subprocess.run(  # noqa: S603 - with arguments of our own
+            ["git", *arguments],  # noqa: S607 - git is on the path
             cwd=Path(__file__).parent,
             capture_output=True,
             text=True,
@@ -76,5 +109,5 @@ def code_commit() -> str:
             check=True,
         )
     except (OSError, subprocess.SubprocessError):
-        return "released"
-    return described.stdout.strip()
+        return ""
+    return said.stdout.strip()

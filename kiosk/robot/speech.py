@@ -1,10 +1,12 @@
 """The voice, in a process of its own: whatever a speech engine does, it can be ended and started again.
 
 Run as ``python -m kiosk.robot.speech LANGUAGE RATE VOLUME``. It reads commands as JSON lines: ``say`` a sentence (its
-number, and its ``text``), ``play`` the file of a short sound, ``stop``, ``voices``, ``quit``; the end of input ends it.
+number, and its ``text``), ``render`` a text without a sound, ``play`` the file of a short sound, ``stop``, ``voices``,
+``quit``; the end of input ends it.
 It writes events as JSON lines: ``ready`` with what it found, or ``unavailable``; then for each sentence ``started``,
-with the duration in ms and the loudness (0-1) of every LOUDNESS_MS, and ``finished``, or ``failed`` and why. Without a
-sound card it keeps the time of the sentence in silence and says so.
+with the duration in ms and the loudness (0-1) of every LOUDNESS_MS, and ``finished``, or ``failed`` and why. A text
+that is only rendered is answered by ``rendered``, with its duration and how long that took, in ms, or by ``failed``.
+Without a sound card it keeps the time of the sentence in silence and says so.
 """
 
 from __future__ import annotations
@@ -12,7 +14,6 @@ from __future__ import annotations
 import json
 import os
 import queue
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -28,16 +29,17 @@ import numpy as np
 import pyttsx3
 
 from kiosk.robot import LOUDNESS_MS
+from kiosk.robot.player import player
 
 _POLL_S = 0.01
 _RENDER_S = 3.0
 """Rendering takes 10 to 60 ms; an engine that takes this long will never be done."""
 
+_NO_SOUND = (OSError, RuntimeError, EOFError, wave.Error)
+"""What rendering raises when no sound came of it."""
+
 _FULL_LOUDNESS = 0.25
 """The root mean square, of full scale, at which the mouth is wide open: loud vowels of espeak-ng reach about this."""
-
-_PLAYERS = ("aplay", "afplay")
-_QUIET = {"aplay": ["-q"], "afplay": []}
 
 
 @dataclass(frozen=True)
@@ -116,7 +118,7 @@ class Player:
 
     def __init__(self) -> None:
         """Look for a program that plays."""
-        self._command = next((path for name in _PLAYERS if (path := shutil.which(name))), None)
+        self._command = player()
         self._child: subprocess.Popen[bytes] | None = None
         self._silent_until = 0.0
         self.audible = self._command is not None
@@ -125,7 +127,7 @@ class Player:
         """Begin to play."""
         self._silent_until = time.monotonic() + sound.duration_ms / 1000
         if self._command is not None:
-            command = [self._command, *_QUIET[Path(self._command).name], str(sound.file)]
+            command = (*self._command, str(sound.file))
             self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: S603
 
     def playing(self) -> bool:
@@ -177,6 +179,8 @@ class Worker:
                 self._play(Path(command["play"]))
             elif "voices" in command:
                 self._report("voices", voices=self._engine.voices)
+            elif "render" in command:
+                self._render(str(command["render"]))
             else:
                 self._stop()
                 if "say" in command:
@@ -193,6 +197,17 @@ class Worker:
         if self._saying is None:
             self._sounds.stop()
             self._sounds.play(Sound(file, 0, ()))
+
+    def _render(self, text: str) -> None:
+        """Render a text that nobody is to hear."""
+        begun = time.monotonic()
+        try:
+            sound = self._engine.render(text, self._file.with_name("unheard.wav"))
+        except _NO_SOUND as error:
+            self._report("failed", why=str(error) or type(error).__name__)
+            return
+        took_ms = round((time.monotonic() - begun) * 1000)
+        self._report("rendered", duration_ms=sound.duration_ms, took_ms=took_ms)
 
     def _next_commands(self) -> Iterator[dict[str, Any]]:
         """Every command in turn; while a sentence is under way, look after it as well."""
@@ -216,7 +231,7 @@ class Worker:
     def _say(self, number: int, text: str) -> None:
         try:
             sound = self._engine.render(text, self._file)
-        except (OSError, RuntimeError, EOFError, wave.Error) as error:
+        except _NO_SOUND as error:
             self._report("failed", id=number, why=str(error) or type(error).__name__)
             return
         self._player.play(sound)
@@ -260,10 +275,10 @@ def main(language: str, rate: int, volume: float) -> None:
     except Exception as error:  # noqa: BLE001 - engines raise whatever they like when a library is missing
         report("unavailable", why=f"no speech engine: {error}")
         return
-    player = Player()
-    report("ready", voice=engine.voice, player=player.audible)
+    plays = Player()
+    report("ready", voice=engine.voice, player=plays.audible)
     with tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder:
-        Worker(engine, player, report, Path(folder) / "sentence.wav", commands).run()
+        Worker(engine, plays, report, Path(folder) / "sentence.wav", commands).run()
 
 
 if __name__ == "__main__":

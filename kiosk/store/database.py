@@ -45,6 +45,8 @@ def lock(folder: Path) -> FileLock:
 def in_use(folder: Path) -> bool:
     """Whether somebody is writing in a data folder."""
     try:
+        if not (folder / LOCK).exists():
+            return False
         with FileLock(folder / LOCK, blocking=False):
             return False
     except Timeout:
@@ -130,11 +132,16 @@ def _read_only(path: Path) -> sqlite3.Connection:
 
 def _prepare(connection: sqlite3.Connection) -> None:
     _migrate(connection)
-    connection.execute("PRAGMA journal_mode = WAL")
-    connection.execute("PRAGMA synchronous = FULL")
+    durable(connection)
     connection.execute("PRAGMA foreign_keys = ON")
     # It only ever adds rows: the usual cache of 2 MB would fill over a day and look like a leak.
     connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
+
+
+def durable(connection: sqlite3.Connection) -> None:
+    """Have every transaction of a connection on the disk when it is committed."""
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("PRAGMA synchronous = FULL")
 
 
 def _refuse_foreign_or_newer(path: Path) -> None:

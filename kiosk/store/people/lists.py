@@ -85,13 +85,14 @@ class Lists:
         if stored is None:
             drawn = SystemRandom().getrandbits(SEED_BITS) if seed is None else seed
             return self._store(quotas, block, drawn, places(quotas, block, drawn))
-        if block != stored.block or seed not in (None, stored.seed):
-            raise _another(stored)
-        try:
-            listed = places(quotas, block, stored.seed, kept=stored.places)
-        except BadInput as error:
-            raise _another(stored) from error
+        listed = _continued(stored, quotas, block, seed)
         return listed if listed == stored.places else self._store(quotas, block, stored.seed, listed)
+
+    def check(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> None:
+        """Raise BadInput where ``fix`` would for another list than the stored one; nothing is stored."""
+        stored = self.latest()
+        if stored is not None:
+            _continued(stored, quotas, block, seed)
 
     def _store(
         self, quotas: Mapping[Condition, int], block: int, seed: int, listed: tuple[Place, ...]
@@ -140,6 +141,16 @@ def places_from_json(text: str) -> tuple[Place, ...]:
     """What ``places_to_json`` wrote."""
     named = ((block, name) for block, names in enumerate(json.loads(text), 1) for name in names)
     return tuple(Place(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
+
+
+def _continued(stored: PlaceList, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[Place, ...]:
+    """The stored list, or a longer one for raised quotas; raises BadInput for another list than the stored one."""
+    if block != stored.block or seed not in (None, stored.seed):
+        raise _another(stored)
+    try:
+        return places(quotas, block, stored.seed, kept=stored.places)
+    except BadInput as error:
+        raise _another(stored) from error
 
 
 def _another(stored: PlaceList) -> BadInput:

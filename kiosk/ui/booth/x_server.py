@@ -12,6 +12,7 @@ from Xlib import X, Xatom
 from Xlib.display import Display
 from Xlib.error import CatchError, DisplayError, XError
 from Xlib.protocol.event import ClientMessage
+from Xlib.protocol.request import GetProperty
 from Xlib.xobject.drawable import Window
 
 EVERY_DESKTOP = 0xFFFFFFFF
@@ -151,3 +152,23 @@ def _connect() -> Display:
         return Display()
     except DisplayError as error:
         raise OSError(str(error)) from error
+
+
+def window_manager() -> str:
+    """The name of the window manager; empty if there is none. Raises OSError if the server cannot be reached."""
+    display = _connect()
+    try:
+        manager = _property(display, display.screen().root, "_NET_SUPPORTING_WM_CHECK")
+        if manager is None:
+            return ""
+        name = _property(display, display.create_resource_object("window", manager.value[0]), "_NET_WM_NAME")
+        return "one without a name" if name is None else bytes(name.value).decode(errors="replace")
+    except XError:
+        # It was here, and went.
+        return ""
+    finally:
+        display.close()
+
+
+def _property(display: Display, window: Window, name: str) -> GetProperty | None:
+    return window.get_full_property(display.intern_atom(name), X.AnyPropertyType)

@@ -1,0 +1,1 @@
+"""Looks at what keeps the data: disk, folder, database, list of places, clock. Nothing of a study is changed."""

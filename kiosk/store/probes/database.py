@@ -1,0 +1,135 @@
+"""Whether the database is one that can be gone on with, what it holds, and whether there is a copy of it."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+from kiosk import BadInput
+from kiosk.findings import Finding
+from kiosk.settings import Allocation
+from kiosk.store.care.backup import backups
+from kiosk.store.database import FILE, open_as_it_is, open_for_reading
+from kiosk.store.migrations import SCHEMA
+from kiosk.store.people.lists import Lists, PlaceList
+from kiosk.store.people.participants import checked_site
+from kiosk.study.allocation import ratio_in_words
+from kiosk.study.condition import Condition
+
+DATABASE, SITTINGS, COPY, LIST = "database", "sittings", "backup", "places"
+
+OLD = timedelta(days=1)
+"""A copy that is older than a day's sittings leaves a day to be lost."""
+
+
+def database(folder: Path, *, busy: bool) -> Iterator[Finding]:
+    """The file itself; ``busy`` tells whether a kiosk is open on the folder."""
+    if not (folder / FILE).exists():
+        yield Finding.good(DATABASE, "none yet; it is made when the kiosk opens")
+        return
+    try:
+        with closing(open_as_it_is(folder)) as connection:
+            schema = connection.execute("PRAGMA user_version").fetchone()[0]
+            answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
+    except (BadInput, sqlite3.Error) as failure:
+        remedy = "use another folder with --data, or put a copy of 'backups' in its place"
+        yield Finding.bad(DATABASE, str(failure), remedy)
+        return
+    if answer != "ok":
+        yield Finding.bad(DATABASE, f"it is damaged: {answer}", "put the newest copy of 'backups' in its place")
+    elif busy:
+        remedy = "nothing, if that is this booth's kiosk; else leave it, for a second one is refused"
+        yield Finding.warning(DATABASE, "it is whole; a Recollect is open on it", remedy)
+    else:
+        newer = "" if schema == SCHEMA else f"; it is brought from schema {schema} to {SCHEMA} when the kiosk opens"
+        yield Finding.good(DATABASE, f"it is whole{newer}")
+
+
+def sittings(folder: Path, *, busy: bool) -> Iterator[Finding]:
+    """What is stored of people, and what was cut off."""
+
+    def look(connection: sqlite3.Connection) -> Iterator[Finding]:
+        stored, cut_off = connection.execute(
+            """
+            SELECT count(*), coalesce(sum(last.type <> 'SittingEnded' OR last.body LIKE '%"interrupted"%'), 0)
+            FROM sitting JOIN event AS last ON last.sitting = sitting.id
+            AND last.seq = (SELECT max(seq) FROM event WHERE event.sitting = sitting.id)
+            WHERE NOT sitting.simulated
+            """
+        ).fetchone()
+        less = "cut off or under way" if busy else "cut off"
+        yield Finding.good(SITTINGS, f"{stored} of people, {cut_off} of them {less}")
+
+    return _reading(folder, look)
+
+
+def copy(folder: Path, into: Path, now: datetime) -> Iterator[Finding]:
+    """How old the newest copy is."""
+
+    def look(connection: sqlite3.Connection) -> Iterator[Finding]:
+        (written_ms,) = connection.execute(NEWEST_MS).fetchone()
+        newest = max((file.stat().st_mtime for file in backups(into)), default=None) if into.is_dir() else None
+        made = None if newest is None else datetime.fromtimestamp(newest, UTC)
+        if not written_ms:
+            yield Finding.good(COPY, "nothing is written yet")
+        elif made is None:
+            yield Finding.warning(COPY, f"there is no copy in {into}", "recollect backup")
+        elif now - made > OLD and datetime.fromtimestamp(written_ms / 1000, UTC) > made:
+            words = f"the newest copy is of {made.astimezone():%Y-%m-%d %H:%M}, and more was written since"
+            yield Finding.warning(COPY, words, "recollect backup")
+        else:
+            yield Finding.good(COPY, f"the newest copy is of {made.astimezone():%Y-%m-%d %H:%M}")
+
+    return _reading(folder, look)
+
+
+def allocation(folder: Path, site: str, declared: Allocation) -> Iterator[Finding]:
+    """Whether the list that is fixed is the study file's, and how much of it is left."""
+    if not declared.quotas:
+        yield Finding.good(LIST, "no quotas in the study file: every visitor gets the same condition")
+        return
+    quotas = {Condition.named(name): quota for name, quota in declared.quotas.items()}
+
+    def look(connection: sqlite3.Connection) -> Iterator[Finding]:
+        lists = Lists(connection, checked_site(site), simulated=False)
+        try:
+            lists.check(quotas, declared.block, declared.seed)
+        except BadInput as refusal:
+            yield Finding.bad(LIST, str(refusal), "use another folder with --data, or the quotas that are fixed")
+            return
+        yield _left(lists.latest(), lists.consumed(), quotas)
+
+    if not (folder / FILE).exists():
+        yield Finding.good(LIST, f"{ratio_in_words(quotas)}; fixed when the kiosk opens")
+    else:
+        yield from _reading(folder, look)
+
+
+def _left(stored: PlaceList | None, consumed: set[int], quotas: Mapping[Condition, int]) -> Finding:
+    places = () if stored is None else stored.places
+    taken = Counter(place.condition for place in places if place.number in consumed)
+    done = ", ".join(f"{condition.value} {taken[condition]} of {quota}" for condition, quota in quotas.items())
+    if len(consumed) >= sum(quotas.values()):
+        return Finding.warning(LIST, f"used up: {done}", "raise the quotas in their ratio, or end the study")
+    return Finding.good(LIST, done if places else f"{done}; fixed when the kiosk opens")
+
+
+NEWEST_MS = """
+    SELECT max(coalesce((SELECT max(wall_ms) FROM event), 0), coalesce((SELECT max(wall_ms) FROM booth_event), 0))
+"""
+"""When anything was written last, by the wall's clock, in ms since 1970; 0 if nothing was."""
+
+_Look = Callable[[sqlite3.Connection], Iterator[Finding]]
+
+
+def _reading(folder: Path, look: _Look) -> Iterator[Finding]:
+    """What is found in the database; nothing where there is none, and the file's own finding says it if it is bad."""
+    try:
+        with closing(open_for_reading(folder)) as connection:
+            yield from look(connection)
+    except (BadInput, sqlite3.Error):
+        return

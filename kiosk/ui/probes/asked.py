@@ -1,0 +1,36 @@
+"""Asking a process of our own that looks at the display: whatever becomes of it, there is an answer in words."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
+
+from kiosk.findings import Finding, State
+
+
+def ask(what: str, command: Sequence[str], within_s: float, remedy: str) -> Iterator[Finding]:
+    """What the process of this command found; ``remedy`` is for when it comes to nothing."""
+    try:
+        done = subprocess.run(  # noqa: S603 - our own program
+            command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=within_s, check=False
+        )
+    except subprocess.TimeoutExpired:
+        yield Finding.bad(what, f"no answer within {within_s:g} s", remedy)
+        return
+    if done.returncode == 0:
+        yield from from_json(done.stdout)
+        return
+    said = [line for line in done.stderr.splitlines() if line.strip()]
+    yield Finding.bad(what, said[0].strip() if said else f"it ended with {done.returncode}", remedy)
+
+
+def to_json(findings: Iterable[Finding]) -> str:
+    """Findings as the process prints them."""
+    return json.dumps([asdict(each) | {"state": each.state.value} for each in findings], ensure_ascii=False)
+
+
+def from_json(text: str) -> Iterator[Finding]:
+    """What ``to_json`` wrote."""
+    return (Finding(**each | {"state": State(each["state"])}) for each in json.loads(text))
