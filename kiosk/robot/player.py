@@ -12,4 +12,4 @@ _QUIET = {"aplay": ("-q",), "afplay": ()}
 def player() -> tuple[str, ...] | None:
     """The command that plays the file that is added to it; None if there is no such program."""
     path = next((path for name in _QUIET if (path := shutil.which(name))), None)
-    return path and (path, *_QUIET[Path(path).name])
+    return (path, *_QUIET[Path(path).name]) if path else None

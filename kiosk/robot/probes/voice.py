@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
+import tempfile
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -22,14 +24,7 @@ def voice(command: Sequence[str], language: str, sentence: str) -> Iterator[Find
     """Have the voice's process, started by this command, render a sentence of a language."""
     what = f"voice: {language}"
     try:
-        done = subprocess.run(  # noqa: S603 - our own program
-            command,
-            input="".join(f"{json.dumps(line)}\n" for line in ({"render": sentence}, {"quit": True})),
-            capture_output=True,
-            encoding="utf-8",
-            timeout=WITHIN_S,
-            check=False,
-        )
+        told = _run(command, {"render": sentence}, {"quit": True})
     except subprocess.TimeoutExpired:
         remedy = "start the machine again, and see that espeak-ng speaks"
         yield Finding.warning(what, f"{_SHOWN}: the speech engine hangs", remedy)
@@ -38,7 +33,22 @@ def voice(command: Sequence[str], language: str, sentence: str) -> Iterator[Find
         words = f"{_SHOWN}: the voice cannot be started: {error.strerror}"
         yield Finding.warning(what, words, "install Recollect anew")
         return
-    yield _told(what, language, dict(_events(done.stdout)))
+    yield _told(what, language, dict(_events(told)))
+
+
+def _run(command: Sequence[str], *lines: dict[str, object]) -> str:
+    """What the process says to these commands; what it leaves when it has to be ended goes as well."""
+    with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:
+        done = subprocess.run(  # noqa: S603 - our own program
+            command,
+            input="".join(f"{json.dumps(line)}\n" for line in lines),
+            capture_output=True,
+            encoding="utf-8",
+            timeout=WITHIN_S,
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder),
+            check=False,
+        )
+    return done.stdout
 
 
 def _events(lines: str) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -60,7 +60,7 @@ def access(folder: Path) -> Iterator[Finding]:
     if not os.access(place, os.W_OK | os.X_OK):
         yield Finding.bad(FOLDER, f"{place} cannot be written", "give it to the user who runs the kiosk, or use --data")
     elif place != folder.absolute():
-        yield Finding.good(FOLDER, f"{folder} is not there yet; it is made with the first sitting")
+        yield Finding.good(FOLDER, f"{folder} is not there yet; it is made when the kiosk opens")
     elif sys.platform != "win32" and stat.S_IMODE(folder.stat().st_mode) & _OTHERS:
         yield Finding.warning(FOLDER, f"others on this machine can look into {folder}", f"chmod 700 {folder}")
     else:
