@@ -35,6 +35,14 @@ STAGES = ("attract", "introduction", "game", "result", "questions")
 """By the names of the screens."""
 LONGEST_S = 10.0
 UNTIL_STAGE_S = 240.0
+STUDY = """
+[voice]
+rate = 300
+[timing]
+turn_back = 100
+finish = 100
+"""
+"""Nobody has to follow what happens, so that a game takes half a minute."""
 STOPPED_S = 60.0
 """How long a stopped kiosk would stay stopped."""
 
@@ -111,8 +119,10 @@ class Kept:
     def __init__(self, stage: str, folder: Path, environment: dict[str, str]) -> None:
         command = [sys.executable, "-m", "tests.ui.kept_kiosk", stage, str(folder / "marker")]
         self.data = folder / "data"
+        study = folder / "study.toml"
+        study.write_text(STUDY)
         self.process = subprocess.Popen(
-            [*command, "keep", "--json", "--data", str(self.data)],
+            [*command, "keep", "--json", "--data", str(self.data), "--", "--study", str(study)],
             env=environment | {"TMPDIR": str(folder)},
             stdout=subprocess.PIPE,
             text=True,
