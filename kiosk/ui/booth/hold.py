@@ -19,8 +19,8 @@ HIDDEN_LOOKS = 2
 """After so many looks at which the window was on no screen it is shown anew."""
 IDLE_LOOKS = 2
 """The same for a window that does not get or keep the keyboard, however often it asks; each time twice as many."""
-GRABBING = {"xcb", "windows"}
-"""Where a window can take every key and click; elsewhere Qt would only complain."""
+OBEYING = {"xcb", "windows"}
+"""Where a window can raise itself and take every key and click; elsewhere Qt would only complain."""
 
 
 class Desktop(Protocol):
@@ -31,7 +31,7 @@ class Desktop(Protocol):
         ...
 
     def clear(self) -> bool:
-        """Put whatever lies over the window below it; whether something did."""
+        """Put whatever lies over the window below it; whether something did, or had the keyboard."""
         ...
 
     def activate(self) -> None:
@@ -121,16 +121,21 @@ class Hold(QObject):
         covered = self._desktop is not None and self._desktop.clear()
         self._lost = self._lost or covered
         if covered or not self._window.isActive():
-            self._window.raise_()
+            if self._is_obeyed:
+                self._window.raise_()
             self._window.requestActivate()
             if self._desktop is not None:
                 self._desktop.activate()
         # While a window is hidden, and while another program has them, they cannot be taken; so ask again.
         self._has_input = self._grab(grab=True)
 
+    @property
+    def _is_obeyed(self) -> bool:
+        return QGuiApplication.platformName() in OBEYING
+
     def _grab(self, *, grab: bool) -> bool:
         """Take every key and click before the desktop does, or stop; whether that was done."""
-        if QGuiApplication.platformName() not in GRABBING:
+        if not self._is_obeyed:
             return False
         keyboard, mouse = self._window.setKeyboardGrabEnabled(grab), self._window.setMouseGrabEnabled(grab)
         return keyboard and mouse

@@ -41,8 +41,16 @@ class XServer:
     def activate(self) -> None:
         """Ask the window manager as whoever changes between windows does, which is never refused; then take it."""
         self._ask("_NET_ACTIVE_WINDOW", AS_A_PAGER, X.CurrentTime)
+        self._focus()
+
+    def _focus(self) -> None:
         self._window.set_input_focus(X.RevertToParent, X.CurrentTime, onerror=CatchError())
         self._display.flush()
+
+    def _focused(self) -> int:
+        """The number of the window that keys are for; Qt cannot tell as long as it takes them all anyway."""
+        focus = self._display.get_input_focus().focus
+        return int(focus.id) if isinstance(focus, Window) else X.NONE
 
     def _ask(self, what: str, *values: int) -> None:
         data = [*values, *[0] * (MESSAGE_VALUES - len(values))]
@@ -51,12 +59,12 @@ class XServer:
         self._display.flush()
 
     def clear(self) -> bool:
-        """Lower every window that lies over ours, and say whether there was one."""
+        """Lower every window that lies over ours; whether there was one, or another one had the keyboard."""
         over = self._over()
         for window in over:
             window.configure(stack_mode=X.Below, onerror=CatchError())
         self._display.flush()
-        return bool(over)
+        return bool(over) or self._focused() != self._window.id
 
     def close(self) -> None:
         """Let go of the connection."""
@@ -114,8 +122,12 @@ class XWayland(XServer):
 
     def clear(self) -> bool:
         """Whether a window has come over ours since it was new, or was made the active one."""
-        came_over = any(window.id not in self._below for window in self._over())
-        self._covered = self._covered or came_over or self._active() not in {X.NONE, self._window.id}
+        over, focused = {window.id for window in self._over()}, self._focused()
+        nobody = {X.NONE, self._root.id}
+        others = {self._active(), focused} - nobody - {self._window.id}
+        self._covered = self._covered or bool(over - self._below) or bool(others)
+        if focused in nobody:
+            self._focus()
         return self._covered
 
     def _active(self) -> int:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import closing
 from dataclasses import asdict, dataclass
 from enum import Enum
 from time import monotonic, sleep
@@ -72,8 +73,7 @@ def try_all(desktop: Desktop, only: str) -> list[Result]:
     shown = iter(track(range(len(waiting)), desktop.value, console=Console(stderr=True)))
     results: list[Result] = []
     while waiting:
-        with kiosk_on(desktop) as kiosk:
-            hands = Hands(kiosk)
+        with kiosk_on(desktop) as kiosk, closing(Hands(kiosk)) as hands:
             standing = hands.wait(10)
             assert standing.holds, f"on {desktop.value} the kiosk stands badly from the start: {standing.lacks}"
             left = False

@@ -166,13 +166,16 @@ def _running(command: list[str], environment: dict[str, str]) -> Iterator[Kiosk]
     )
     assert process.stdout is not None
     told: Queue[dict[str, Any]] = Queue()
-    Thread(target=_listen, args=(process.stdout, told), daemon=True).start()
+    listening = Thread(target=_listen, args=(process.stdout, told), daemon=True)
+    listening.start()
     kiosk = Kiosk(process, told, dict(environment))
     with _ended(process):
         yield kiosk
         assert process.stdin is not None
         process.stdin.close()
         process.wait(END_S)
+    listening.join()
+    process.stdout.close()
 
 
 def _listen(source: IO[str], told: Queue[dict[str, Any]]) -> None:

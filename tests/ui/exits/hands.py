@@ -18,6 +18,8 @@ from Xlib.xobject.drawable import Window
 
 from tests.ui.exits.desktops import SIZE, Kiosk
 
+PAPER = 0xFBF6EC
+"""The colour that the kiosk shows there."""
 NEAR = 3
 """How many pixels from the edge the colour is looked at."""
 
@@ -27,7 +29,6 @@ GAPS = ((0, 7), (2, 9), (8, 15), (16, 23))
 MODIFIERS = {"ctrl": "Control_L", "alt": "Alt_L", "shift": "Shift_L", "super": "Super_L"}
 BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5, "back": 8, "forward": 9}
 STEPS = 12
-SETTLE_S = 0.5
 
 for group in ("xf86", "xkb"):
     XK.load_keysym_group(group)
@@ -58,14 +59,13 @@ class Hands:
     """Somebody in front of a kiosk."""
 
     def __init__(self, kiosk: Kiosk) -> None:
-        """Look at it as it stands now: that is how it must go on."""
+        """Stand in front of it."""
         self.kiosk = kiosk
         self.display = Display(kiosk.environment["DISPLAY"])
         self.display.set_error_handler(lambda *_: None)
         self.root = self.display.screen().root
         self.window = self.display.create_resource_object("window", kiosk.begun["window"])
         self.made: list[Window] = []
-        self._samples = self._settled()
 
     # Input
 
@@ -147,6 +147,11 @@ class Hands:
         self.display.sync()
         self.made.append(window)
 
+    def close(self) -> None:
+        """Go away."""
+        self.tidy()
+        self.display.close()
+
     def tidy(self) -> None:
         """Take away the other programs' windows."""
         for window in self.made:
@@ -165,19 +170,10 @@ class Hands:
                 # In cage, what is on top is its own affair and not the X server's: there, only looking tells.
                 on_top=self._is_drawn_by_another or not self._over(),
                 active=self._active(),
-                to_be_seen=self.samples() == self._samples,
+                to_be_seen=set(self.samples()) == {PAPER},
             )
         except (XError, OSError):
             return Standing(self.kiosk.lives, *[False] * 4)
-
-    def _settled(self) -> list[int]:
-        """The colours once nothing changes any more."""
-        before = self.samples()
-        sleep(SETTLE_S)
-        while (now := self.samples()) != before:
-            before = now
-            sleep(SETTLE_S)
-        return now
 
     @property
     def _is_drawn_by_another(self) -> bool:
@@ -190,7 +186,7 @@ class Hands:
         places += [_between(cards[one], cards[other]) for one, other in GAPS]
         if self._is_drawn_by_another:
             image = _photograph(self.kiosk.environment)
-            return [image.pixel(*place) for place in places]
+            return [image.pixel(*place) & 0xFFFFFF for place in places]
         pixels = [self.root.get_image(*place, 1, 1, X.ZPixmap, 0xFFFFFFFF).data for place in places]
         return [int.from_bytes(pixel[:3], "little") for pixel in pixels]
 

@@ -1,0 +1,92 @@
+"""Nobody leaves the kiosk: a part of ``python -m tests.ui.exits`` that is quick enough for every day."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from tests.ui.conftest import Booth
+from tests.ui.exits.attempts import ATTEMPTS, Attempt
+from tests.ui.exits.desktops import Desktop, kiosk_on
+from tests.ui.exits.hands import Hands
+from tests.ui.exits.kiosk import TOUCHES, Fingers
+
+NO_KEY = Qt.KeyboardModifier.NoModifier
+BACK_S = 10
+"""Far longer than it takes; how long that is, ``tests.ui.exits`` measures."""
+
+QUICK = (
+    *("Alt+F4", "Escape", "Ctrl+Q", "Alt+Tab", "Alt+space", "Super+D", "Super+F2", "Ctrl+Alt+Right", "Ctrl+Alt+t"),
+    *(
+        "right click",
+        "drag with Alt (moves windows)",
+        "wheel with Alt (changes desktops)",
+        "close by the window manager",
+    ),
+    *("WM_DELETE_WINDOW", "minimise", "unmap at the server", "send to another desktop"),
+    *(
+        "show the empty desktop",
+        "another window above all",
+        "a window that nobody manages",
+        "move and resize at the server",
+    ),
+)
+
+
+@pytest.fixture(scope="module", params=[Desktop.STOCK, Desktop.SHIPPED], ids=lambda desktop: desktop.name.lower())
+def hands(request: pytest.FixtureRequest) -> Iterator[Hands]:
+    """Hands in front of a kiosk on a virtual desktop."""
+    desktop: Desktop = request.param
+    if desktop.missing:
+        pytest.skip(f"{', '.join(desktop.missing)} is not installed")
+    with kiosk_on(desktop) as kiosk, closing(Hands(kiosk)) as hands:
+        yield hands
+
+
+@pytest.mark.parametrize("attempt", [a for a in ATTEMPTS if a.name in QUICK], ids=lambda attempt: attempt.name)
+def test_the_kiosk_stands_after_an_attempt_to_leave_it(hands: Hands, attempt: Attempt) -> None:
+    assert hands.wait(BACK_S).holds
+    attempt.do(hands)
+    assert hands.wait(BACK_S).lacks == ""
+    hands.tidy()
+    assert hands.wait(BACK_S).lacks == ""
+    assert hands.answers(ATTEMPTS.index(attempt) % 24)
+
+
+def test_every_quick_attempt_is_one_of_the_list() -> None:
+    assert len(ATTEMPTS) >= 25
+    assert {attempt.name for attempt in ATTEMPTS} >= set(QUICK)
+
+
+@pytest.mark.parametrize("gesture", TOUCHES)
+def test_fingers_do_not_leave_the_kiosk(booth: Booth, gesture: str) -> None:
+    booth.start_game()
+    booth.settle()
+    TOUCHES[gesture](Fingers(booth.app))
+    assert booth.screen == "game"
+    assert booth.app.window.isVisible()
+    taps: list[object] = []
+    booth.app.screens.board.tapped.connect(taps.append)
+    booth.click("card-23")
+    assert len(taps) == 1
+
+
+@pytest.mark.parametrize("button", [Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton, Qt.MouseButton.BackButton])
+def test_no_other_button_does_anything(booth: Booth, button: Qt.MouseButton) -> None:
+    booth.start_game()
+    booth.click("card-3", button)
+    assert booth.screen == "game"
+    assert len(booth.app.screens.board.closed) == 24
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Multi_key, Qt.Key.Key_Dead_Acute, Qt.Key.Key_Henkan, Qt.Key.Key_Print])
+def test_keys_that_compose_or_photograph_do_nothing(booth: Booth, key: Qt.Key) -> None:
+    booth.start_game()
+    booth.settle()
+    QTest.keyClick(booth.app.window, key, NO_KEY)
+    assert booth.screen == "game"
+    assert len(booth.app.screens.board.closed) == 24
