@@ -36,7 +36,7 @@ class Flip:
     """A flip, and how long the visitor took for it while the board could be tapped, in ms."""
 
     event: CardFlipped
-    decision_ms: int | None
+    decision_ms: int
 
 
 @dataclass
@@ -68,25 +68,22 @@ class _Hand:
     """Since when the board could be tapped, less the pauses."""
 
     def __init__(self) -> None:
-        self._since: int | None = None
+        self._since = 0
         self._paused_at: int | None = None
 
     def open(self, at_ms: int) -> None:
         self._since = at_ms
 
-    def close(self) -> None:
-        self._since = None
-
     def pause(self, at_ms: int) -> None:
         self._paused_at = at_ms
 
     def go_on(self, at_ms: int) -> None:
-        if self._paused_at is not None and self._since is not None:
+        if self._paused_at is not None:
             self._since += at_ms - max(self._paused_at, self._since)
         self._paused_at = None
 
-    def spent(self, at_ms: int) -> int | None:
-        return None if self._since is None else at_ms - self._since
+    def spent(self, at_ms: int) -> int:
+        return at_ms - self._since
 
 
 def boards(kept: Kept) -> Iterator[Dealt]:
@@ -120,7 +117,6 @@ def _take(dealt: Dealt, event: object, hand: _Hand) -> None:
             dealt.decisions[flip] = event
         case HintGiven(flip=flip):
             dealt.hints[flip] = Hint(event)
-            hand.close()
         case HintMarked(at_ms=at_ms, flip=flip) if flip in dealt.hints:
             dealt.hints[flip].marked_ms = at_ms
         case BoardOpened(at_ms=at_ms) if dealt.hints:

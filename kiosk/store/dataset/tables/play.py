@@ -114,7 +114,6 @@ _FLIP_COLUMNS: tuple[Column[_Flip], ...] = columns(
             "back, or opened after a hint), less pauses.",
             Kind.WHOLE,
             "ms",
-            empty="the board was not open",
         ),
         lambda row: row.flip.decision_ms,
     ),
