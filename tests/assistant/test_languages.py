@@ -230,6 +230,22 @@ def test_a_reason_tells_what_was_seen_and_not_what_is_remembered(language: str) 
             assert not re.search(r"\d", sentence), sentence
 
 
+NUMBERS_IN_WORDS = {"en": r"twenty|twelve", "it": r"ventiquattro|dodici", "es": r"veinticuatro|doce"}
+
+
+@of_every_language_that_is_read_here
+def test_nothing_supposes_a_board_of_a_certain_size(language: str) -> None:
+    for said in catalogue(language).wordings("introduction-speech", cards=16, pairs=8):
+        assert "16" in said
+    assert not re.search(NUMBERS_IN_WORDS[language], catalogue(language).sources["screens.ftl"], re.IGNORECASE)
+
+
+@of_every_language
+def test_every_language_has_a_name_of_its_own(language: str) -> None:
+    others = [catalogue(other).text("language-name") for other in LANGUAGES if other != language]
+    assert catalogue(language).text("language-name") not in others
+
+
 @of_every_language
 def test_pictures_that_nobody_has_seen_are_not_named(language: str) -> None:
     said = catalogue(language).wordings("reason-first-nothing-known", **catalogue(language).card("zebra"))

@@ -9,7 +9,7 @@ attract-line = Play a game of pairs with me.
 attract-start = Start
 attract-greeting =
     .a = Hello! Shall we play?
-    .b = Twelve pairs are hidden here. Can you find them?
+    .b = Pairs are hidden here. Can you find them all?
     .c = Come closer, I like to play.
 
 ## About the study

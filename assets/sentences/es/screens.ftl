@@ -10,7 +10,7 @@ attract-line = Juega conmigo a encontrar las parejas.
 attract-start = Empezar
 attract-greeting =
     .a = ¡Hola! ¿Jugamos?
-    .b = Aquí se esconden doce parejas. ¿Puedes encontrarlas?
+    .b = Aquí se esconden parejas. ¿Puedes encontrarlas todas?
     .c = Acércate, me gusta jugar.
 
 ## About the study

@@ -10,7 +10,7 @@ attract-line = Gioca con me a trovare le coppie.
 attract-start = Inizia
 attract-greeting =
     .a = Ciao! Giochiamo?
-    .b = Qui si nascondono dodici coppie. Riesci a trovarle?
+    .b = Qui si nascondono delle coppie. Riesci a trovarle tutte?
     .c = Avvicinati, mi piace giocare.
 
 ## About the study

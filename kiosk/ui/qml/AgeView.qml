@@ -24,7 +24,7 @@ FocusScope {
         }
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
-            room: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
+            room: Math.min(900 * Theme.unit, view.width - 4 * Theme.gap)
             text: view.words["age-line"]
             font.pixelSize: Theme.body
             color: Theme.faintInk

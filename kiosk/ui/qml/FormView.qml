@@ -28,7 +28,7 @@ FocusScope {
             id: group
             anchors.centerIn: parent
             width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
-            spacing: (view.alone && !keyboard.visible ? 2 : 0.8) * Theme.gap
+            spacing: (view.dense || keyboard.visible ? 0.8 : view.alone ? 2 : 1.2) * Theme.gap
 
             Text {
                 id: progress

@@ -52,11 +52,12 @@ Item {
         if (event.accepted)
             scroll(steps[event.key] * pane.step)
     }
-    function holds(item: Item): bool {
+    // What of this column an item belongs to, or null.
+    function part(item: Item): Item {
         for (let above = item; above; above = above.parent)
-            if (above === column)
-                return true
-        return false
+            if (above.parent === column)
+                return above
+        return null
     }
 
     Flickable {
@@ -109,9 +110,10 @@ Item {
     Connections {
         target: pane.Window.window
         function onActiveFocusItemChanged() {
-            const item = pane.Window.activeFocusItem
-            if (pane.visible && item && pane.holds(item))
-                pane.reveal(item)
+            const item = pane.Window.activeFocusItem as Item
+            const whole = pane.visible && item ? pane.part(item) : null
+            if (whole)
+                pane.reveal(whole.height <= flick.height ? whole : item)
         }
     }
 }

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from urllib.parse import quote
-
 import segno
-from PySide6.QtCore import Property, QObject, Signal, Slot
+from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
@@ -165,7 +163,7 @@ class DebriefScreen(PageScreen):
             return ""
         subject = self._catalogue.text("debrief-subject", code=self._code)
         if "@" in self._contact:
-            return f"mailto:{self._contact}?subject={quote(subject)}"
+            return f"mailto:{self._contact}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
         return f"{subject}\n{self._contact}".rstrip()
 
     @Property(str, notify=given)
