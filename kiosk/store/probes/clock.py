@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from kiosk import BadInput
 from kiosk.findings import Finding
-from kiosk.store.database import FILE, open_for_reading
-from kiosk.store.probes.database import NEWEST_MS
+from kiosk.store.database import FILE
+from kiosk.store.glance import last_written_ms
 
 WHAT = "clock"
 
 SLACK = timedelta(minutes=1)
 """A clock that is set by the network may go back a little."""
 
+_MS_PER_SECOND = 1000
 _REMEDY = "set the clock (Debian: timedatectl set-ntp true); sittings before that keep their wrong dates"
 
 
@@ -40,8 +39,7 @@ def newest(folder: Path) -> datetime | None:
     if not (folder / FILE).exists():
         return None
     try:
-        with closing(open_for_reading(folder)) as connection:
-            (written_ms,) = connection.execute(NEWEST_MS).fetchone()
-    except (BadInput, sqlite3.Error):
+        written_ms = last_written_ms(folder)
+    except BadInput:
         return None
-    return datetime.fromtimestamp(written_ms / 1000, UTC) if written_ms else None
+    return datetime.fromtimestamp(written_ms / _MS_PER_SECOND, UTC) if written_ms else None

@@ -6,7 +6,7 @@ import sqlite3
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 from kiosk import BadInput
@@ -17,6 +17,7 @@ from kiosk.store.database import FILE, open_as_it_is, open_for_reading
 from kiosk.store.migrations import SCHEMA
 from kiosk.store.people.lists import Lists, PlaceList
 from kiosk.store.people.participants import checked_site
+from kiosk.store.probes.clock import newest
 from kiosk.study.allocation import ratio_in_words
 from kiosk.study.condition import Condition
 
@@ -69,22 +70,20 @@ def sittings(folder: Path, *, busy: bool) -> Iterator[Finding]:
 
 def copy(folder: Path, into: Path, now: datetime) -> Iterator[Finding]:
     """How old the newest copy is."""
-
-    def look(connection: sqlite3.Connection) -> Iterator[Finding]:
-        (written_ms,) = connection.execute(NEWEST_MS).fetchone()
-        newest = max((file.stat().st_mtime for file in backups(into)), default=None) if into.is_dir() else None
-        made = None if newest is None else datetime.fromtimestamp(newest, UTC)
-        if not written_ms:
-            yield Finding.good(COPY, "nothing is written yet")
-        elif made is None:
-            yield Finding.warning(COPY, f"there is no copy in {into}", "recollect backup")
-        elif now - made > OLD and datetime.fromtimestamp(written_ms / 1000, UTC) > made:
-            words = f"the newest copy is of {made.astimezone():%Y-%m-%d %H:%M}, and more was written since"
-            yield Finding.warning(COPY, words, "recollect backup")
-        else:
-            yield Finding.good(COPY, f"the newest copy is of {made.astimezone():%Y-%m-%d %H:%M}")
-
-    return _reading(folder, look)
+    written = newest(folder)
+    if written is None:
+        yield Finding.good(COPY, "nothing is written yet")
+        return
+    made = max((file.stat().st_mtime for file in backups(into)), default=None) if into.is_dir() else None
+    if made is None:
+        yield Finding.warning(COPY, f"there is no copy in {into}", "recollect backup")
+        return
+    at = datetime.fromtimestamp(made, now.tzinfo)
+    words = f"the newest copy is of {at:%Y-%m-%d %H:%M}"
+    if now - at > OLD and written > at:
+        yield Finding.warning(COPY, f"{words}, and more was written since", "recollect backup")
+    else:
+        yield Finding.good(COPY, words)
 
 
 def allocation(folder: Path, site: str, declared: Allocation) -> Iterator[Finding]:
@@ -117,11 +116,6 @@ def _left(stored: PlaceList | None, consumed: set[int], quotas: Mapping[Conditio
         return Finding.warning(LIST, f"used up: {done}", "raise the quotas in their ratio, or end the study")
     return Finding.good(LIST, done if places else f"{done}; fixed when the kiosk opens")
 
-
-NEWEST_MS = """
-    SELECT max(coalesce((SELECT max(wall_ms) FROM event), 0), coalesce((SELECT max(wall_ms) FROM booth_event), 0))
-"""
-"""When anything was written last, by the wall's clock, in ms since 1970; 0 if nothing was."""
 
 _Look = Callable[[sqlite3.Connection], Iterator[Finding]]
 
