@@ -79,12 +79,13 @@ def open_for_writing(folder: Path) -> sqlite3.Connection:
     return connection
 
 
-def open_for_reading(folder: Path) -> sqlite3.Connection:
+def open_for_reading(folder: Path, *, briefly: bool = False) -> sqlite3.Connection:
     """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done.
 
-    Of an older one a copy in memory is opened, which has taken the steps that it lacks.
+    Of an older one a copy in memory is opened, which has taken the steps that it lacks. Whoever looks only ``briefly``
+    leaves no file beside one that nobody writes, but does not see a writer who comes meanwhile.
     """
-    connection = open_as_it_is(folder)
+    connection = open_as_it_is(folder, briefly=briefly)
     if connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA:
         return connection
     copy = sqlite3.connect(":memory:", isolation_level=None)
@@ -99,14 +100,14 @@ def open_for_reading(folder: Path) -> sqlite3.Connection:
     return copy
 
 
-def open_as_it_is(folder: Path) -> sqlite3.Connection:
+def open_as_it_is(folder: Path, *, briefly: bool = False) -> sqlite3.Connection:
     """The same, but an older one is opened as it was written."""
     path = folder / FILE
     if not path.is_file():
         raise BadInput(f"there is no database in {folder}")
     try:
         _refuse_foreign_or_newer(path)
-        connection = _read_only(path)
+        connection = _read_only(path, briefly=briefly)
         try:
             connection.execute("SELECT 1 FROM migration")
         except sqlite3.Error:
@@ -126,8 +127,12 @@ def _make(folder: Path) -> None:
         raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
 
 
-def _read_only(path: Path) -> sqlite3.Connection:
-    return sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
+def _read_only(path: Path, *, briefly: bool) -> sqlite3.Connection:
+    # Where no log lies beside it nobody writes, and SQLite would make one and leave it: as a file of whoever looks,
+    # which another user's kiosk could not open.
+    logged = any(path.with_name(f"{path.name}-{log}").exists() for log in ("wal", "journal"))
+    how = "mode=ro&immutable=1" if briefly and not logged else "mode=ro"
+    return sqlite3.connect(f"{path.resolve().as_uri()}?{how}", uri=True, isolation_level=None)
 
 
 def _prepare(connection: sqlite3.Connection) -> None:
@@ -155,7 +160,7 @@ def _refuse_foreign_or_newer(path: Path) -> None:
     _refuse_newer(_number(header, _USER_VERSION_AT), path)
     if path.with_name(f"{path.name}-wal").exists():
         # A newer number may still stand in the write-ahead log alone; only a connection that may write would move it.
-        with closing(_read_only(path)) as connection:
+        with closing(_read_only(path, briefly=True)) as connection:
             _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
 
 

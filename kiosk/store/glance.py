@@ -99,7 +99,7 @@ def wrong_pins(folder: Path) -> Wrong:
 
 @contextmanager
 def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
-    with closing(open_for_reading(folder)) as connection:
+    with closing(open_for_reading(folder, briefly=True)) as connection:
         try:
             yield connection
         except sqlite3.Error as error:

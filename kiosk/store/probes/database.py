@@ -33,7 +33,7 @@ def database(folder: Path, *, busy: bool) -> Iterator[Finding]:
         yield Finding.good(DATABASE, "none yet; it is made when the kiosk opens")
         return
     try:
-        with closing(open_as_it_is(folder)) as connection:
+        with closing(open_as_it_is(folder, briefly=True)) as connection:
             schema = connection.execute("PRAGMA user_version").fetchone()[0]
             answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
     except (BadInput, sqlite3.Error) as failure:
@@ -123,7 +123,7 @@ _Look = Callable[[sqlite3.Connection], Iterator[Finding]]
 def _reading(folder: Path, look: _Look) -> Iterator[Finding]:
     """What is found in the database; nothing where there is none, and the file's own finding says it if it is bad."""
     try:
-        with closing(open_for_reading(folder)) as connection:
+        with closing(open_for_reading(folder, briefly=True)) as connection:
             yield from look(connection)
     except (BadInput, sqlite3.Error):
         return
