@@ -171,9 +171,7 @@ def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | No
     """One keeper, one visitor, one fault."""
     with tempfile.TemporaryDirectory(prefix="revival-") as place, kept_in(Path(place), stage, environment) as kept:
         folder = Path(place)
-        kept.wait_for("attract", UNTIL_STAGE_S)
-        if stage != "attract":
-            kept.wait_for(stage, UNTIL_STAGE_S)
+        kept.wait_for(stage, UNTIL_STAGE_S)
         kept.seen.clear()
         struck = kept.kiosk()
         at = time.monotonic()
