@@ -82,7 +82,8 @@ def _visit_corners(hands: Hands) -> None:
 
 
 def _spelt(chord: str) -> str:
-    return "+".join(part if len(part) > 5 or part[0].isupper() else part.capitalize() for part in chord.split("+"))
+    """As people write it: Ctrl+Alt+T."""
+    return "+".join(part[0].upper() + part[1:] for part in chord.split("+"))
 
 
 MOUSE = [

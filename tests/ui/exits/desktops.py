@@ -49,7 +49,7 @@ class Desktop(Enum):
             Desktop.BARE: ["Xvfb"],
             Desktop.STOCK: ["Xvfb", "openbox"],
             Desktop.SHIPPED: ["Xvfb", "openbox"],
-            Desktop.CAGE: ["cage", "Xwayland", "grim", "setpriv"],
+            Desktop.CAGE: ["cage", "Xwayland", "setpriv"],
         }
         return [program for program in needed[self] if shutil.which(program) is None]
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from time import monotonic, sleep
 
 from PySide6.QtCore import QRect
-from PySide6.QtGui import QImage
 from Xlib import XK, X, Xatom
 from Xlib.display import Display
 from Xlib.error import XError
@@ -29,6 +27,7 @@ GAPS = ((0, 7), (2, 9), (8, 15), (16, 23))
 MODIFIERS = {"ctrl": "Control_L", "alt": "Alt_L", "shift": "Shift_L", "super": "Super_L"}
 BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5, "back": 8, "forward": 9}
 STEPS = 12
+ANSWER_S = 2
 
 for group in ("xf86", "xkb"):
     XK.load_keysym_group(group)
@@ -134,11 +133,7 @@ class Hands:
 
     def cover(self, *, state: str = "", managed: bool = True) -> None:
         """Map another program's window over the kiosk."""
-        window = self.root.create_window(
-            *(200, 150, 500, 400, 0, self.display.screen().root_depth),
-            override_redirect=not managed,
-            background_pixel=self.display.screen().black_pixel,
-        )
+        window = self._create((200, 150, 500, 400), managed=managed)
         window.set_wm_name("another program")
         if state:
             atom = self.display.intern_atom(state)
@@ -146,6 +141,13 @@ class Hands:
         window.map()
         self.display.sync()
         self.made.append(window)
+
+    def _create(self, place: tuple[int, int, int, int], *, managed: bool) -> Window:
+        screen = self.display.screen()
+        window: Window = self.root.create_window(
+            *(*place, 0, screen.root_depth), override_redirect=not managed, background_pixel=screen.black_pixel
+        )
+        return window
 
     def close(self) -> None:
         """Go away."""
@@ -167,26 +169,28 @@ class Hands:
             return Standing(
                 lives=self.kiosk.lives,
                 full_screen=self._place() == (0, 0, *SIZE),
-                # In cage, what is on top is its own affair and not the X server's: there, only looking tells.
-                on_top=self._is_drawn_by_another or not self._over(),
+                on_top=self._is_in_front() if self._is_drawn_by_another else not self._over(),
                 active=self._active(),
-                to_be_seen=set(self.samples()) == {PAPER},
+                to_be_seen=self._is_drawn_by_another or set(self.samples()) == {PAPER},
             )
         except (XError, OSError):
             return Standing(self.kiosk.lives, *[False] * 4)
 
     @property
     def _is_drawn_by_another(self) -> bool:
+        """In cage, stacking and drawing are its own affair; on a headless screen it shows nothing to photograph."""
         return "WAYLAND_DISPLAY" in self.kiosk.environment
+
+    def _is_in_front(self) -> bool:
+        """Whether the kiosk is the window that cage has put in front: the one that it makes active."""
+        active = self.root.get_full_property(self.display.intern_atom("_NET_ACTIVE_WINDOW"), Xatom.WINDOW)
+        return active is not None and list(active.value) == [self.window.id]
 
     def samples(self) -> list[int]:
         """The colours near the four corners of the whole screen, and between cards."""
         places = [(x, y) for x in (NEAR, SIZE[0] - NEAR - 1) for y in (NEAR, SIZE[1] - NEAR - 1)]
         cards = self.kiosk.begun["places"]
         places += [_between(cards[one], cards[other]) for one, other in GAPS]
-        if self._is_drawn_by_another:
-            image = _photograph(self.kiosk.environment)
-            return [image.pixel(*place) & 0xFFFFFF for place in places]
         pixels = [self.root.get_image(*place, 1, 1, X.ZPixmap, 0xFFFFFFFF).data for place in places]
         return [int.from_bytes(pixel[:3], "little") for pixel in pixels]
 
@@ -194,7 +198,10 @@ class Hands:
         """Whether a click on a card is felt."""
         self.kiosk.forget()
         self.press("left", self.kiosk.begun["places"][card])
-        return self.kiosk.hear("tapped", 2) == {"tapped": card}
+        while (told := self.kiosk.hear("tapped", ANSWER_S)) is not None and told != {"tapped": card}:
+            # An attempt may have ended in a tap of its own, such as by a space.
+            pass
+        return told is not None
 
     def wait(self, seconds: float) -> Standing:
         """Wait until the kiosk stands as it should, for no longer than this."""
@@ -246,10 +253,3 @@ class Hands:
 
 def _between(one: Sequence[int], other: Sequence[int]) -> tuple[int, int]:
     return (one[0] + other[0]) // 2, (one[1] + other[1]) // 2
-
-
-def _photograph(environment: dict[str, str]) -> QImage:
-    """What is on the whole screen of a Wayland compositor."""
-    command = ["grim", "-t", "ppm", "-"]
-    picture = subprocess.run(command, env=environment, capture_output=True, check=True).stdout
-    return QImage.fromData(picture)

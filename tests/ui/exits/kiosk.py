@@ -41,6 +41,7 @@ def show_board(app: App) -> None:
     """Show a closed board that takes taps, and tell where its cards are."""
     app.screens.board.deal(4, 6, 12, "animals")
     app.screens.kiosk.show("game")
+    app.screens.kiosk.settle()
     app.screens.board.tapped.connect(lambda position: tell(tapped=app.screens.board.location(position)))
     lay_out(app.window)
     cards = [find(app.window.contentItem(), f"card-{number}") for number in range(CARDS)]
