@@ -31,6 +31,6 @@ Button {
         border.color: Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
-        FocusRing { visible: button.visualFocus }
+        FocusRing { around: button }
     }
 }

@@ -128,6 +128,7 @@ FocusScope {
         cellHeight: view.cell
         interactive: false
         focus: true
+        activeFocusOnTab: true
         keyNavigationEnabled: true
         model: view.board
         Accessible.role: Accessible.Table
@@ -175,7 +176,7 @@ FocusScope {
                 radius: Theme.radius * 1.4
                 color: "transparent"
                 border { color: Theme.ink; width: 5 * Theme.unit }
-                visible: cards.activeFocus && cards.currentIndex === place.index && cards.byKeyboard
+                visible: cards.activeFocus && cards.currentIndex === place.index && (cards.byKeyboard || Theme.byKeyboard)
             }
             TapHandler {
                 id: tap

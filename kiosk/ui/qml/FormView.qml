@@ -42,7 +42,10 @@ FocusScope {
                 id: home
                 width: parent.width
                 height: pane.height
+                // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
                 focus: true
+                Accessible.role: Accessible.Form
+                Accessible.name: view.form.progress || (view.form.items[0]?.text ?? "")
                 ScrollPane {
                     id: pane
                     width: parent.width
@@ -90,7 +93,7 @@ FocusScope {
         function onChanged() {
             keyboard.field = null
             pane.rewind()
-            go.focus = true
+            home.focus = true
         }
         function onMissed(item: string) {
             for (let i = 0; i < boxes.count; i++) {

@@ -1,6 +1,7 @@
 // The one window: a screen on the left, the assistant on the right, and at times a calm word over both.
 pragma ComponentBehavior: Bound
 import QtQuick
+import QtQuick.Templates as T
 import QtQuick.Window
 import Recollect
 import "."
@@ -51,6 +52,18 @@ Window {
     Binding { target: Theme; property: "textSize"; value: root.textSize }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
+
+    // Somebody works by keyboard who came somewhere by Tab, and no more once they have pointed at something.
+    function notice(item: T.Control) {
+        if (item && item.focusReason !== Qt.OtherFocusReason && item.focusReason !== Qt.NoFocusReason)
+            Theme.byKeyboard = item.visualFocus
+    }
+    onActiveFocusItemChanged: notice(activeFocusItem as T.Control)
+    Connections {
+        target: root.activeFocusItem as T.Control
+        ignoreUnknownSignals: true
+        function onFocusReasonChanged() { root.notice(root.activeFocusItem as T.Control) }
+    }
 
     Item {
         id: stage
@@ -170,6 +183,6 @@ Window {
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
         height: root.replay === null ? 0 : 48
         active: root.replay !== null
-        sourceComponent: ReplayControls { replay: root.replay }
+        sourceComponent: ReplayControls { replay: root.replay; words: root.kiosk.words }
     }
 }

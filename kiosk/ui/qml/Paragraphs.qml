@@ -7,7 +7,7 @@ Column {
     id: paragraphs
 
     required property list<string> texts
-    property real size: 0.9 * Theme.body
+    property real size: Theme.reading
 
     spacing: 0.7 * Theme.gap
     Repeater {

@@ -7,6 +7,7 @@ Rectangle {
     id: bar
 
     required property ReplayBar replay
+    required property var words
 
     color: Theme.ink
 
@@ -32,7 +33,7 @@ Rectangle {
         Words { text: bar.replay.runs ? "▶" : "❚❚"; width: 28 }
         Words { text: bar.replay.title; font.bold: true }
         Words { text: bar.replay.place; color: bar.replay.differs ? Theme.amber : Theme.paper }
-        Words { visible: bar.replay.differs; text: "differs from the record"; color: Theme.amber; font.bold: true }
+        Words { visible: bar.replay.differs; text: bar.words["replay-differs"]; color: Theme.amber; font.bold: true }
     }
     Words {
         anchors { right: parent.right; rightMargin: Theme.gap }
@@ -48,6 +49,12 @@ Rectangle {
             color: Theme.amber
         }
         MouseArea {
+            // Not a stop of Tab's: its keys are the arrows, wherever the keyboard is.
+            Accessible.role: Accessible.Slider
+            Accessible.name: bar.words["replay-line"]
+            Accessible.description: bar.replay.place
+            Accessible.onIncreaseAction: bar.replay.step()
+            Accessible.onDecreaseAction: bar.replay.back()
             anchors { fill: parent; bottomMargin: -10 * Theme.unit }
             onClicked: mouse => bar.replay.seek(Math.round(mouse.x / width * bar.replay.steps))
         }

@@ -19,7 +19,8 @@ Item {
         width: Math.min(parent.width - 40 * Theme.unit, parent.height * 0.52 * 400 / 440)
         height: width * 440 / 400
         mood: panel.avatar.mood
-        mouth: panel.avatar.mouth
+        // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
+        mouth: Theme.motion === 0 ? 0 : panel.avatar.mouth
         gazeX: panel.avatar.gazeX
         gazeY: panel.avatar.gazeY
         blinking: panel.avatar.blinking

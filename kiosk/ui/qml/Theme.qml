@@ -6,6 +6,8 @@ QtObject {
     // Set by the window, as all that is not readonly: pixels of one unit of a 1080-line screen, and the factor for texts.
     property real unit: 1
     property real textSize: 1
+    // Whether whoever is there works by keyboard: what has it then shows so, on a screen that only just came too.
+    property bool byKeyboard: false
     // How long anything takes to move, in ms; 0 without motion.
     property int motion: 0
 
@@ -30,8 +32,10 @@ QtObject {
     readonly property real heading: size(46)
     readonly property real body: size(32)
     readonly property real small: size(26)
-    // What the experimenter reads, who sits close and wants all of it at once.
-    readonly property real dense: 22 * unit * textSize
+    readonly property real reading: size(29)
+    // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.
+    readonly property real dense: Math.max(20, 22 * textSize) * unit
+    readonly property real denser: 20 * unit
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
 

@@ -13,7 +13,7 @@ AbstractButton {
 
     focusPolicy: Qt.StrongFocus
     padding: 8 * Theme.unit
-    font.pixelSize: 0.9 * Theme.body
+    font.pixelSize: Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: text
     Accessible.description: warning || note
@@ -26,7 +26,11 @@ AbstractButton {
     background: Rectangle {
         radius: Theme.radius
         color: box.hovered || box.down ? Theme.white : "transparent"
-        border { color: box.visualFocus ? Theme.ink : "transparent"; width: 4 * Theme.unit }
+        FocusRing {
+            around: box
+            reach: 0
+            radius: Theme.radius
+        }
     }
     contentItem: Row {
         spacing: Theme.gap

@@ -33,7 +33,7 @@ class Hand:
 
     def click(self, name: str, across: float = 0.5) -> None:
         """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1)."""
-        QTest.mouseClick(self._window, LEFT, NO_KEY, self._reach(name, across))
+        self._tap(self._reach(name, across))
 
     def double_click(self, name: str, across: float = 0.5) -> None:
         """Do it twice, as fast as a double click."""
@@ -42,7 +42,7 @@ class Hand:
     def tap_anywhere(self, chance: Random) -> None:
         """Click wherever it happens to be."""
         place = QPoint(chance.randrange(self._window.width()), chance.randrange(self._window.height()))
-        QTest.mouseClick(self._window, LEFT, NO_KEY, place)
+        self._tap(place)
 
     def type(self, text: str) -> None:
         """Press the keys of a real keyboard."""
@@ -53,6 +53,9 @@ class Hand:
     def sees(self, name: str) -> bool:
         """Whether there is an item of this name to be seen."""
         return find(self._window.contentItem(), name) is not None
+
+    def _tap(self, place: QPoint) -> None:
+        QTest.mouseClick(self._window, LEFT, NO_KEY, place)
 
     def _reach(self, name: str, across: float) -> QPoint:
         """Where to click on an item; what is further down is scrolled to."""
@@ -65,7 +68,7 @@ class Hand:
             further = find(self._window.contentItem(), "more")
             if further is None or not further.isEnabled():
                 raise Stuck(f"{name!r} lies where it cannot be clicked")
-            QTest.mouseClick(self._window, LEFT, NO_KEY, middle(further))
+            self._tap(middle(further))
         raise Stuck(f"{name!r} never comes, however far one scrolls")
 
     def _look_for(self, name: str) -> QQuickItem:

@@ -6,7 +6,10 @@ It looks only at what the screens show and acts only with its hand, so whatever 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from random import Random
+
+from PySide6.QtQuick import QQuickWindow
 
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
@@ -14,7 +17,7 @@ from kiosk.study.declared.questionnaire import Item
 from kiosk.study.events import Stage, WorldEvent
 from kiosk.ui.app import App
 from kiosk.ui.rehearsing.filling import Errand, Filling
-from kiosk.ui.rehearsing.hand import Hand, Stuck
+from kiosk.ui.rehearsing.hand import Aside, Hand, Stuck
 from kiosk.ui.rehearsing.pulse import Pulse
 from kiosk.ui.rehearsing.shots import Shots
 from kiosk.ui.rehearsing.visitor import Character, Manner, View, Visitor
@@ -31,12 +34,25 @@ _LINGERING = frozenset({Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GA
 
 _USUAL = Character()
 
+MakeHand = Callable[[QQuickWindow, Aside], Hand]
+"""Gives a visitor the hand to work a window with."""
+
 
 class Rehearsal:
     """One sitting of one simulated visitor."""
 
-    def __init__(self, app: App, seed: int, shots: Shots | None = None, visitor: Character = _USUAL) -> None:
-        """Go through it on this kiosk; the same seed does the same things. ``shots`` takes pictures on the way."""
+    def __init__(
+        self,
+        app: App,
+        seed: int,
+        shots: Shots | None = None,
+        visitor: Character = _USUAL,
+        hand: MakeHand = Hand,
+    ) -> None:
+        """Go through it on this kiosk; the same seed does the same things.
+
+        ``shots`` takes pictures on the way; ``hand`` reaches what a visitor wants in another way than with a mouse.
+        """
         self.pulse = Pulse()
         self._app = app
         self._manner = visitor.manner
@@ -45,7 +61,7 @@ class Rehearsal:
         chance = Random(f"{seed}/visitor")
         self._chance = chance
         self._visitor = Visitor(chance)
-        self._hand = Hand(app.window, self.pulse.aside)
+        self._hand = hand(app.window, self.pulse.aside)
         self._filling = Filling(self._hand, chance, hasty=visitor.manner is Manner.HASTY)
         self._page: object = None
         self._errands: deque[Errand] = deque()

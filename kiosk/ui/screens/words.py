@@ -30,6 +30,7 @@ FIXED = (
     "form-skip",
     "form-finish",
     "form-missing",
+    "form-none",
     "form-type",
     "form-less",
     "form-more",
@@ -48,6 +49,8 @@ FIXED = (
     "still-there-yes",
     "pause-title",
     "pause-line",
+    "replay-line",
+    "replay-differs",
 )
 """Every message that QML shows as it stands; those with variables are filled in by the screens' objects."""
 

@@ -39,7 +39,7 @@ Flow {
             focus: index === 0
             width: list.stacked ? list.width : Math.min(implicitWidth, list.width)
             text: modelData.text
-            font.pixelSize: list.alone ? Theme.body : 0.9 * Theme.body
+            font.pixelSize: list.alone ? Theme.body : Theme.reading
             leftPadding: 22 * Theme.unit
             rightPadding: 30 * Theme.unit
             verticalPadding: (list.alone ? 16 : 10) * Theme.unit
@@ -89,13 +89,10 @@ Flow {
                 radius: Theme.radius
                 color: option.picked || option.hovered ? Theme.sand : Theme.white
                 border { color: Theme.sea; width: (option.picked ? 5 : 3) * Theme.unit }
-                Rectangle {
-                    anchors.fill: parent
-                    anchors.margins: -7 * Theme.unit
-                    radius: Theme.radius + 7 * Theme.unit
-                    color: "transparent"
-                    border { color: Theme.ink; width: 4 * Theme.unit }
-                    visible: option.visualFocus
+                FocusRing {
+                    around: option
+                    reach: 7 * Theme.unit
+                    radius: Theme.radius + reach
                 }
             }
         }

@@ -49,7 +49,7 @@ Rectangle {
             width: box.item.kind === "page" ? Math.min(implicitWidth, parent.width) : parent.width
             text: box.item.text
             font {
-                pixelSize: box.item.kind === "page" ? Theme.body : box.alone ? Theme.heading : (box.dense ? 0.9 : 1) * Theme.body
+                pixelSize: box.item.kind === "page" ? Theme.body : box.alone ? Theme.heading : box.dense ? Theme.reading : Theme.body
                 bold: box.item.kind !== "page"
             }
             lineHeight: box.item.kind === "page" ? 1.15 : 1
@@ -71,7 +71,6 @@ Rectangle {
             x: box.alone ? (parent.width - width) / 2 : 0
             active: box.ways[box.item.kind] !== null
             visible: active
-            focus: true
             sourceComponent: box.ways[box.item.kind]
         }
     }
@@ -102,6 +101,7 @@ Rectangle {
             highest: box.item.highest
             leftEnd: box.item.left
             rightEnd: box.item.right
+            none: box.words["form-none"]
             answered: box.answer !== undefined
             given: box.answer ?? 0
             alone: box.alone
@@ -140,6 +140,7 @@ Rectangle {
         id: letters
         TypedField {
             id: field
+            focus: true
             objectName: `text-${box.item.id}`
             width: Math.min(content.width, 1000 * Theme.unit)
             label: box.item.text
@@ -147,7 +148,7 @@ Rectangle {
             maximumLength: box.item.longest
             onTextChanged: box.form.draft(box.item.id, text)
             onEditingFinished: box.done()
-            onActiveFocusChanged: if (activeFocus) box.entered(field)
+            onPointed: box.entered(field)
         }
     }
 }

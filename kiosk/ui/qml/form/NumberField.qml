@@ -44,7 +44,11 @@ Row {
         background: Rectangle {
             radius: width / 2
             color: button.hovered ? Theme.sand : Theme.white
-            border { color: button.visualFocus ? Theme.ink : Theme.sea; width: (button.visualFocus ? 7 : 3) * Theme.unit }
+            border { color: Theme.sea; width: 3 * Theme.unit }
+            FocusRing {
+                around: button
+                reach: 7 * Theme.unit
+            }
         }
     }
 
@@ -56,7 +60,8 @@ Row {
     TypedField {
         id: field
         objectName: `number-${number.item}`
-        label: number.label
+        focus: true
+        label: `${number.label} ${number.range}`
         digits: true
         width: 170 * Theme.unit * Theme.textSize
         horizontalAlignment: TextInput.AlignHCenter
@@ -64,7 +69,7 @@ Row {
         validator: RegularExpressionValidator { regularExpression: /[0-9]*/ }
         onTextChanged: number.typed(text)
         onEditingFinished: number.done()
-        onActiveFocusChanged: if (activeFocus) number.entered(field)
+        onPointed: number.entered(field)
         Keys.onUpPressed: number.step(1)
         Keys.onDownPressed: number.step(-1)
     }

@@ -81,6 +81,7 @@ Item {
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
+                Accessible.checkable: true
                 Accessible.checked: picked
                 onClicked: scale.chosen(number)
                 onDoubleClicked: {}
@@ -111,13 +112,10 @@ Item {
                     color: point.picked ? (scale.pictured ? Theme.sand : Theme.sea) : point.hovered ? Theme.sand : Theme.white
                     border.color: Theme.sea
                     border.width: (point.picked && scale.pictured ? 8 : 3) * Theme.unit
-                    Rectangle {
-                        anchors.fill: parent
-                        anchors.margins: -8 * Theme.unit
-                        radius: scale.pictured ? Theme.radius + 8 * Theme.unit : width / 2
-                        color: "transparent"
-                        border { color: Theme.ink; width: 4 * Theme.unit }
-                        visible: point.visualFocus
+                    FocusRing {
+                        around: point
+                        reach: 8 * Theme.unit
+                        radius: scale.pictured ? Theme.radius + reach : height / 2
                     }
                 }
             }

@@ -24,7 +24,7 @@ Rectangle {
     onVisibleChanged: capitals = false
 
     // Between the keys nothing happens, and nothing below is reached.
-    MouseArea { anchors.fill: parent }
+    MouseArea { anchors.fill: parent; Accessible.ignored: true }
 
     // Not named Key: outside of QML, that name belongs to something else.
     component ScreenKey: AbstractButton {
@@ -65,6 +65,8 @@ Rectangle {
                     objectName: "key-shift"
                     text: keyboard.words["keyboard-shift"]
                     pressedIn: keyboard.capitals
+                    Accessible.checkable: true
+                    Accessible.checked: pressedIn
                     onClicked: keyboard.capitals = !keyboard.capitals
                 }
                 Repeater {

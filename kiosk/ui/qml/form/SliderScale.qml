@@ -13,6 +13,7 @@ Item {
     required property int highest
     required property string leftEnd
     required property string rightEnd
+    required property string none       // "nothing is chosen yet"
     required property bool answered
     required property int given
     required property bool alone
@@ -20,6 +21,8 @@ Item {
 
     readonly property real beside: 230 * Theme.unit * Theme.textSize
     readonly property bool below: alone || width < 4 * beside
+    readonly property int range: highest - lowest
+    readonly property int leap: Math.max(1, Math.round(range / 10))
     readonly property real thickness: (alone ? 68 : 56) * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
@@ -52,8 +55,11 @@ Item {
         id: slider
 
         // Where it is let go, or where a key has brought it; the first key begins in the middle.
-        function tell() {
-            scale.chosen(Math.round(value))
+        function tell(to: real) {
+            scale.chosen(Math.round(Math.max(scale.lowest, Math.min(scale.highest, to))))
+        }
+        function step(by: int) {
+            tell(scale.answered || Math.abs(by) === scale.range ? value + by : value)
         }
         objectName: `slider-${scale.item}`
         anchors.horizontalCenter: parent.horizontalCenter
@@ -66,17 +72,22 @@ Item {
         stepSize: 1
         value: scale.answered ? scale.given : (scale.lowest + scale.highest) / 2
         focusPolicy: Qt.StrongFocus
-        Accessible.name: scale.label
-        onPressedChanged: if (!pressed) tell()
+        focus: true
+        Accessible.name: `${scale.label} ${scale.leftEnd} – ${scale.rightEnd}`
+        Accessible.description: scale.answered ? `${scale.given}` : scale.none
+        Accessible.onIncreaseAction: step(1)
+        Accessible.onDecreaseAction: step(-1)
+        onPressedChanged: if (!pressed) tell(value)
         Keys.onPressed: event => {
-            const ways = { [Qt.Key_Left]: -1, [Qt.Key_Right]: 1 }
-            const first = !scale.answered && (event.key in ways || event.key === Qt.Key_Space || event.key === Qt.Key_Return)
-            event.accepted = first || event.key in ways
-            if (!event.accepted)
-                return
-            if (!first)
-                ways[event.key] > 0 ? increase() : decrease()
-            tell()
+            const ways = {
+                [Qt.Key_Left]: -1, [Qt.Key_Right]: 1, [Qt.Key_Space]: 0, [Qt.Key_Return]: 0, [Qt.Key_Enter]: 0,
+                [Qt.Key_PageDown]: -scale.leap, [Qt.Key_PageUp]: scale.leap,
+                [Qt.Key_Home]: -scale.range, [Qt.Key_End]: scale.range
+            }
+            const by = ways[event.key]
+            event.accepted = by !== undefined && (by !== 0 || !scale.answered)
+            if (event.accepted)
+                step(by)
         }
 
         background: Rectangle {
@@ -87,13 +98,9 @@ Item {
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
-            Rectangle {
-                anchors.fill: parent
-                anchors.margins: -22 * Theme.unit
-                radius: height / 2
-                color: "transparent"
-                border { color: Theme.ink; width: 4 * Theme.unit }
-                visible: slider.visualFocus
+            FocusRing {
+                around: slider
+                reach: 22 * Theme.unit
             }
         }
         handle: Rectangle {

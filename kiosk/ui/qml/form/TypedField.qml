@@ -8,6 +8,8 @@ TextField {
 
     required property string label
     property bool digits: false
+    // By mouse or touch: whoever comes by keyboard has one.
+    signal pointed()
 
     // What the keys on the screen do.
     function type(letters: string) {
@@ -31,10 +33,16 @@ TextField {
     activeFocusOnTab: true
     inputMethodHints: digits ? Qt.ImhDigitsOnly | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
     Accessible.name: label
+    onPressed: pointed()
 
     background: Rectangle {
         radius: Theme.radius
         color: Theme.white
         border { color: field.activeFocus ? Theme.ink : Theme.sea; width: (field.activeFocus ? 5 : 3) * Theme.unit }
+        FocusRing {
+            visible: field.activeFocus
+            reach: 8 * Theme.unit
+            radius: Theme.radius + reach
+        }
     }
 }

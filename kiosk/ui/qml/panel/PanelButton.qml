@@ -7,16 +7,17 @@ import ".."
 Button {
     id: button
 
-    // One of several, and the one that holds.
+    // The one of several that holds; or what is on, and whose words then say how to end it.
     property bool chosen: false
+    property bool choosable: false
     property int alignment: Text.AlignHCenter
 
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
     font { pixelSize: Theme.dense; bold: chosen }
-    opacity: enabled ? 1 : 0.45
-    Accessible.checked: chosen
+    Accessible.checkable: choosable
+    Accessible.checked: choosable && chosen
 
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
@@ -28,7 +29,7 @@ Button {
     contentItem: Text {
         text: button.text
         font: button.font
-        color: button.chosen ? Theme.white : Theme.sea
+        color: button.chosen ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
         horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
         elide: Text.ElideRight
@@ -36,14 +37,13 @@ Button {
     background: Rectangle {
         radius: 12 * Theme.unit
         color: button.chosen ? Theme.sea : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
-        border { color: Theme.sea; width: 2 * Theme.unit }
-        Rectangle {
-            anchors.fill: parent
-            anchors.margins: -5 * Theme.unit
+        // What cannot be pressed now has no edge.
+        border { color: Theme.sea; width: button.enabled ? 2 * Theme.unit : 0 }
+        FocusRing {
+            around: button
+            reach: 5 * Theme.unit
             radius: 15 * Theme.unit
-            color: "transparent"
-            border { color: Theme.ink; width: 3 * Theme.unit }
-            visible: button.visualFocus
+            border.width: 3 * Theme.unit
         }
     }
 }

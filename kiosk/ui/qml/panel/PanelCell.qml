@@ -6,11 +6,14 @@ import ".."
 Text {
     required property string words
     property bool heading: false
+    property string column: ""      // its heading, for those who hear one field after another
     property bool number: false
 
     text: words
-    font.pixelSize: heading ? Theme.dense * 0.82 : Theme.dense
+    font.pixelSize: heading ? Theme.denser : Theme.dense
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
     elide: Text.ElideRight
+    Accessible.role: heading ? Accessible.ColumnHeader : Accessible.StaticText
+    Accessible.name: column === "" ? words : `${column}: ${words || "0"}`
 }

@@ -32,6 +32,9 @@ Column {
                 objectName: choice.deed + "-" + modelData.value
                 text: modelData.label
                 chosen: modelData.value === choice.chosen
+                choosable: true
+                Accessible.role: Accessible.RadioButton
+                Accessible.name: `${choice.title} ${text}`
                 onClicked: choice.picked(modelData.value)
             }
         }

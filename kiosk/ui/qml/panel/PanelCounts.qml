@@ -12,13 +12,15 @@ PanelSection {
     readonly property real second: width * 0.22
     readonly property real other: (width - first - second - 1.6 * Theme.gap) / 4
 
+    readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
+
     title: words["desk-counts"]
 
     Row {
         Text { width: counts.first; text: " "; font.pixelSize: Theme.dense }
         PanelCell { width: counts.second; words: counts.words["desk-counts-done"]; heading: true }
         Repeater {
-            model: ["dropped", "overridden", "beyond", "withdrawn"]
+            model: counts.columns
             delegate: PanelCell {
                 required property string modelData
                 width: counts.other
@@ -60,6 +62,7 @@ PanelSection {
                     id: done
                     x: parent.width * 0.56
                     text: cell.modelData.done
+                    Accessible.name: `${text} ${counts.words["desk-counts-done"]}`
                     font.pixelSize: Theme.dense
                     color: Theme.ink
                 }
@@ -67,9 +70,11 @@ PanelSection {
             Repeater {
                 model: cell.modelData.counts
                 delegate: PanelCell {
+                    required property int index
                     required property string modelData
                     width: counts.other
                     words: modelData
+                    column: counts.words["desk-counts-" + counts.columns[index]]
                     number: true
                 }
             }
@@ -78,7 +83,7 @@ PanelSection {
     Text {
         width: parent.width
         text: counts.records.visits
-        font.pixelSize: Theme.dense * 0.92
+        font.pixelSize: Theme.denser
         color: Theme.faintInk
         wrapMode: Text.WordWrap
     }

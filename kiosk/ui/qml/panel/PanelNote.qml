@@ -10,6 +10,9 @@ Rectangle {
     required property NoteScreen note
 
     objectName: "experimenter-note"
+    Accessible.role: Accessible.AlertMessage
+    // The dots say nothing of the study, and so neither does their name.
+    Accessible.name: note.text || `${note.chosen + 1} / ${note.dots}`
     visible: note.text !== "" || note.dots > 0
     width: content.width + 2 * Theme.gap
     height: content.height + Theme.gap

@@ -14,7 +14,7 @@ FocusScope {
 
     objectName: "panel"
     Keys.onEscapePressed: panel.wish("panel", "")
-    Component.onCompleted: close.forceActiveFocus(Qt.OtherFocusReason)
+    Component.onCompleted: close.forceActiveFocus(Qt.ShortcutFocusReason)
 
     Rectangle {
         anchors.fill: parent
@@ -142,7 +142,7 @@ FocusScope {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
         text: view.words["desk-keys"]
-        font.pixelSize: Theme.dense * 0.9
+        font.pixelSize: Theme.denser
         color: Theme.faintInk
         wrapMode: Text.WordWrap
     }

@@ -18,6 +18,9 @@ Rectangle {
     color: Theme.white
     border { color: Theme.sea; width: 3 * Theme.unit }
 
+    Accessible.role: Accessible.Dialog
+    Accessible.name: card.title
+
     // Nothing below it is pressed through it.
     MouseArea { anchors.fill: parent; Accessible.ignored: true }
 
@@ -38,6 +41,11 @@ Rectangle {
             radius: 12 * Theme.unit
             color: Theme.paper
             border { color: pin.card.step === "wait" ? Theme.deepAmber : Theme.sea; width: 2 * Theme.unit }
+            // The keys come here wherever the keyboard is; of a PIN no more is told than how long it is.
+            Accessible.role: Accessible.EditableText
+            Accessible.name: pin.card.title
+            Accessible.description: pin.card.text
+            Accessible.readOnly: pin.card.step === "wait"
             Text {
                 anchors { fill: parent; leftMargin: 16 * Theme.unit; rightMargin: 16 * Theme.unit }
                 text: pin.card.text
@@ -67,6 +75,8 @@ Rectangle {
             text: pin.card.line
             font.pixelSize: Theme.dense
             color: pin.card.step === "wait" ? Theme.deepAmber : Theme.faintInk
+            Accessible.role: Accessible.AlertMessage
+            Accessible.name: text
             wrapMode: Text.WordWrap
         }
     }
