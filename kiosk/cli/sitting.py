@@ -16,7 +16,8 @@ from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.window import Display, Mode, check_screen
 
-SEED_BITS = 32
+SEED_BITS = 63
+"""As many as the column holds: boards are published, and nobody shall find a seed, and with it the code, by trying."""
 
 
 @click.command("open")
