@@ -28,6 +28,8 @@ EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
         happened.PauseAsked(at_ms=9),
         happened.PauseEnded(at_ms=9),
         happened.EndAsked(at_ms=9, reason="the fair is closing"),
+        happened.NextAsked(at_ms=9),
+        happened.SoundChanged(at_ms=9, quiet=True),
         happened.SittingResumed(at_ms=9, body=BodyName.AVATAR),
         happened.KioskClosed(at_ms=9),
     )

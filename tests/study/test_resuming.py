@@ -199,6 +199,38 @@ def test_what_ran_and_what_was_asked_before_the_cut_is_stopped(stage: Stage) -> 
         driver.send(happened.StillHereTapped(at_ms=driver.now))
 
 
+@pytest.mark.parametrize("stage", CAN_BE_RESUMED)
+def test_a_sitting_that_was_closed_with_the_program_goes_on_where_it_was(stage: Stage) -> None:
+    driver, crashed = driven_to(stage, SMALL, SEED), driven_to(stage, SMALL, SEED)
+    driver.send(happened.KioskClosed(at_ms=driver.now))
+    assert driver.view.ended is Status.INTERRUPTED
+    closed, cut = Driver.resumed(SMALL, SEED, driver.world), Driver.resumed(SMALL, SEED, crashed.world)
+    assert closed.stage is stage
+    assert beginning(closed.steps[-1]) == beginning(cut.steps[-1])
+    closed.to(Stage.OVER)
+    assert closed.view.ended is Status.COMPLETED
+    assert closed.view.kept == []
+    assert replay(SMALL, SEED, closed.world) == [step.commands for step in closed.steps]
+
+
+@pytest.mark.parametrize("stage", [Stage.CONSENT, Stage.GAME])
+def test_what_cannot_go_on_after_a_crash_cannot_after_closing_either(stage: Stage) -> None:
+    driver = driven_to(stage, SMALL, SEED)
+    driver.send(happened.KioskClosed(at_ms=driver.now))
+    with pytest.raises(UnexpectedEvent):
+        Driver.resumed(SMALL, SEED, driver.world)
+
+
+@pytest.mark.parametrize("stage", CAN_BE_RESUMED)
+def test_what_was_ended_or_left_does_not_go_on(stage: Stage) -> None:
+    ended, left = driven_to(stage, SMALL, SEED), driven_to(stage, SMALL, SEED)
+    ended.end()
+    left.be_away()
+    for driver in (ended, left):
+        with pytest.raises(UnexpectedEvent):
+            Driver.resumed(SMALL, SEED, driver.world)
+
+
 @pytest.mark.parametrize("stage", [stage for stage in Stage if stage not in CAN_BE_RESUMED])
 def test_elsewhere_it_cannot_go_on(stage: Stage) -> None:
     driver = driven_to(stage, SMALL, SEED)

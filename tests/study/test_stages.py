@@ -22,7 +22,7 @@ UNDERWAY = list(Stage)[1:-1]
 
 ANYWHERE = {
     *("TimerEnded", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotLost"),
-    *("PauseAsked", "EndAsked", "KioskClosed"),
+    *("PauseAsked", "SoundChanged", "EndAsked", "KioskClosed"),
 }
 KEPT = {"SittingResumed"}
 """What needs a record that can be gone on with; a game is never gone on with."""
@@ -39,7 +39,7 @@ EXPECTED = {
     Stage.RESULT: {"ContinueTapped"} | ANYWHERE | KEPT,
     Stage.QUESTIONS: {"ContinueTapped", "AnswerGiven"} | ANYWHERE | KEPT,
     Stage.DEBRIEF: {"ContinueTapped"} | ANYWHERE | KEPT,
-    Stage.THANKS: {"ContinueTapped"} | ANYWHERE | KEPT,
+    Stage.THANKS: {"ContinueTapped", "NextAsked"} | ANYWHERE | KEPT,
     Stage.OVER: set[str](),
 }
 """What each stage takes as it begins: nobody was asked whether they are still there, and nothing is paused."""
@@ -133,6 +133,7 @@ def test_no_stage_is_left_but_by_the_table() -> None:
         ("questions", "QuestionsFinished", Turn.ON),
         ("debrief", "ContinueTapped", Turn.ON),
         ("thanks", "ContinueTapped", Turn.ON),
+        ("thanks", "NextAsked", Turn.ON),
         ("thanks", "Thanked", Turn.ON),
         *((stage.value, "VisitorLeft", Turn.OVER) for stage in UNDERWAY),
         *((stage.value, "EndAsked", Turn.OVER) for stage in UNDERWAY),

@@ -103,6 +103,14 @@ def test_a_robot_that_is_lost_after_a_stage_was_left_says_nothing_of_that_stage_
     assert not said_before & set(again)
 
 
+def test_silence_is_recorded_and_changes_nothing_of_what_is_said() -> None:
+    quiet, heard = hinted(), hinted()
+    assert quiet.send(happened.SoundChanged(at_ms=quiet.now, quiet=True)) == ()
+    for driver in (quiet, heard):
+        driver.play(with_memory(2))
+    assert quiet.noted(happened.HintGiven) == heard.noted(happened.HintGiven)
+
+
 # Once more
 
 SPEAKING = [Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.RESULT, Stage.THANKS]

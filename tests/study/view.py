@@ -9,7 +9,7 @@ from kiosk.game import Position
 from kiosk.study import commands as do
 from kiosk.study.commands import Command, Mood, Wait
 from kiosk.study.declared.questionnaire import Answer
-from kiosk.study.events import SpeechFailed, SpeechFinished, Status, Unstored, WorldEvent
+from kiosk.study.events import SittingResumed, SpeechFailed, SpeechFinished, Status, Unstored, WorldEvent
 
 
 @dataclass
@@ -52,9 +52,11 @@ class View:
         return next((said.why for said in self.kept if isinstance(said, do.ForgetSitting)), None)
 
     def hear(self, event: WorldEvent) -> None:
-        """The body says nothing any more of a sentence that it reports as finished or failed."""
+        """What the body reports as finished or failed is not said any more; what is resumed has not ended."""
         if isinstance(event, SpeechFinished | SpeechFailed) and event.utterance == self.speaking:
             self.speaking = None
+        if isinstance(event, SittingResumed):
+            self.ended = None
 
     def obey(self, commands: Iterable[Command]) -> None:
         """Show what these commands say."""

@@ -63,6 +63,12 @@ def test_thanks_end_by_themselves() -> None:
     assert driver.noted(happened.Thanked) == [happened.Thanked(at_ms=driver.now)]
 
 
+def test_thanks_end_when_the_experimenter_gets_ready_for_the_next_visitor() -> None:
+    driver = driven_to(Stage.THANKS)
+    driver.send(happened.NextAsked(at_ms=driver.now))
+    assert (driver.view.ended, driver.running) == (Status.COMPLETED, {})
+
+
 def test_thanks_end_with_a_tap() -> None:
     driver = driven_to(Stage.THANKS)
     driver.go_on()
