@@ -46,7 +46,7 @@ FocusScope {
             visible: view.debrief.code !== ""
             radius: Theme.radius
             color: Theme.white
-            border { color: Theme.sand; width: 3 * Theme.unit }
+            border { color: Theme.edge; width: 3 * Theme.unit }
 
             // On white even where the theme is dark: a camera needs it.
             Rectangle {

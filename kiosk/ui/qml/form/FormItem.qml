@@ -36,7 +36,7 @@ Rectangle {
     height: content.height + 2 * margin
     radius: Theme.radius
     color: alone ? "transparent" : Theme.white
-    border { color: missed ? Theme.deepAmber : Theme.sand; width: alone ? 0 : (missed ? 5 : 3) * Theme.unit }
+    border { color: missed ? Theme.deepAmber : Theme.edge; width: alone ? 0 : (missed ? 5 : 3) * Theme.unit }
 
     Column {
         id: content
