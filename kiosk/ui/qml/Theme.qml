@@ -31,8 +31,6 @@ QtObject {
     readonly property real figure: size(64)
     readonly property real heading: size(46)
     readonly property real body: size(32)
-    // Where there is much to read.
-    readonly property real reading: size(29)
     readonly property real small: size(26)
     readonly property real reading: size(29)
     // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.
