@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import subprocess
 import traceback
+from copy import copy
 from datetime import UTC, datetime
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
@@ -52,10 +53,18 @@ class _WithoutWords(logging.Formatter):
     The record plays the sitting, and the fault with it, again.
     """
 
+    def format(self, record: logging.LogRecord) -> str:
+        """A line of the log, with what follows it of a fault."""
+        own = copy(record)
+        # Another handler may have put it into its own words, which are kept with the record.
+        own.exc_text = None
+        return super().format(own)
+
     def formatException(  # noqa: N802 - logging's name
         self,
         ei: tuple[type[BaseException], BaseException, TracebackType | None] | tuple[None, None, None],
     ) -> str:
+        """Where a fault arose, after where those did that led to it."""
         fault = ei[1]
         lines: list[str] = []
         while fault is not None:
@@ -69,6 +78,11 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
 
     With ``shared`` only lines are added to what another process keeps. Raises BadInput if it cannot be written there.
     """
+    logging.basicConfig(handlers=[log_file(folder, shared=shared)], level=logging.WARNING)
+
+
+def log_file(folder: Path, *, shared: bool = False) -> logging.FileHandler:
+    """The log of a data folder, as ``log_into`` keeps it; raises BadInput if it cannot be written there."""
     handler: logging.FileHandler
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -79,7 +93,7 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
     except OSError as error:
         raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
     handler.setFormatter(_WithoutWords("%(asctime)s %(levelname)s %(name)s: %(message)s"))
-    logging.basicConfig(handlers=[handler], level=logging.WARNING)
+    return handler
 
 
 def code_commit() -> str:

@@ -1,0 +1,121 @@
+"""What is logged of a sitting in which everything fails: that it failed, and nothing that is the visitor's."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from kiosk.cli.wiring import LOG, LOGS_KEPT, log_file
+from kiosk.settings import Settings
+from kiosk.settings import Voice as VoiceSettings
+from kiosk.study.events import Stage
+from kiosk.ui.voice import EngineVoice
+from tests.robot.furhat_fake import FurhatFake, Mode
+from tests.ui.conftest import MakeBooth
+from tests.ui.sabotage import Moment, Sabotage
+from tests.ui.test_full_disk import fill, write_until
+from tests.ui.test_nothing_is_left import Memory
+
+SMALL = {
+    "game": {"rows": 2, "columns": 3},
+    "practice": {"rows": 2, "columns": 2},
+    "questionnaires": ["gallery"],
+}
+TALKS_NONSENSE = "import sys; print('no line of ours', flush=True); sys.exit(3)"
+
+
+@contextmanager
+def logging_into(folder: Path) -> Iterator[Path]:
+    """Log as a kiosk does, and more than it does: down to what only interests whoever mends it."""
+    root, handler = logging.getLogger(), log_file(folder)
+    before = root.level
+    root.addHandler(handler)
+    root.setLevel(logging.DEBUG)
+    try:
+        yield folder / LOG
+    finally:
+        root.setLevel(before)
+        root.removeHandler(handler)
+        handler.close()
+
+
+def raise_with(words: str) -> None:
+    """A fault of ours that repeats what it was given."""
+    nothing: dict[str, str] = {}
+    try:
+        nothing[words]
+    except KeyError as error:
+        raise ValueError(f"{words!r} is no answer") from error
+
+
+def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voice_disk_and_we_fail(
+    qtbot: QtBot, make_booth: MakeBooth, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    memory = Memory()
+    with logging_into(tmp_path / "log") as log, FurhatFake(character_ms=0.2) as fake:
+        robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, "answer_deadline": 300}
+        booth = make_booth(settings=Settings.model_validate(SMALL | {"robot": robot}))
+        rehearsal = Sabotage(booth.app, 7, lambda: setattr(fake, "mode", Mode.RESET), Moment.GAME)
+        check = booth.app.conductor.witness
+        assert check is not None
+
+        def watch(event: object, commands: object, stage: Stage) -> None:
+            memory.note(booth.app, event, commands)  # type: ignore[arg-type]  # as the conductor tells them
+            check(event, commands, stage)  # type: ignore[arg-type]
+            if stage is Stage.THANKS:
+                booth.app.quit()
+
+        booth.app.conductor.witness = watch
+        rehearsal.run()
+        private = memory.typed | memory.codes
+        assert memory.typed
+        assert memory.codes
+        fill(booth)
+        write_until(booth, lambda: booth.screen == "pause")
+        voice = EngineVoice(VoiceSettings(), "en", command=(sys.executable, "-c", TALKS_NONSENSE))
+        with qtbot.waitSignal(voice.failed):
+            voice.say(1, "A sentence.")
+        voice.close()
+        for words in private:
+            try:
+                raise_with(words)
+            except ValueError as fault:
+                booth.app.fault(type(fault), fault, fault.__traceback__)
+        told = log.read_text("utf-8")
+    for failure in (
+        "the robot broke off",
+        "disk is full",
+        "the voice",
+        "a fault in Recollect",
+        "raise_with",
+        "KeyError",
+    ):
+        assert failure in told
+    assert [words for words in private if words in told] == []
+    caplog.clear()
+
+
+def test_the_log_begins_anew_before_it_grows_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kiosk.cli.wiring.LOG_BYTES", 2_000)
+    handler = log_file(tmp_path)
+    for _ in range(200):
+        handler.handle(logging.LogRecord("a", logging.WARNING, "a.py", 1, "the voice is gone", (), None))
+    handler.close()
+    files = list(tmp_path.iterdir())
+    assert len(files) == 1 + LOGS_KEPT
+    assert all(file.stat().st_size <= 2_000 for file in files)
+
+
+def test_who_shares_a_log_writes_into_the_new_one_too(tmp_path: Path) -> None:
+    keeper = log_file(tmp_path, shared=True)
+    record = logging.LogRecord("a", logging.WARNING, "a.py", 1, "start 1", (), None)
+    keeper.handle(record)
+    (tmp_path / LOG).rename(tmp_path / f"{LOG}.1")
+    keeper.handle(record)
+    assert "start 1" in (tmp_path / LOG).read_text("utf-8")
