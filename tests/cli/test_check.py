@@ -1,0 +1,267 @@
+"""``recollect check``: a table for people, findings for programs, an exit code for scripts; nothing is left behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from kiosk.cli import check as command
+from kiosk.cli.checking.machine import BUSY, LEAST_MIB, Load, log, machine, program
+from kiosk.cli.checking.together import look
+from kiosk.cli.front import main
+from kiosk.cli.wiring import LOG, LOG_BYTES, code_commit, code_made
+from kiosk.findings import Finding, Probe, State
+from kiosk.store.recorder import Recorder
+
+GOOD, WARNING, BAD = (
+    Finding.good("a", "fine"),
+    Finding.warning("b", "so-so [1]", "mend"),
+    Finding.bad("c", "no", "mend"),
+)
+
+
+class Called(NamedTuple):
+    """How a command ended, and what it said."""
+
+    code: int
+    out: str
+    err: str
+
+
+Recollect = Callable[..., Called]
+
+
+@pytest.fixture
+def recollect(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Recollect:
+    """The command line, on a machine without a screen."""
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
+        monkeypatch.delenv(name, raising=False)
+
+    def call(*arguments: str | Path) -> Called:
+        monkeypatch.setattr(sys, "argv", ["recollect", "check", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        said = capsys.readouterr()
+        return Called(int(left.value.code or 0), said.out, said.err)
+
+    return call
+
+
+@pytest.fixture
+def finding(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Have these be found, in place of all that is really there."""
+
+    def find(*findings: Finding) -> None:
+        monkeypatch.setattr(command, "probes", lambda _: [Probe("all", lambda: findings)])
+
+    return find
+
+
+def untold(_: int, of: int | None = None, /) -> None:
+    """Nobody wants to know how far it is."""
+
+
+# Everything at once
+
+
+def test_all_of_a_booth_is_looked_at_and_nothing_is_left_behind(recollect: Recollect, tmp_path: Path) -> None:
+    called = recollect("--data", tmp_path / "data", "--json")
+    found = json.loads(called.out)
+    names = {each["what"] for each in found["findings"]}
+    assert names >= {"study file", "languages", "policy", "PIN", "keys", "screen", "drawing", "sound", "robot"}
+    assert names >= {"voice: en", "voice: it", "voice: es", "disk", "data folder", "writing", "database", "places"}
+    assert names >= {"clock", "machine", "program", "log", "kept up"}
+    assert {each["what"] for each in found["findings"] if each["state"] == "bad"} == {"screen"}
+    assert all(bool(each["remedy"]) is (each["state"] != "good") for each in found["findings"])
+    assert (called.code, found["ready"]) == (1, False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_study_file_that_cannot_be_used_is_bad_input_and_the_rest_is_looked_at_all_the_same(
+    recollect: Recollect, tmp_path: Path
+) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text('languages = ["tlh"]\n[screen]\nnumber = -1\n')
+    called = recollect("--study", study, "--data", tmp_path / "data", "--json")
+    found = json.loads(called.out)
+    bad = [each["words"] for each in found["findings"] if each["what"] == "study file"]
+    assert called.code == 2
+    assert len(bad) == 1
+    assert "screen.number" in bad[0]
+    assert bad[0] in called.err
+    assert found["ready"] is False
+    assert {"disk", "drawing", "clock"} <= {each["what"] for each in found["findings"]}
+
+
+@pytest.mark.parametrize("arguments", [["--study", "nothing.toml"], ["--site", "r o m e"], ["--data", __file__]])
+def test_what_cannot_be_used_is_refused_with_its_name(
+    arguments: list[str], recollect: Recollect, finding: Callable[..., None]
+) -> None:
+    finding(GOOD)
+    called = recollect(*arguments)
+    assert called.code == 2
+    assert arguments[1] in called.err
+
+
+# The verdict
+
+
+@pytest.mark.parametrize(
+    ("findings", "verdict"),
+    [
+        ([GOOD], (0, "to see to: nothing")),
+        ([GOOD, WARNING, WARNING], (0, "to see to: 2")),
+        ([GOOD, WARNING, BAD], (1, "No sitting can be held")),
+    ],
+)
+def test_a_sitting_can_be_held_with_warnings_and_not_with_anything_bad(
+    findings: list[Finding],
+    verdict: tuple[int, str],
+    recollect: Recollect,
+    finding: Callable[..., None],
+    tmp_path: Path,
+) -> None:
+    finding(*findings)
+    called = recollect("--data", tmp_path / "data")
+    code, words = verdict
+    assert (called.code, words in called.out) == (code, True)
+
+
+def test_the_table_says_what_is_and_what_to_do(
+    recollect: Recollect, finding: Callable[..., None], tmp_path: Path
+) -> None:
+    finding(GOOD, WARNING, BAD)
+    lines = recollect("--data", tmp_path / "data").out.splitlines()
+    assert [line.split() for line in lines[:5]] == [
+        ["yes", "a", "fine"],
+        ["but", "b", "so-so", "[1]"],
+        ["->", "mend"],
+        ["NO", "c", "no"],
+        ["->", "mend"],
+    ]
+
+
+def test_programs_get_what_people_get(recollect: Recollect, finding: Callable[..., None], tmp_path: Path) -> None:
+    finding(GOOD, BAD)
+    assert json.loads(recollect("--data", tmp_path / "data", "--json").out) == {
+        "ready": False,
+        "findings": [
+            {"what": "a", "state": "good", "words": "fine", "remedy": ""},
+            {"what": "c", "state": "bad", "words": "no", "remedy": "mend"},
+        ],
+    }
+
+
+def test_a_kiosk_that_is_open_on_the_folder_is_known(
+    recollect: Recollect, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    seen: list[bool] = []
+
+    def probes(booth: Any) -> Iterable[Probe]:
+        seen.append(booth.busy)
+        return []
+
+    monkeypatch.setattr(command, "probes", probes)
+    recollect("--data", tmp_path / "data")
+    with Recorder(tmp_path / "data"):
+        recollect("--data", tmp_path / "data")
+    recollect("--data", tmp_path / "data")
+    assert seen == [False, True, False]
+
+
+# Many looks at once
+
+
+def test_a_look_that_hangs_is_left_behind_and_the_others_keep_their_order() -> None:
+    hang = threading.Event()
+
+    def hanging() -> Iterator[Finding]:
+        hang.wait()
+        yield GOOD
+
+    probes = [
+        Probe("a", lambda: [GOOD]),
+        Probe("stuck", hanging, 0.2, State.BAD),
+        Probe("b", lambda: [WARNING, BAD]),
+    ]
+    found = look(probes, untold)
+    hang.set()
+    assert [each.what for each in found] == ["a", "stuck", "b", "c"]
+    assert (found[1].state, found[1].words) == (State.BAD, "no answer within 0.2 s")
+
+
+def test_looks_do_not_wait_for_each_other() -> None:
+    together = threading.Barrier(3)
+
+    def meeting() -> Iterator[Finding]:
+        together.wait(10)
+        yield GOOD
+
+    assert look([Probe("a", meeting) for _ in range(3)], untold) == (GOOD,) * 3
+
+
+def test_a_fault_of_ours_is_not_taken_for_one_of_the_booth() -> None:
+    def faulty() -> Iterator[Finding]:
+        raise ZeroDivisionError
+        yield GOOD
+
+    with pytest.raises(ZeroDivisionError):
+        look([Probe("a", faulty), Probe("b", lambda: [GOOD])], untold)
+
+
+def test_how_far_it_is_is_told() -> None:
+    told: list[int] = []
+    look([Probe("a", lambda: [GOOD])] * 3, lambda done, _of=None, /: told.append(done))
+    assert told == sorted(told)
+    assert told[-1] == 3
+
+
+# The machine and the program
+
+
+@pytest.mark.parametrize(
+    ("load", "state"),
+    [
+        (Load(LEAST_MIB, 2, 2 * BUSY), State.GOOD),
+        (Load(LEAST_MIB - 1, 2, 0.0), State.WARNING),
+        (Load(4096, 1, BUSY + 0.1), State.WARNING),
+    ],
+)
+def test_a_machine_that_others_keep_busy_is_told_of(load: Load, state: State) -> None:
+    (found,) = machine(load)
+    assert found.state is state
+
+
+def test_a_program_that_was_changed_since_its_commit_is_told_of() -> None:
+    (clean,) = program("0123456789abcdef")
+    (dirty,) = program("0123456789abcdef-dirty")
+    (released,) = program("released")
+    assert [each.state for each in (clean, dirty, released)] == [State.GOOD, State.WARNING, State.GOOD]
+    assert clean.words.endswith("01234567")
+    assert "released" in released.words
+
+
+def test_a_program_was_made_before_it_runs_and_has_a_commit() -> None:
+    assert code_made().year >= 2024
+    assert code_commit()
+
+
+def test_a_log_that_cannot_be_written_or_is_never_renewed_is_told_of(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (none,) = log(tmp_path / "new")
+    (tmp_path / LOG).write_text("a line\n")
+    (small,) = log(tmp_path)
+    with (tmp_path / LOG).open("r+b") as file:
+        file.truncate(LOG_BYTES * 20)
+    (large,) = log(tmp_path)
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    (closed,) = log(tmp_path)
+    assert [each.state for each in (none, small, large, closed)] == [State.GOOD, State.GOOD, State.WARNING, State.BAD]
