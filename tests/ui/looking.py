@@ -1,43 +1,54 @@
-"""What somebody who looks closely finds on a window: its texts, its controls, and every screen of a whole sitting."""
+"""What somebody who looks closely finds on a window: its texts, its controls, and what a screen reader is told of them.
+
+Colours are compared as WCAG 2.2 does it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
+import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRect, QRectF, QSizeF
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtGui import QAccessible, QAccessibleInterface, QColor, QImage
 from PySide6.QtQml import QQmlComponent, QQmlEngine, QQmlProperty, qmlContext
-from PySide6.QtQuick import QQuickItem
+from PySide6.QtQuick import QQuickItem, QQuickWindow
+from shiboken6 import Shiboken
 
-from kiosk.ui.app import App
-from kiosk.ui.rehearsing.hand import Stuck, lay_out
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.window import QML
 
-HANDLERS = {"QQuickTapHandler", "QQuickDragHandler"}
+HANDLERS = ("QQuickTapHandler", "QQuickDragHandler")
 LINEAR_FROM = 0.04045
+RED, GREEN, BLUE = 0.2126, 0.7152, 0.0722
+FLARE = 0.05
+"""The light that every screen throws back."""
+EXPERIMENTERS = ("PanelLayer", "ReplayControls")
+"""What only an experimenter reads."""
+
+Light = NDArray[np.float64]
+"""Relative luminance, 0 to 1: (height, width) of a picture."""
 
 
 def items(item: QQuickItem) -> Iterator[QQuickItem]:
-    """Every visible item, from the outermost to the innermost."""
-    if item.isVisible():
+    """Every item that is to be seen, from the outermost to the innermost."""
+    if item.isVisible() and item.opacity() > 0:
         yield item
         for child in item.childItems():
             yield from items(child)
 
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
-    """Every visible text with something to read."""
-    return (found for found in items(item) if is_a(found, "QQuickText") and found.property("text"))
+    """Every text that is to be seen, with something to read."""
+    return (found for found in items(item) if found.inherits("QQuickText") and str(found.property("text")).strip())
 
 
-def is_a(item: QQuickItem, kind: str) -> bool:
-    """Whether an item is of a kind of Qt's, or of one made from it."""
-    meta = item.metaObject()
-    while meta is not None:
-        if meta.className() == kind:
+def lies_in(item: QQuickItem, *kinds: str) -> bool:
+    """Whether an item is, or is part of, one of our own components of these names."""
+    above: QQuickItem | None = item
+    while above is not None:
+        if above.metaObject().className().partition("_QML")[0] in kinds:
             return True
-        meta = meta.superClass()
+        above = above.parentItem()
     return False
 
 
@@ -48,9 +59,13 @@ def is_ignored(item: QQuickItem) -> bool:
 
 
 def is_control(item: QQuickItem) -> bool:
-    """Whether it can be clicked, or reached by keyboard."""
-    handled = any(child.metaObject().className() in HANDLERS for child in item.children())
-    return bool(item.property("activeFocusOnTab")) or handled or is_a(item, "QQuickMouseArea")
+    """Whether it can be clicked, or reached by keyboard, to some end."""
+    if is_ignored(item) or item.inherits("QQuickScrollBar"):
+        return False
+    handled = any(child.inherits(kind) for child in item.children() for kind in HANDLERS)
+    stops = bool(item.property("activeFocusOnTab")) or item.inherits("QQuickAbstractButton")
+    # To touch the ground of a form is to have done with typing, which every other key and control is as well.
+    return stops or (handled and item.objectName() != "ground") or item.inherits("QQuickMouseArea")
 
 
 def place(item: QQuickItem) -> QRect:
@@ -59,39 +74,117 @@ def place(item: QQuickItem) -> QRect:
 
 
 def painted(text: QQuickItem) -> QRect:
-    """Where a text's letters are in the window."""
-    return text.mapRectToScene(text.boundingRect()).toAlignedRect()
+    """Where a text's letters are in the window, as far as they are not scrolled away."""
+    width, height = float(text.property("contentWidth")), float(text.property("contentHeight"))
+    letters = text.mapRectToScene(text.boundingRect())
+    centre = letters.center()
+    shown = QRectF(centre.x() - width / 2, centre.y() - height / 2, width, height)
+    above: QQuickItem | None = text.parentItem()
+    while above is not None:
+        if above.clip():
+            shown = shown.intersected(above.mapRectToScene(QRectF(0, 0, above.width(), above.height())))
+        above = above.parentItem()
+    return shown.toAlignedRect()
 
 
-def opacity(item: QQuickItem | None) -> float:
-    """How much of an item is to be seen, with all that it lies in."""
-    return 1.0 if item is None else item.opacity() * opacity(item.parentItem())
+def described(item: QQuickItem) -> tuple[QAccessible.Role, str]:
+    """What a program that reads the screen is told of an item: its role and its name."""
+    told = QAccessible.queryAccessibleInterface(item)
+    if not isinstance(told, QAccessibleInterface):
+        return QAccessible.Role.NoRole, ""
+    return told.role(), told.text(QAccessible.Text.Name).strip()
+
+
+def announced(window: QQuickWindow) -> set[int]:
+    """Every item that such a program comes to, going down from the window."""
+    found: set[int] = set()
+
+    def walk(told: QAccessibleInterface) -> None:
+        found.add(identity(told.object()))
+        for number in range(told.childCount()):
+            child = told.child(number)
+            if child is not None:
+                walk(child)
+
+    whole = QAccessible.queryAccessibleInterface(window)
+    assert isinstance(whole, QAccessibleInterface)
+    walk(whole)
+    return found
+
+
+def identity(thing: object) -> int:
+    """What tells one of Qt's objects from all others, however often Python is given it."""
+    address: int = Shiboken.getCppPointer(thing)[0]
+    return address
+
+
+def untold(window: QQuickWindow) -> list[str]:
+    """What somebody who cannot see the window would not know of: controls without a role or name, and texts."""
+    reached = announced(window)
+    return [
+        f"{item.objectName() or item.metaObject().className()} {item.property('text') or ''}"
+        for item in items(window.contentItem())
+        if not _is_told(item, reached)
+    ]
+
+
+def _is_told(item: QQuickItem, reached: set[int]) -> bool:
+    role, name = described(item)
+    if is_control(item):
+        return role not in (QAccessible.Role.NoRole, QAccessible.Role.Client) and bool(name) and identity(item) in reached
+    if is_ignored(item) or not (item.inherits("QQuickText") and str(item.property("text")).strip()):
+        return True
+    return (bool(name) and identity(item) in reached) or _is_in_a_named_control(item, reached)
+
+
+def _is_in_a_named_control(item: QQuickItem, reached: set[int]) -> bool:
+    """Whether what it says is part of a control's own name."""
+    above: QQuickItem | None = item.parentItem()
+    while above is not None:
+        if is_control(above) and described(above)[1] and identity(above) in reached:
+            return True
+        above = above.parentItem()
+    return False
 
 
 def luminance(color: QColor) -> float:
-    """Relative luminance, 0 to 1 (WCAG 2.2)."""
-    linear = [
-        value / 12.92 if value <= LINEAR_FROM else ((value + 0.055) / 1.055) ** 2.4
-        for value in (color.redF(), color.greenF(), color.blueF())
-    ]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+    """Relative luminance, 0 to 1."""
+    return float(_light(np.array([[color.redF(), color.greenF(), color.blueF()]]))[0])
 
 
 def contrast(one: QColor, other: QColor) -> float:
-    """The contrast of two colours, 1 to 21 (WCAG 2.2)."""
+    """The contrast of two colours, 1 to 21."""
     darker, lighter = sorted((luminance(one), luminance(other)))
-    return (lighter + 0.05) / (darker + 0.05)
+    return (lighter + FLARE) / (darker + FLARE)
+
+
+def strongest_change(before: QImage, after: QImage, where: QRect | None = None) -> float:
+    """The greatest contrast between a pixel and the same one later, in a place: of light alone, whatever the hue."""
+    one, other = (FLARE + _light(_pixels(picture, where) / 255) for picture in (before, after))
+    return float(np.max(np.maximum(one, other) / np.minimum(one, other)))
 
 
 def background(picture: QImage, where: QRect) -> QColor:
     """The colour that fills most of a place."""
-    inside = where.intersected(picture.rect())
-    counted: dict[int, int] = {}
-    for y in range(inside.top(), inside.bottom() + 1, 2):
-        for x in range(inside.left(), inside.right() + 1, 2):
-            pixel = picture.pixel(x, y)
-            counted[pixel] = counted.get(pixel, 0) + 1
-    return QColor(max(counted, key=lambda pixel: counted[pixel]))
+    pixels = _pixels(picture, where).reshape(-1, 3).astype(np.uint32)
+    codes, counts = np.unique(pixels @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32), return_counts=True)
+    return QColor.fromRgb(int(codes[np.argmax(counts)]))
+
+
+def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
+    """The red, green and blue of a place in a picture, 0 to 255: (height, width, 3)."""
+    plain = picture.convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(plain.constBits(), np.uint8).reshape(plain.height(), plain.bytesPerLine())
+    inside = (where or plain.rect()).intersected(plain.rect())
+    whole = rows[:, : 3 * plain.width()].reshape(plain.height(), plain.width(), 3)
+    return whole[inside.top() : inside.bottom() + 1, inside.left() : inside.right() + 1].copy()
+
+
+def _light(colour: NDArray[np.float64]) -> Light:
+    """The relative luminance of colours whose last axis is red, green and blue, 0 to 1."""
+    linear = np.where(colour <= LINEAR_FROM, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+    found: Light = linear @ np.array([RED, GREEN, BLUE])
+    return found
 
 
 def colours(palette: str) -> dict[str, QColor]:
@@ -106,53 +199,9 @@ def colours(palette: str) -> dict[str, QColor]:
     assert made is not None, component.errorString()
     theme = made.property("theme")
     names = (
-        "paper",
-        "white",
-        "sand",
-        "edge",
-        "ink",
-        "faintInk",
-        "sea",
-        "lightSea",
-        "amber",
-        "deepAmber",
-        "done",
-        "held",
+        *("paper", "white", "sand", "edge", "ink", "faintInk"),
+        *("sea", "lightSea", "amber", "deepAmber", "done", "held"),
     )
     found = {name: theme.property(name) for name in names}
     made.deleteLater()
     return found
-
-
-class Tour(Rehearsal):
-    """A whole sitting in which every new screen is looked at before anything is clicked on it."""
-
-    def __init__(self, app: App, seed: int, look: Callable[[str], None]) -> None:
-        """``look`` is called with the name of every screen, once for each thing that is clicked on it."""
-        super().__init__(app, seed)
-        self._look = look
-        self._seen: set[tuple[str, str]] = set()
-
-    def _click(self, name: str) -> None:
-        shown = self._app.screens.kiosk.shown
-        if (shown, name.rstrip("0123456789")) not in self._seen:
-            self._seen.add((shown, name.rstrip("0123456789")))
-            lay_out(self._app.window)
-            try:
-                self._look(shown)
-            except Exception as fault:
-                # It would be taken for a fault of the kiosk's, and the sitting would never end.
-                raise Stuck(f"{shown} could not be looked at: {fault}") from fault
-        super()._click(name)
-
-
-def tour(app: App, look: Callable[[str], None]) -> None:
-    """Look at every screen of a sitting, and at the calm words that lie over them."""
-    Tour(app, 1, look).run()
-    app.screens.avatar.say("Something that is said.")
-    for asks, shown in ((True, "attract"), (False, "pause")):
-        app.screens.kiosk.show(shown)
-        app.screens.kiosk.ask_still_there(asks=asks)
-        app.screens.kiosk.settle()
-        lay_out(app.window)
-        look("still there" if asks else shown)

@@ -19,7 +19,7 @@ FocusScope {
         width: Math.min(1000 * Theme.unit, view.width - 4 * Theme.gap)
         spacing: 2 * Theme.gap
 
-        Text {
+        PlainText {
             id: title
             width: parent.width
             text: view.about.title

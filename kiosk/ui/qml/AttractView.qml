@@ -34,7 +34,7 @@ FocusScope {
             Keys.onRightPressed: nextItemInFocusChain().forceActiveFocus(Qt.TabFocusReason)
             onClicked: view.attract.start(way.modelData.language)
         }
-        Text {
+        PlainText {
             id: name
             anchors { horizontalCenter: start.horizontalCenter; top: start.bottom; topMargin: 0.4 * Theme.gap }
             visible: view.several

@@ -20,7 +20,7 @@ FocusScope {
     readonly property real cell: Math.floor(Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
                                                      (height - header - numbers - footer) / Math.max(1, board.rows)))
 
-    Text {
+    PlainText {
         anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: Theme.gap }
         visible: view.board.practice
         text: view.words["practice-title"]
@@ -31,25 +31,21 @@ FocusScope {
         id: status
         anchors { left: cards.left; right: cards.right; bottom: table.top; bottomMargin: view.numbers }
         height: 60 * Theme.unit
-        Text {
+        PlainText {
             anchors { left: parent.left; verticalCenter: parent.verticalCenter }
             text: view.board.progress
             font { pixelSize: Theme.body; bold: true }
             color: Theme.ink
-            Accessible.role: Accessible.StaticText
-            Accessible.name: text
         }
-        Text {
+        PlainText {
             anchors { right: parent.right; verticalCenter: parent.verticalCenter }
             text: view.board.moves
             font.pixelSize: Theme.body
             color: Theme.faintInk
-            Accessible.role: Accessible.StaticText
-            Accessible.name: text
         }
     }
 
-    Text {
+    PlainText {
         anchors { top: cards.bottom; horizontalCenter: cards.horizontalCenter }
         height: 64 * Theme.unit
         verticalAlignment: Text.AlignVCenter
@@ -86,7 +82,7 @@ FocusScope {
         }
         Repeater {
             model: view.board.columns
-            Text {
+            PlainText {
                 required property int index
                 x: index * view.cell
                 y: -view.numbers
@@ -101,7 +97,7 @@ FocusScope {
         }
         Repeater {
             model: view.board.rows
-            Text {
+            PlainText {
                 required property int index
                 x: -view.numbers
                 y: index * view.cell

@@ -30,7 +30,7 @@ FocusScope {
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
             spacing: 1.5 * Theme.gap
-            Text {
+            PlainText {
                 width: parent.width
                 text: calm.title
                 font { pixelSize: Theme.heading; bold: true }
@@ -40,13 +40,11 @@ FocusScope {
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.WordWrap
             }
-            Text {
+            PlainText {
                 width: parent.width
                 text: calm.line
                 font.pixelSize: Theme.body
                 color: Theme.faintInk
-                Accessible.role: Accessible.StaticText
-                Accessible.name: text
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.WordWrap
             }

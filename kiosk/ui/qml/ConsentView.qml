@@ -18,7 +18,7 @@ FocusScope {
         width: Math.min(1240 * Theme.unit, view.width - 4 * Theme.gap)
         spacing: 0.8 * Theme.gap
 
-        Text {
+        PlainText {
             id: title
             width: parent.width
             text: view.consent.title

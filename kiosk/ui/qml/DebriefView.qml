@@ -21,7 +21,7 @@ FocusScope {
         width: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
         spacing: 1.2 * Theme.gap
 
-        Text {
+        PlainText {
             id: title
             width: parent.width
             text: view.debrief.title
@@ -72,12 +72,12 @@ FocusScope {
                     verticalCenter: parent.verticalCenter
                 }
                 spacing: 0.3 * Theme.gap
-                Text {
+                PlainText {
                     text: view.words["debrief-code"]
                     font.pixelSize: Theme.small
                     color: Theme.faintInk
                 }
-                Text {
+                PlainText {
                     objectName: "code"
                     width: parent.width
                     text: view.debrief.code
@@ -86,7 +86,7 @@ FocusScope {
                     minimumPixelSize: Theme.body
                     color: Theme.sea
                 }
-                Text {
+                PlainText {
                     width: parent.width
                     text: view.debrief.withdrawing
                     font.pixelSize: Theme.small

@@ -19,6 +19,7 @@ FocusScope {
 
     Item {
         id: place
+        objectName: "ground"
         anchors { left: parent.left; right: parent.right; top: parent.top; bottom: keyboard.visible ? keyboard.top : parent.bottom }
 
         // To tap beside everything is to have done with typing.
@@ -30,7 +31,7 @@ FocusScope {
             width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
             spacing: (view.dense || keyboard.visible ? 0.8 : view.alone ? 2 : 1.2) * Theme.gap
 
-            Text {
+            PlainText {
                 id: progress
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: text !== ""

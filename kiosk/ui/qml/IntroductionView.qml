@@ -37,7 +37,7 @@ FocusScope {
             picture: rule.rightCard
             up: rule.rightCard !== ""
         }
-        Text {
+        PlainText {
             anchors.verticalCenter: parent.verticalCenter
             width: Math.min(720 * Theme.unit, view.width - 2 * view.cardSize - 6 * Theme.gap)
             leftPadding: Theme.gap
@@ -45,8 +45,6 @@ FocusScope {
             font.pixelSize: Theme.body
             wrapMode: Text.WordWrap
             color: Theme.ink
-            Accessible.role: Accessible.StaticText
-            Accessible.name: text
         }
     }
 

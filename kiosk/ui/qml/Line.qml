@@ -2,13 +2,10 @@
 import QtQuick
 import "."
 
-Text {
+PlainText {
     required property real room
 
     width: Math.min(implicitWidth, room)
     wrapMode: Text.WordWrap
     horizontalAlignment: Text.AlignHCenter
-    color: Theme.ink
-    Accessible.role: font.bold ? Accessible.Heading : Accessible.StaticText
-    Accessible.name: text
 }

@@ -26,7 +26,7 @@ Window {
         }
         Repeater {
             model: root.lines
-            Text {
+            PlainText {
                 required property string modelData
                 anchors.horizontalCenter: parent?.horizontalCenter
                 text: modelData

@@ -12,7 +12,7 @@ Column {
     spacing: 0.7 * Theme.gap
     Repeater {
         model: paragraphs.texts
-        Text {
+        PlainText {
             required property string modelData
             width: paragraphs.width
             text: modelData

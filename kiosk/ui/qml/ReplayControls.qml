@@ -20,7 +20,7 @@ Rectangle {
     Shortcut { sequences: ["Down", "-"]; onActivated: bar.replay.slower() }
     Shortcut { sequences: ["Escape", "Q", "Ctrl+Q"]; onActivated: bar.replay.leave() }
 
-    component Words: Text {
+    component Words: PlainText {
         anchors.verticalCenter: parent.verticalCenter
         font.pixelSize: 20
         color: Theme.paper

@@ -15,14 +15,14 @@ FocusScope {
         property string value
         property string label
         width: Math.max(240 * Theme.unit, implicitWidth + 2 * Theme.gap)
-        Text {
+        PlainText {
             anchors.horizontalCenter: parent.horizontalCenter
             text: figure.value
             font { pixelSize: Theme.figure; bold: true }
             color: Theme.sea
             Accessible.ignored: true
         }
-        Text {
+        PlainText {
             anchors.horizontalCenter: parent.horizontalCenter
             text: figure.label
             font.pixelSize: Theme.body

@@ -43,7 +43,7 @@ Rectangle {
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 12) * Theme.unit
 
-        Text {
+        PlainText {
             x: (parent.width - width) / 2
             // A page of text is as narrow as it can be, and stands in the middle as a whole.
             width: box.item.kind === "page" ? Math.min(implicitWidth, parent.width) : parent.width
@@ -57,7 +57,7 @@ Rectangle {
             wrapMode: Text.WordWrap
             color: Theme.ink
         }
-        Text {
+        PlainText {
             width: parent.width
             visible: box.missed
             text: box.words["form-missing"]

@@ -79,7 +79,7 @@ Row {
         Accessible.name: `${number.label} ${number.more}`
         onClicked: number.step(1)
     }
-    Text {
+    PlainText {
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
         text: number.range

@@ -31,7 +31,7 @@ Item {
 
     height: below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
 
-    Text {
+    PlainText {
         id: lowest
         x: scale.below ? row.x : 0
         y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
@@ -42,7 +42,7 @@ Item {
         wrapMode: Text.WordWrap
         color: Theme.faintInk
     }
-    Text {
+    PlainText {
         id: highest
         x: scale.below ? row.x + row.width - width : scale.width - width
         y: scale.below ? lowest.y : (scale.height - height) / 2

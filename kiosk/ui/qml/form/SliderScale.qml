@@ -29,7 +29,7 @@ Item {
 
     height: below ? slider.height + words + 0.3 * Theme.gap : Math.max(slider.height, words)
 
-    Text {
+    PlainText {
         id: lower
         y: scale.below ? slider.height + 0.3 * Theme.gap : (scale.height - height) / 2
         x: scale.below ? slider.x : 0
@@ -40,7 +40,7 @@ Item {
         wrapMode: Text.WordWrap
         color: Theme.faintInk
     }
-    Text {
+    PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
         x: scale.below ? slider.x + slider.width - width : scale.width - width

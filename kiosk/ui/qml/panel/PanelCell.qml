@@ -3,7 +3,7 @@ pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
-Text {
+PlainText {
     required property string words
     property bool heading: false
     property string column: ""      // its heading, for those who hear one field after another

@@ -15,7 +15,7 @@ Column {
     spacing: 8 * Theme.unit
     visible: options.length > 0
 
-    Text {
+    PlainText {
         width: parent.width
         text: choice.title
         font.pixelSize: Theme.dense

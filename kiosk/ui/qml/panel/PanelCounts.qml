@@ -17,7 +17,7 @@ PanelSection {
     title: words["desk-counts"]
 
     Row {
-        Text { width: counts.first; text: " "; font.pixelSize: Theme.dense }
+        PlainText { width: counts.first; text: " "; font.pixelSize: Theme.dense }
         PanelCell { width: counts.second; words: counts.words["desk-counts-done"]; heading: true }
         Repeater {
             model: counts.columns
@@ -35,7 +35,7 @@ PanelSection {
         delegate: Row {
             id: cell
             required property var modelData
-            Text {
+            PlainText {
                 width: counts.first
                 text: cell.modelData.name
                 font { pixelSize: Theme.dense; bold: true }
@@ -58,7 +58,7 @@ PanelSection {
                         color: Theme.sea
                     }
                 }
-                Text {
+                PlainText {
                     id: done
                     x: parent.width * 0.56
                     text: cell.modelData.done
@@ -80,7 +80,7 @@ PanelSection {
             }
         }
     }
-    Text {
+    PlainText {
         width: parent.width
         text: counts.records.visits
         font.pixelSize: Theme.denser

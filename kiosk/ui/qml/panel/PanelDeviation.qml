@@ -9,13 +9,13 @@ Row {
     required property var deviation
 
     spacing: 10 * Theme.unit
-    Text {
+    PlainText {
         id: when
         text: row.deviation.when
         font.pixelSize: Theme.dense
         color: Theme.faintInk
     }
-    Text {
+    PlainText {
         width: row.width - when.width - row.spacing
         text: row.deviation.words + (row.deviation.reason === "" ? "" : " · " + row.deviation.reason)
         font.pixelSize: Theme.dense

@@ -3,7 +3,7 @@ pragma ComponentBehavior: Bound
 import QtQuick
 import ".."
 
-Text {
+PlainText {
     required property string words
 
     text: words

@@ -10,7 +10,7 @@ Row {
 
     spacing: 10 * Theme.unit
     PanelMark { id: mark; well: row.line.well }
-    Text {
+    PlainText {
         id: name
         width: row.width * 0.25
         text: row.line.name
@@ -18,7 +18,7 @@ Row {
         color: Theme.ink
         elide: Text.ElideRight
     }
-    Text {
+    PlainText {
         width: row.width - mark.width - name.width - 2 * row.spacing
         text: row.line.words
         font.pixelSize: Theme.dense

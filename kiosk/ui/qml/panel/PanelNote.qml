@@ -24,9 +24,10 @@ Rectangle {
         id: content
         anchors.centerIn: parent
         spacing: 12 * Theme.unit
-        Text {
+        PlainText {
             visible: edge.note.text !== ""
             text: edge.note.text
+            Accessible.ignored: true
             font.pixelSize: Theme.dense
             color: Theme.ink
         }

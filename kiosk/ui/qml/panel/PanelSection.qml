@@ -14,7 +14,7 @@ Rectangle {
     color: Theme.white
     border { color: Theme.sand; width: 2 * Theme.unit }
 
-    Text {
+    PlainText {
         id: heading
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
         text: section.title

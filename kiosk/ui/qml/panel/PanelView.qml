@@ -26,14 +26,14 @@ FocusScope {
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
         height: close.height
 
-        Text {
+        PlainText {
             id: title
             anchors.verticalCenter: parent.verticalCenter
             text: view.words["desk-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
         }
-        Text {
+        PlainText {
             anchors { left: title.right; right: close.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
             text: view.panel.choices.sitting
             font.pixelSize: Theme.dense
@@ -55,7 +55,7 @@ FocusScope {
         height: sentence.height + Theme.gap
         radius: Theme.radius
         color: view.panel.health.well ? Theme.sea : Theme.amber
-        Text {
+        PlainText {
             id: sentence
             objectName: "panel-summary"
             anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
@@ -138,7 +138,7 @@ FocusScope {
             }
         }
     }
-    Text {
+    PlainText {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
         text: view.words["desk-keys"]

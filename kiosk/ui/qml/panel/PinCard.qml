@@ -29,7 +29,7 @@ Rectangle {
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: Theme.gap }
         spacing: 12 * Theme.unit
 
-        Text {
+        PlainText {
             text: pin.card.title
             font { pixelSize: Theme.body; bold: true }
             color: Theme.ink
@@ -46,9 +46,10 @@ Rectangle {
             Accessible.name: pin.card.title
             Accessible.description: pin.card.text
             Accessible.readOnly: pin.card.step === "wait"
-            Text {
+            PlainText {
                 anchors { fill: parent; leftMargin: 16 * Theme.unit; rightMargin: 16 * Theme.unit }
                 text: pin.card.text
+                Accessible.ignored: true
                 font { pixelSize: Theme.body; letterSpacing: pin.card.step === "pin" ? 8 * Theme.unit : 0 }
                 color: Theme.ink
                 elide: Text.ElideLeft
@@ -69,7 +70,7 @@ Rectangle {
                 onClicked: pin.card.choose(reason.index + 1)
             }
         }
-        Text {
+        PlainText {
             objectName: "pin-line"
             width: parent.width
             text: pin.card.line

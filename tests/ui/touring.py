@@ -1,0 +1,167 @@
+"""A tour of everything there is to be seen: every screen of a whole sitting, what lies over them, and the panel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from PySide6.QtCore import Qt
+from PySide6.QtQuick import QQuickWindow
+from PySide6.QtTest import QTest
+
+from kiosk.settings import Settings
+from kiosk.study.booth.pin import kept
+from kiosk.study.commands import Wait
+from kiosk.ui.app import App
+from kiosk.ui.clock import VirtualClock
+from kiosk.ui.panel.card import Step
+from kiosk.ui.rehearsing.hand import NO_KEY, Aside, Hand, Stuck, find, lay_out
+from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsing.visitor import Character
+from tests.ui.headless import SMALL
+
+SEED = 1
+"""With this seed the visitor practises."""
+PIN, WRONG = "2580", "9999"
+CHORD = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+
+Look = Callable[[str], None]
+"""Looks at the window; is told what stands there."""
+
+
+def whole_study(**screen: object) -> Settings:
+    """Every stage, every kind of item, and an experimenter with a PIN; ``screen`` is that section of the study file."""
+    more = {"screen": screen, "experimenter": {"pin": kept(PIN, bytes(16))}}
+    return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter"}), **more})
+
+
+class Looking(Hand):
+    """A hand whose owner looks at every new screen before doing anything to it."""
+
+    def __init__(self, window: QQuickWindow, aside: Aside, app: App, look: Look) -> None:
+        """``look`` is called once for everything new that there is."""
+        super().__init__(window, aside)
+        self._app = app
+        self._look = look
+        self._seen: set[str] = set()
+
+    def click(self, name: str, across: float = 0.5) -> None:
+        """Look first, if this was not seen yet."""
+        moment = self._moment(name)
+        if moment not in self._seen:
+            self._seen.add(moment)
+            looked_at(self._app, self._look, moment)
+            self._look_at_what_lacks(moment)
+        super().click(name, across)
+
+    def _moment(self, name: str) -> str:
+        """What stands there, in words; a form counts once empty, once filled in, and once with its keys."""
+        shown, form = self._app.screens.kiosk.shown, self._app.screens.form
+        if shown != "form":
+            return f"{shown}{', agreed' if name == 'agree' else ''}"
+        kinds = ", ".join(item.kind for item in form.shown)
+        return f"form: {kinds}{', keys' if name.startswith('key-') else ', filled in' if form.given else ''}"
+
+    def _look_at_what_lacks(self, moment: str) -> None:
+        """The same with something that has to be done first."""
+        screens = self._app.screens
+        if moment == "consent":
+            screens.consent.show_missing(tuple(screens.consent.needed))
+        elif screens.kiosk.shown == "form" and not screens.form.given and "page" not in moment and "keys" not in moment:
+            screens.form.show_missing(tuple(item.id for item in screens.form.shown))
+        else:
+            return
+        looked_at(self._app, self._look, f"{moment}, missing")
+
+
+def looked_at(app: App, look: Look, moment: str) -> None:
+    """Look, when everything is where it belongs."""
+    lay_out(app.window)
+    try:
+        look(moment)
+    except Exception as fault:
+        # It would be taken for a fault of the kiosk's, and the sitting would never end.
+        raise Stuck(f"{moment} could not be looked at: {fault!r}") from fault
+
+
+def tour(app: App, look: Look, language: str = "") -> None:
+    """Look at everything there is, in the order in which it comes."""
+    visitor = Character(language=language)
+    Rehearsal(app, SEED, visitor=visitor, hand=partial(Looking, app=app, look=look)).run()
+    look_over(app, look)
+    look_behind(app, look)
+
+
+def look_over(app: App, look: Look) -> None:
+    """Look at the marks, at what is said meanwhile, and at the calm words that lie over everything."""
+    screens = app.screens
+    screens.avatar.say("Something that is said.")
+    screens.board.deal(2, 3, 3, "animals")
+    screens.kiosk.show("game")
+    screens.kiosk.settle()
+    for wait in Wait:
+        screens.board.hold(wait)
+        looked_at(app, look, f"game, {wait.value}")
+    screens.board.hold(None)
+    for name, row, column in (("row", 1, None), ("column", None, 1), ("card", 1, 1)):
+        screens.board.mark(row, column)
+        looked_at(app, look, f"game, a {name} is marked")
+    screens.board.clear()
+    screens.kiosk.ask_still_there(asks=True)
+    screens.kiosk.settle()
+    looked_at(app, look, "still there")
+    screens.kiosk.ask_still_there(asks=False)
+    screens.kiosk.show("pause")
+    looked_at(app, look, "pause")
+    screens.clear()
+    screens.kiosk.show("attract")
+    screens.kiosk.settle()
+
+
+def look_behind(app: App, look: Look) -> None:
+    """Look at the experimenter's card, note and panel, while a visitor is there."""
+    card, note, _ = app.screens.experimenter.parts
+    hand = Hand(app.window)
+    hand.click(f"start-{app.screens.resting.language}")
+    press(app, Qt.Key.Key_P, CHORD)
+    hand.type(PIN[:2])
+    looked_at(app, look, "card: pin")
+    hand.type(WRONG)
+    press(app, Qt.Key.Key_Return)
+    assert card.asks_for is Step.WAIT
+    looked_at(app, look, "card: wait")
+    wait_until(app, lambda: card.asks_for is Step.PIN)
+    hand.type(PIN)
+    press(app, Qt.Key.Key_Return)
+    assert app.experimenter.panel.is_open
+    wait_until(app, lambda: find(app.window.contentItem(), "resume-1") is None)
+    hand.click("condition-tom")
+    looked_at(app, look, "panel, card: reason")
+    hand.type("5")
+    looked_at(app, look, "panel, card: words")
+    hand.type("a try")
+    press(app, Qt.Key.Key_Return)
+    wait_until(app, lambda: note.property("text") == "")
+    looked_at(app, look, "panel")
+    press(app, Qt.Key.Key_Escape)
+    for chosen in (0, 2):
+        note.point(chosen, 3)
+        looked_at(app, look, "note: dots")
+    note.tell("Heard again")
+    looked_at(app, look, "note")
+    note.hide()
+
+
+def press(app: App, key: Qt.Key, modifiers: Qt.KeyboardModifier = NO_KEY) -> None:
+    """Press and release a key."""
+    QTest.keyClick(app.window, key, modifiers)
+
+
+def wait_until(app: App, condition: Callable[[], bool]) -> None:
+    """Let time pass until something is so; nothing here takes a thousand waits."""
+    assert isinstance(app.clock, VirtualClock)
+    for _ in range(1_000):
+        if condition():
+            return
+        app.clock.jump()
+    raise Stuck("it never came")
