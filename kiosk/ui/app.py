@@ -46,6 +46,7 @@ class App:
 
         ``robot`` helps in place of the one that the study file asks for.
         """
+        self.desk = desk
         settings = desk.study.settings
         self._window = Window(desk.study, mode)
         owner = self._window.owner
@@ -70,7 +71,7 @@ class App:
         virtual = mode.pace is Pace.VIRTUAL
         self._work, self._slow = (AtOnce() if virtual else Worker(self._landing) for _ in range(2))
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
-        self.experimenter = Experimenter(self._reached(recorder, desk), self.window, self._work, self._slow, now_ms)
+        self.experimenter = Experimenter(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         if not virtual:
             self.experimenter.upkeep.begin()
         self.screens.kiosk.left.connect(self.quit)
@@ -128,11 +129,11 @@ class App:
         self._window.show()
         return None
 
-    def _reached(self, recorder: Recorder, desk: Desk) -> Booth:
+    def _reached(self, recorder: Recorder) -> Booth:
         """What the experimenter can do something to."""
         return Booth(
             conductor=self.conductor,
-            desk=desk,
+            desk=self.desk,
             bodies=self.bodies,
             voice=self._voice,
             recorder=recorder,

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from kiosk.robot.device import Robot
 from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
 from kiosk.study.condition import Condition
@@ -34,11 +35,17 @@ def short(**sections: object) -> Settings:
 
 
 @contextmanager
-def headless(
-    settings: Settings, data: Path, *, seed: int = 1, condition: str = "tom", mode: Mode = VIRTUAL
+def headless(  # noqa: PLR0913 - all that a kiosk can differ in
+    settings: Settings,
+    data: Path,
+    *,
+    seed: int = 1,
+    condition: str = "tom",
+    mode: Mode = VIRTUAL,
+    robot: Robot | None = None,
 ) -> Iterator[App]:
     """A kiosk with this study, in this condition; every sitting has the same seed."""
     study = read_study(settings)
     origin = Origin("a test", simulated=True, seed=lambda: seed, condition=Condition.named(condition))
-    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin)) as app:
+    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
         yield app

@@ -1,0 +1,193 @@
+"""A kiosk with a PIN, a visitor who can be brought to any stage, and the experimenter's hand."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from kiosk.game import Position
+from kiosk.robot.device import Robot
+from kiosk.settings import Settings
+from kiosk.store.database import open_for_reading
+from kiosk.study import events as happened
+from kiosk.study.booth.deeds import Deed
+from kiosk.study.booth.pin import SALT_BYTES, kept
+from kiosk.study.events import Stage, WorldEvent
+from kiosk.ui.app import App
+from kiosk.ui.panel.card import CardScreen, NoteScreen, Step
+from kiosk.ui.panel.screen import PanelScreen
+from tests.ui.conftest import Booth
+from tests.ui.headless import headless
+
+PIN = "2580"
+LINE = kept(PIN, bytes(SALT_BYTES))
+TINY = {"game": {"rows": 1, "columns": 2}, "practice": {"rows": 1, "columns": 2}}
+"""Boards on which the first two cards are a pair."""
+
+
+class Desk(Booth):
+    """A booth with the experimenter at it."""
+
+    @property
+    def card(self) -> CardScreen:
+        """The card that asks."""
+        return self.app.screens.experimenter.parts[0]
+
+    @property
+    def note(self) -> NoteScreen:
+        """The note at the edge."""
+        return self.app.screens.experimenter.parts[1]
+
+    @property
+    def panel(self) -> PanelScreen:
+        """The panel."""
+        return self.app.screens.experimenter.parts[2]
+
+    @property
+    def noted(self) -> str:
+        """What the note says."""
+        return str(self.note.property("text"))
+
+    @property
+    def stage(self) -> Stage:
+        """The stage that the booth is in."""
+        return self.app.experimenter.deeds.stage
+
+    @property
+    def notes(self) -> list[tuple[str, dict[str, Any]]]:
+        """Everything that was written down of the booth."""
+
+
+        connection = open_for_reading(self.data)
+        rows = connection.execute("SELECT type, body FROM booth_event ORDER BY id").fetchall()
+        connection.close()
+        return [(kind, json.loads(body)) for kind, body in rows]
+
+    def chord(self, deed: Deed) -> None:
+        """Press the chord of a deed."""
+        pressed = QKeySequence(getattr(self.app.desk.study.settings.keys, deed.value))[0]
+        QTest.keyClick(self.app.window, pressed.key(), pressed.keyboardModifiers())
+
+    def type(self, text: str) -> None:
+        """Type on the keyboard, wherever it is."""
+        for character in text:
+            QTest.keyClick(self.app.window, character)
+
+    def enter(self) -> None:
+        """Press Enter, at once."""
+        QTest.keyClick(self.app.window, Qt.Key.Key_Return)
+
+    def unlock(self) -> None:
+        """Give the PIN, if it is asked for."""
+        if self.card.asks_for is Step.PIN:
+            self.type(PIN)
+            self.enter()
+
+    def do(self, deed: Deed, reason: str = "1") -> None:
+        """Press a chord, and answer whatever is asked."""
+        self.chord(deed)
+        self.unlock()
+        if self.card.asks_for is Step.REASON:
+            self.type(reason)
+
+    def open_panel(self) -> None:
+        """Open the panel, and let it look around."""
+        self.do(Deed.PANEL)
+        assert self.panel.is_open
+
+    def wait_for_note_to_go(self) -> None:
+        """Let time pass until nothing is at the screen's edge."""
+        self.wait_until(lambda: not self.noted and not self.note.property("dots"))
+
+    def wait_until(self, condition: Callable[[], bool]) -> None:
+        """Let time pass, and what comes from other threads land, until something is so."""
+        for _ in range(10_000):
+            QGuiApplication.processEvents()
+            if condition():
+                return
+            self.jump()
+        pytest.fail(f"it never came; the stage is {self.stage}")
+
+    def go_to(self, stage: Stage) -> None:
+        """Bring a visitor to this stage; over is the calm screen."""
+        if stage is Stage.OVER:
+            self.app.conductor.pause()
+        while self.stage is not stage:
+            self._go_on()
+
+    def _go_on(self) -> None:
+        conductor = self.app.conductor
+        match self.stage:
+            case Stage.ATTRACT:
+                conductor.start("en")
+            case Stage.CONSENT:
+                for purpose in self.purposes:
+                    conductor.tell(happened.PurposeTicked, purpose=purpose, ticked=True)
+                conductor.tell(happened.AgreeTapped)
+            case Stage.AGE:
+                conductor.tell(happened.AgeTapped, adult=True)
+            case Stage.PRACTICE:
+                conductor.tell(happened.SkipTapped)
+            case Stage.GAME:
+                self._play()
+            case _:
+                conductor.tell(happened.ContinueTapped)
+
+    @property
+    def purposes(self) -> list[str]:
+        """What can be agreed to."""
+        information = self.app.desk.study.plans[0].information
+        return [purpose.id for purpose in information.consent.purposes]
+
+    def _play(self) -> None:
+        for column in range(2):
+            self.app.conductor.tell(happened.CardTapped, position=Position(0, column))
+        self.wait_until(lambda: self.stage is not Stage.GAME)
+
+
+class Witness:
+    """Writes down what happened in the sitting."""
+
+    def __init__(self, app: App) -> None:
+        self.events: list[WorldEvent] = []
+        self.stage = app.experimenter.deeds.stage
+        """The stage in which it began to look."""
+        app.conductor.witness = lambda event, _commands, _stage: self.events.append(event)
+
+    def saw(self, kind: type[WorldEvent]) -> bool:
+        """Whether something of this kind happened."""
+        return any(isinstance(event, kind) for event in self.events)
+
+
+MakeDesk = Callable[..., Desk]
+
+
+@pytest.fixture
+def make_desk(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
+    """Build a booth with a PIN; ``sections`` are those of its study file. All are taken down at the end."""
+    with ExitStack() as built:
+
+        def make(device: Robot | None = None, data: Path | None = None, **sections: object) -> Desk:
+            folder = data or Path(mkdtemp(dir=tmp_path))
+            given = {"experimenter": {"pin": LINE}, "allocation": {"quotas": {}}, **TINY, **sections}
+            app = built.enter_context(headless(Settings.model_validate(given), folder, robot=device))
+            qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
+            return Desk(app, folder)
+
+        yield make
+
+
+@pytest.fixture
+def desk(make_desk: MakeDesk) -> Desk:
+    """A booth with all stages and a PIN."""
+    return make_desk()
