@@ -12,6 +12,7 @@ from rich.table import Table
 
 from kiosk import BadInput
 from kiosk.cli.options import json_option
+from kiosk.cli.pin import pin
 from kiosk.robot.kinds import robot_of
 from kiosk.settings import Settings
 from kiosk.study.declared.checked.cautions import cautions, minutes
@@ -28,7 +29,10 @@ MOST_PER_PAGE = 8
 
 @click.group()
 def study() -> None:
-    """Set up a study: check its file, write one to begin with, bring in a questionnaire."""
+    """Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN."""
+
+
+study.add_command(pin)
 
 
 @study.command()

@@ -54,10 +54,10 @@ class App:
         self.clock = _clock(mode, owner)
         self.started_ms = self.clock.now_ms()
         self.conductor = Conductor(self.screens, recorder, self.clock, desk)
-        self._voice = _voice(settings, mode, self.clock, owner)
+        self.voice = _voice(settings, mode, self.clock, owner)
         self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
         board = settings.screen.board
-        self.bodies.take(AvatarBody(self.screens.avatar, self._voice, self.bodies, board, owner))
+        self.bodies.take(AvatarBody(self.screens.avatar, self.voice, self.bodies, board, owner))
         self.conductor.take(self.bodies)
         self._landing = Landing()
         self._take_robot(robot or robot_of(settings.robot, desk.study.languages[0]), settings)
@@ -112,7 +112,7 @@ class App:
         self._landing.close()
         self._work.close()
         self._slow.close()
-        self._voice.close()
+        self.voice.close()
         if self.booth is not None:
             self.booth.release()
         self._window.close()
@@ -135,7 +135,7 @@ class App:
             conductor=self.conductor,
             desk=self.desk,
             bodies=self.bodies,
-            voice=self._voice,
+            voice=self.voice,
             recorder=recorder,
             screens=self.screens,
             clock=self.clock,
@@ -146,7 +146,7 @@ class App:
 
     def _play(self, effect: Effect) -> None:
         if not self.bodies.is_quiet:
-            self._voice.play(effect.file)
+            self.voice.play(effect.file)
 
     def _take_robot(self, device: Robot | None, settings: Settings) -> None:
         if device is None:

@@ -153,7 +153,7 @@ class Conductor:
         if self.gives_way:
             self._rest("attract")
 
-    def shut(self, shut: bool) -> None:  # noqa: FBT001 - it is what is set
+    def shut(self, *, shut: bool) -> None:
         """Let nobody begin, or everybody again; a sitting that is under way goes on to its end."""
         self._shut = shut
         if self._session is None and shut is not self.gives_way:

@@ -40,12 +40,13 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     data: Path,
     *,
     seed: int = 1,
-    condition: str = "tom",
+    condition: str | None = "tom",
     mode: Mode = VIRTUAL,
     robot: Robot | None = None,
 ) -> Iterator[App]:
-    """A kiosk with this study, in this condition; every sitting has the same seed."""
+    """A kiosk with this study, in this condition, or None for its list's; every sitting has the same seed."""
     study = read_study(settings)
-    origin = Origin("a test", simulated=True, seed=lambda: seed, condition=Condition.named(condition))
+    fixed = Condition.named(condition) if condition else None
+    origin = Origin("a test", simulated=True, seed=lambda: seed, condition=fixed)
     with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
         yield app

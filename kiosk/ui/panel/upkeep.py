@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Protocol
 
 from kiosk import BadInput
 from kiosk.store.care.backup import FOLDER, back_up, backups
@@ -58,6 +59,14 @@ class Care:
         )
 
 
+class Shut(Protocol):
+    """Lets nobody begin, or everybody again."""
+
+    def __call__(self, *, shut: bool) -> None:
+        """From now on."""
+        ...
+
+
 class Upkeep:
     """The booth's own care, beat by beat."""
 
@@ -70,7 +79,7 @@ class Upkeep:
         work: Work,
         write: Write,
         resting: Callable[[], bool],
-        shut: Callable[[bool], None],
+        shut: Shut,
     ) -> None:
         """``resting`` tells whether no sitting is under way; ``shut`` lets nobody begin, or everybody again."""
         self._care = care
@@ -170,5 +179,5 @@ class Upkeep:
                 "; nobody can begin" if level is Level.REFUSE else "",
             )
             self._write(Note.ROOM_CHANGED, {"level": level.value, "free_mib": free_mib})
-            self._shut(level is Level.REFUSE)
+            self._shut(shut=level is Level.REFUSE)
         self.changed()

@@ -38,6 +38,9 @@ TINY = {"game": {"rows": 1, "columns": 2}, "practice": {"rows": 1, "columns": 2}
 class Desk(Booth):
     """A booth with the experimenter at it."""
 
+    close: Callable[[], None]
+    """Leaves it."""
+
     @property
     def card(self) -> CardScreen:
         """The card that asks."""
@@ -180,9 +183,14 @@ def make_desk(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
         def make(device: Robot | None = None, data: Path | None = None, **sections: object) -> Desk:
             folder = data or Path(mkdtemp(dir=tmp_path))
             given = {"experimenter": {"pin": LINE}, "allocation": {"quotas": {}}, **TINY, **sections}
-            app = built.enter_context(headless(Settings.model_validate(given), folder, robot=device))
+            stack = built.enter_context(ExitStack())
+            condition = None if "allocation" in sections else "tom"
+            settings = Settings.model_validate(given)
+            app = stack.enter_context(headless(settings, folder, condition=condition, robot=device))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
-            return Desk(app, folder)
+            desk = Desk(app, folder)
+            desk.close = stack.close
+            return desk
 
         yield make
 

@@ -1,0 +1,40 @@
+"""The PIN that is chosen is the one that opens, and nothing but its line is printed."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import pytest
+from click.testing import CliRunner, Result
+
+from kiosk import BadInput
+from kiosk.cli.front import recollect
+from kiosk.settings import Settings
+from kiosk.study.booth.pin import matches
+
+
+def choose(*typed: str, options: tuple[str, ...] = ()) -> Result:
+    """Run the command, and type these lines."""
+    return CliRunner().invoke(recollect, ["study", "pin", *options], input="".join(f"{line}\n" for line in typed))
+
+
+def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
+    told = choose("2580", "2580")
+    assert told.exit_code == 0
+    settings = Settings.model_validate(tomllib.loads(told.stdout))
+    assert matches("2580", settings.experimenter.pin)
+    assert "2580" not in told.output.replace(settings.experimenter.pin, "")
+
+
+def test_two_of_the_same_pin_have_lines_of_their_own() -> None:
+    lines = {json.loads(choose("2580", "2580", options=("--json",)).stdout)["pin"] for _ in range(2)}
+    assert len(lines) == 2
+
+
+@pytest.mark.parametrize(("typed", "why"), [(("2580", "2581"), "not the same"), (("12", "12"), "4 to 12 digits")])
+def test_a_slip_and_what_is_no_pin_are_refused(typed: tuple[str, str], why: str) -> None:
+    told = choose(*typed)
+    assert isinstance(told.exception, BadInput)
+    assert why in str(told.exception)
+    assert told.stdout == ""
