@@ -74,7 +74,6 @@ class App:
         self.experimenter = Experimenter(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         if not virtual:
             self.experimenter.upkeep.begin()
-        self.screens.kiosk.left.connect(self.quit)
 
     def __enter__(self) -> Self:
         """The kiosk itself."""

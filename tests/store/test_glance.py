@@ -55,7 +55,10 @@ def test_only_so_many_sittings_are_shown(tmp_path: Path) -> None:
     ],
 )
 def test_what_was_cut_off_elsewhere_than_in_the_game_can_go_on(
-    tmp_path: Path, stage: Stage, status: Status, resumable: bool  # noqa: FBT001 - it is what is looked for
+    tmp_path: Path,
+    stage: Stage,
+    status: Status,
+    resumable: bool,  # noqa: FBT001 - it is what is looked for
 ) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(stage), happened.SittingEnded(at_ms=9, status=status))

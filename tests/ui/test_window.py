@@ -67,13 +67,6 @@ def test_a_key_that_leaves_other_programs_does_nothing(booth: Booth, key: Qt.Key
     assert len(booth.app.screens.board.closed) == 24
 
 
-def test_the_experimenter_leaves_with_a_chord(booth: Booth) -> None:
-    left: list[bool] = []
-    booth.app.screens.kiosk.left.connect(lambda: left.append(True))
-    booth.press(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
-    assert left == [True]
-
-
 def test_a_sitting_needs_no_mouse(booth: Booth) -> None:
     booth.press(Qt.Key.Key_Return)
     assert booth.screen == "introduction"

@@ -63,7 +63,7 @@ desk-days =
     }
 desk-clock = Clock
 desk-clock-well = goes as it should
-desk-clock-behind = stands before what was written { $ago }: set it
+desk-clock-behind = { $hours } h behind what was written last: set it
 desk-clock-jumped = was set by { $seconds } s since the start
 desk-policy = Policy
 desk-study = Study

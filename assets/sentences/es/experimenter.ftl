@@ -63,7 +63,7 @@ desk-days =
     }
 desk-clock = Reloj
 desk-clock-well = va como debe
-desk-clock-behind = va por detrás de lo escrito { $ago }: ajústelo
+desk-clock-behind = { $hours } h por detrás de lo último escrito: ajústelo
 desk-clock-jumped = se ha movido { $seconds } s desde el inicio
 desk-policy = Política
 desk-study = Estudio

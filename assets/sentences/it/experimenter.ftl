@@ -63,7 +63,7 @@ desk-days =
     }
 desk-clock = Orologio
 desk-clock-well = va come deve
-desk-clock-behind = è prima di quanto scritto { $ago }: regolarlo
+desk-clock-behind = indietro di { $hours } h rispetto all’ultima registrazione: regolarlo
 desk-clock-jumped = è stato spostato di { $seconds } s dall’avvio
 desk-policy = Politica
 desk-study = Studio

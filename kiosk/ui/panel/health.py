@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 
 from kiosk.assistant.wording import Catalogue
 from kiosk.robot.body import Health
@@ -12,6 +13,7 @@ from kiosk.ui.clock import MS_PER_SECOND
 from kiosk.ui.panel.upkeep import MS_PER_MINUTE, Copied
 
 SHORT_SHA = 8
+MS_PER_HOUR = 60 * MS_PER_MINUTE
 DRIFT_MS = 60_000
 """So far may the wall's clock go from one that nobody can set, or stand before what was last written."""
 
@@ -148,8 +150,9 @@ _MINUTES_PER_DAY = 24 * 60
 def _clock(clocks: Clocks, catalogue: Catalogue) -> Line:
     name = catalogue.text("desk-clock")
     if clocks.set_back_ms > DRIFT_MS:
-        minutes = clocks.set_back_ms // MS_PER_MINUTE
-        return Line(name, catalogue.text("desk-clock-behind", ago=ago(minutes, catalogue)), well=False)
+        # A clock that is wrong is wrong by hours; one that is off by less is so by at most one.
+        hours = ceil(clocks.set_back_ms / MS_PER_HOUR)
+        return Line(name, catalogue.text("desk-clock-behind", hours=hours), well=False)
     if abs(clocks.jump_ms) > DRIFT_MS:
         return Line(
             name, catalogue.text("desk-clock-jumped", seconds=round(clocks.jump_ms / MS_PER_SECOND)), well=False

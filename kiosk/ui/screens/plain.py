@@ -25,8 +25,6 @@ class KioskScreen(QObject):
     """Another language is spoken; apart from ``changed``, because all texts follow."""
     confirmed = Signal()
     """The visitor said that they are still there."""
-    left = Signal()
-    """The experimenter leaves the kiosk."""
     unsettled = Signal()
     """Something else is shown than a moment ago."""
 
@@ -135,11 +133,6 @@ class KioskScreen(QObject):
     def confirm(self) -> None:
         """The visitor is still there."""
         self.confirmed.emit()
-
-    @Slot()
-    def leave(self) -> None:
-        """The experimenter leaves the kiosk."""
-        self.left.emit()
 
     def _unsettle(self) -> None:
         self._settled = False

@@ -70,7 +70,6 @@ class Desk(Booth):
     def notes(self) -> list[tuple[str, dict[str, Any]]]:
         """Everything that was written down of the booth."""
 
-
         connection = open_for_reading(self.data)
         rows = connection.execute("SELECT type, body FROM booth_event ORDER BY id").fetchall()
         connection.close()

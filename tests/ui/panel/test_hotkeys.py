@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QKeyEvent
 
 from kiosk.settings import Keys
@@ -190,3 +190,15 @@ def test_with_thanks_the_next_visitor_needs_no_pin_and_the_sitting_is_complete(d
     assert desk.stage is Stage.ATTRACT
     assert witness.saw(happened.NextAsked)
     assert not witness.saw(happened.EndAsked)
+
+
+def test_leaving_ends_the_loop_with_whoever_was_there(desk: Desk) -> None:
+    desk.go_to(Stage.INTRODUCTION)
+    witness = Witness(desk.app)
+    QTimer.singleShot(0, lambda: desk.do(Deed.LEAVE))
+    desk.app.run()
+    desk.close()
+    assert witness.saw(happened.KioskClosed)
+    assert [body for kind, body in desk.notes if kind == "KioskLeft"] == [
+        {"stage": "introduction", "reason": "technical problem"}
+    ]

@@ -152,7 +152,12 @@ def test_counts_stand_against_the_quotas_and_the_last_sittings_tell_how_they_end
     desk.open_panel()
     desk.wait_until(lambda: len(records(desk)["sittings"]) == 2)
     stopped, completed = records(desk)["sittings"]
-    assert (stopped["participant"], stopped["stage"], stopped["status"], stopped["odd"]) == ("2", "game", "stopped", True)
+    assert (stopped["participant"], stopped["stage"], stopped["status"], stopped["odd"]) == (
+        "2",
+        "game",
+        "stopped",
+        True,
+    )
     assert (completed["participant"], completed["status"], completed["odd"]) == ("1", "completed", False)
     assert sorted(cell["done"] for cell in records(desk)["cells"]) == ["0 / 2", "1 / 2"]
     assert sum(int(cell["counts"][0] or 0) for cell in records(desk)["cells"]) == 1
