@@ -19,6 +19,9 @@ from kiosk.ui.panel.screen import PanelScreen, Row
 from kiosk.ui.panel.upkeep import Upkeep
 
 LOOK_MS = 1_000
+RECORDS_EVERY = 10
+"""Among so many looks there is one at the records: while the panel is open, they change by its own deeds alone."""
+
 CLOSE_MS = 60_000
 """Without a hand on it for so long, the panel closes."""
 
@@ -54,6 +57,7 @@ class Panel:
         self._state = state
         self._look = look
         self._looking = False
+        self._looks = 0
         self._unread = ""
         self._stirred_at = 0
         self._tick: Wait | None = None
@@ -96,6 +100,7 @@ class Panel:
         self._asking.unlocked = True
         self._deeds.panel_opened()
         self.stir()
+        self._looks = 0
         self._booth.screens.kiosk.step_back(True)  # noqa: FBT003 - it is what is set
         # All that it shows is there before it comes.
         self._screen.show_choices(self._choices())
@@ -114,12 +119,23 @@ class Panel:
         if self._booth.clock.now_ms() - self._stirred_at >= CLOSE_MS:
             self.close()
             return
-        self._refresh()
+        if self._looks % RECORDS_EVERY == 0:
+            self._refresh()
+        else:
+            self._show_health()
+        self._looks += 1
         self._tick = self._booth.clock.after(LOOK_MS, self._see)
 
     def _refresh(self) -> None:
+        """Look at everything, the records too."""
         if not self.is_open:
             return
+        self._show_health()
+        if not self._looking:
+            self._looking = True
+            self._look(self._have_looked)
+
+    def _show_health(self) -> None:
         found = lines(self._state(), self._booth.desk.study, self._catalogue)
         if self._unread:
             found = (*found, Line(self._catalogue.text("desk-database"), self._unread, well=False))
@@ -128,9 +144,6 @@ class Panel:
             {"well": whole.well, "summary": whole.words, "lines": [asdict(line) for line in found]}
         )
         self._screen.show_choices(self._choices())
-        if not self._looking:
-            self._looking = True
-            self._look(self._have_looked)
 
     def _have_looked(self, seen: Glance | str) -> None:
         self._looking = False

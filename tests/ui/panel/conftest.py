@@ -69,7 +69,6 @@ class Desk(Booth):
     @property
     def notes(self) -> list[tuple[str, dict[str, Any]]]:
         """Everything that was written down of the booth."""
-
         connection = open_for_reading(self.data)
         rows = connection.execute("SELECT type, body FROM booth_event ORDER BY id").fetchall()
         connection.close()
@@ -77,13 +76,14 @@ class Desk(Booth):
 
     def chord(self, deed: Deed) -> None:
         """Press the chord of a deed."""
-        pressed = QKeySequence(getattr(self.app.desk.study.settings.keys, deed.value))[0]
+        sequence = QKeySequence(getattr(self.app.desk.study.settings.keys, deed.value))
+        pressed = sequence[0]  # type: ignore[index]  # the stubs do not know that it can
         QTest.keyClick(self.app.window, pressed.key(), pressed.keyboardModifiers())
 
     def type(self, text: str) -> None:
         """Type on the keyboard, wherever it is."""
         for character in text:
-            QTest.keyClick(self.app.window, character)
+            QTest.keyClick(self.app.window, character)  # type: ignore[call-overload]  # nor that this takes characters
 
     def enter(self) -> None:
         """Press Enter, at once."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtQuick import QQuickItem
 
 from kiosk.store.care.disk import Room
 from kiosk.store.recorder import Recorder, StoreFailed
@@ -38,8 +39,8 @@ def choices(desk: Desk) -> dict[str, Any]:
 
 def held(booth: Booth) -> str:
     """The name of what has the keyboard."""
-    item = booth.app.window.activeFocusItem()
-    return item.objectName() if item else ""
+    item: QQuickItem | None = booth.app.window.activeFocusItem()
+    return item.objectName() if item is not None else ""
 
 
 def tab_to(desk: Desk, name: str) -> None:
