@@ -11,6 +11,7 @@ from kiosk.assistant.adaptation import assistant_with
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.wording import Wording
 from kiosk.game import Board
+from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import Game, Practice
 from kiosk.study.commands import Script
 from kiosk.study.condition import help_in
@@ -28,24 +29,26 @@ class Scenery:
 
     def __init__(self, plan: Plan, seed: int, log: Callable[[Script], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
-        chance = {name: Random(f"{seed}/{name}") for name in ("deal", "targets", "words", "practice", "items")}
-        wording, numbers = Wording(plan.catalogue, chance["words"]), count(1)
+        wording, numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
         self.speaker = Speaker(wording, numbers)
-        game = _game(plan, chance, wording, numbers)
         settings = plan.settings
-        self._scenes: dict[Stage, Scene] = {
-            Stage.ABOUT: About(plan.information.about),
-            Stage.CONSENT: Consent(plan.information, plan.language),
-            Stage.AGE: AgeGate(settings.consent.adult),
-            Stage.ABOUT_YOU: Asking((plan.about_you,), chance["items"]),
-            Stage.INTRODUCTION: Introduction(self.speaker, game.game.board.pairs),
-            Stage.PRACTICE: self._practice(plan, chance["practice"]),
-            Stage.GAME: game,
-            Stage.RESULT: Result(self.speaker, log),
-            Stage.QUESTIONS: Asking(plan.questionnaires, chance["items"]),
-            Stage.DEBRIEF: Debrief(plan.information.debrief),
-            Stage.THANKS: Thanks(self.speaker, settings.timing.thanks),
+        makers: dict[Stage, Callable[[], Scene]] = {
+            Stage.ABOUT: lambda: About(plan.information.about),
+            Stage.CONSENT: lambda: Consent(plan.information, plan.language),
+            Stage.AGE: lambda: AgeGate(settings.consent.adult),
+            Stage.ABOUT_YOU: lambda: Asking((plan.about_you,), Random(f"{seed}/about_you")),
+            Stage.INTRODUCTION: lambda: Introduction(
+                self.speaker, settings.game.rows * settings.game.columns // CARDS_IN_A_PAIR
+            ),
+            Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
+            Stage.GAME: lambda: _game(plan, seed, wording, numbers),
+            Stage.RESULT: lambda: Result(self.speaker, log),
+            Stage.QUESTIONS: lambda: Asking(plan.questionnaires, Random(f"{seed}/questions")),
+            Stage.DEBRIEF: lambda: Debrief(plan.information.debrief),
+            Stage.THANKS: lambda: Thanks(self.speaker, settings.timing.thanks),
         }
+        # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
+        self._scenes = {stage: makers[stage]() for stage in plan.course.stages}
 
     def of(self, stage: Stage) -> Scene:
         """The scene of a stage; before the first and after the last one nothing is to be seen of a sitting."""
@@ -60,15 +63,14 @@ class Scenery:
 _NOTHING = Scene()
 
 
-def _game(plan: Plan, chance: dict[str, Random], wording: Wording, numbers: Iterator[int]) -> Play:
+def _game(plan: Plan, seed: int, wording: Wording, numbers: Iterator[int]) -> Play:
     settings = plan.settings
+    deal, targets = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets"))
     rule = TargetRule(settings.assistance.target_rule)
-    given = help_in(plan.condition, rule, wording, chance["targets"])
+    given = help_in(plan.condition, rule, wording, targets)
     assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance.step) if given else None
     guide = Guide(assistant, given.sentences) if given and assistant else None
-    return Play(
-        Table(_deal(settings.game, plan.deck, chance["deal"]), settings.game.deck), guide, settings.timing, numbers
-    )
+    return Play(Table(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, settings.timing, numbers)
 
 
 def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Board:

@@ -43,7 +43,7 @@ def read_study(settings: Settings) -> Study:
     condition = look.at("assistance.condition", partial(Condition.named, settings.assistance.condition))
     policy = look.policy()
     deck = look.deck("game", settings.game)
-    practice_deck = look.deck("practice", settings.practice)
+    practice_deck = look.deck("practice", settings.practice) if "practice" in settings.stages else ()
     look.check_practice()
     if look.faults or condition is None or policy is None:
         raise BadInput(*look.faults)
