@@ -25,7 +25,7 @@ from kiosk.ui.record import Record
 from kiosk.ui.screens.every import Screens
 from kiosk.ui.sounds import Effect, effect
 
-PAUSE_MS = 15_000
+PAUSE_MS = 8_000
 """How long the calm screen stays before the kiosk tries to go on."""
 
 _log = logging.getLogger(__name__)
