@@ -29,7 +29,7 @@ FocusScope {
             id: group
             anchors.centerIn: parent
             width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
-            spacing: (view.dense || keyboard.visible ? 0.8 : view.alone ? 2 : 1.2) * Theme.gap
+            spacing: (view.dense || keyboard.visible ? 0.8 : view.alone ? 2 : 0.9) * Theme.gap
 
             PlainText {
                 id: progress
