@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,7 @@ def python(program: str) -> tuple[str, ...]:
     return (sys.executable, "-c", program)
 
 
-def saying(*events: dict[str, object], code: int = 0) -> tuple[str, ...]:
+def saying(*events: Mapping[str, object], code: int = 0) -> tuple[str, ...]:
     """A voice's process that says this and ends."""
     return python(
         f"import sys; sys.stdin.read(); print('''{chr(10).join(map(json.dumps, events))}'''); sys.exit({code})"
@@ -95,7 +96,7 @@ def test_a_voice_that_renders_in_time_is_well() -> None:
     ],
 )
 def test_a_voice_that_fails_is_told_of_and_keeps_nobody_from_playing(
-    events: list[dict[str, object]], words: str
+    events: list[Mapping[str, object]], words: str
 ) -> None:
     found = alone(voice(saying(*events, code=3), "en", "Hello."))
     assert found.state is State.WARNING
