@@ -12,7 +12,7 @@ from kiosk import program
 from kiosk.cli.checking import machine
 from kiosk.cli.wiring import code_commit, code_made
 from kiosk.findings import Finding, Probe, State
-from kiosk.keeping.kept import kept
+from kiosk.keeping.kept import WHAT, kept
 from kiosk.robot.player import player
 from kiosk.robot.probes import robot, sound, voice
 from kiosk.settings import Settings
@@ -108,4 +108,4 @@ def _machine(folder: Path) -> Iterator[Probe]:
     yield Probe(machine.MACHINE, partial(machine.machine, load))
     yield Probe(machine.PROGRAM, lambda: machine.program(code_commit()))
     yield Probe(machine.LOGGED, partial(machine.log, folder))
-    yield Probe("kept up", kept)
+    yield Probe(WHAT, kept)
