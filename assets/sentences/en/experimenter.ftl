@@ -82,7 +82,7 @@ desk-counts-beyond = beyond
 desk-counts-withdrawn = withdrawn
 desk-visits = Played without being stored: { $declined } declined, { $under_age } under age, { $left } left before deciding
 desk-automatic = automatic
-desk-hidden = hidden until it ends
+desk-hidden = hidden
 desk-condition-tom = ToM
 desk-condition-notom = no ToM
 desk-condition-mentalised-unexplained = ToM, no reasons
@@ -116,6 +116,7 @@ desk-stage-over = calm screen
 ## Deviations
 
 desk-deviations = Today’s deviations
+desk-deviations-more = and { $number } more
 desk-deviations-none = None today
 desk-note-condition-chosen = next condition: { $what }
 desk-note-body-chosen = next body: { $what }

@@ -82,7 +82,7 @@ desk-counts-beyond = de más
 desk-counts-withdrawn = retiradas
 desk-visits = Jugaron sin quedar registrados: { $declined } sin consentimiento, { $under_age } menores, { $left } se fueron antes de decidir
 desk-automatic = automática
-desk-hidden = oculta hasta el final
+desk-hidden = oculta
 desk-condition-tom = ToM
 desk-condition-notom = sin ToM
 desk-condition-mentalised-unexplained = ToM, sin motivos
@@ -116,6 +116,7 @@ desk-stage-over = pantalla de espera
 ## Deviations
 
 desk-deviations = Desviaciones de hoy
+desk-deviations-more = y { $number } más
 desk-deviations-none = Hoy ninguna
 desk-note-condition-chosen = próxima condición: { $what }
 desk-note-body-chosen = próximo cuerpo: { $what }

@@ -82,7 +82,7 @@ desk-counts-beyond = oltre
 desk-counts-withdrawn = ritirate
 desk-visits = Hanno giocato senza essere registrati: { $declined } senza consenso, { $under_age } minorenni, { $left } andati via prima di decidere
 desk-automatic = automatica
-desk-hidden = nascosta fino alla fine
+desk-hidden = nascosta
 desk-condition-tom = ToM
 desk-condition-notom = senza ToM
 desk-condition-mentalised-unexplained = ToM, senza motivi
@@ -116,6 +116,7 @@ desk-stage-over = schermata di attesa
 ## Deviations
 
 desk-deviations = Deviazioni di oggi
+desk-deviations-more = e altre { $number }
 desk-deviations-none = Oggi nessuna
 desk-note-condition-chosen = prossima condizione: { $what }
 desk-note-body-chosen = prossimo corpo: { $what }

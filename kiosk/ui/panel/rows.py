@@ -20,7 +20,7 @@ from kiosk.study.events import Status
 from kiosk.ui.clock import MS_PER_SECOND
 from kiosk.ui.panel.screen import Row
 
-DEVIATIONS_SHOWN = 8
+DEVIATIONS_SHOWN = 5
 
 Told = Callable[..., str]
 
@@ -34,7 +34,7 @@ def rows(seen: Glance, catalogue: Catalogue) -> Row:
         "visits": told("desk-visits", **visits),
         "sittings": [_sitting(sitting, told) for sitting in seen.sittings],
         "deviations": [_deviation(noted, told) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
-        "more": max(0, len(seen.deviations) - DEVIATIONS_SHOWN),
+        "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, told),
         "resumable": [_resumable(sitting, told) for sitting in seen.resumable],
     }
 
@@ -92,6 +92,11 @@ def _deviation(noted: Noted, told: Told) -> Row:
         "words": told(f"desk-note-{_kebab_of(noted.note)}", what=_what(noted, told)),
         "reason": _reason(reason, told),
     }
+
+
+def _more(number: int, told: Told) -> str:
+    """How many are not shown; nothing if all are."""
+    return told("desk-deviations-more", number=number) if number > 0 else ""
 
 
 def _what(noted: Noted, told: Told) -> str:

@@ -32,7 +32,7 @@ class PanelScreen(QObject):
         self._open = False
         self._words: dict[str, str] = {}
         self._health: Row = {"well": True, "summary": "", "lines": []}
-        self._records: Row = {"cells": [], "visits": "", "sittings": [], "deviations": [], "resumable": []}
+        self._records: Row = {"cells": [], "visits": "", "sittings": [], "deviations": [], "more": "", "resumable": []}
         self._choices: Row = {}
 
     def speak(self, words: dict[str, str]) -> None:

@@ -171,7 +171,7 @@ def test_the_condition_of_the_sitting_under_way_is_not_told(make_desk: MakeDesk)
     desk.open_panel()
     desk.wait_until(lambda: bool(records(desk)["sittings"]))
     (under_way,) = records(desk)["sittings"]
-    assert under_way["condition"] == "hidden until it ends"
+    assert under_way["condition"] == "hidden"
     assert under_way["status"] == "under way"
 
 

@@ -100,23 +100,4 @@ Column {
             }
         }
     }
-    PanelSection {
-        width: parent.width
-        title: deeds.words["desk-resume"]
-        PanelEmpty { words: deeds.words["desk-resume-none"]; visible: deeds.panel.records.resumable.length === 0 }
-        Flow {
-            width: parent.width
-            spacing: 9 * Theme.unit
-            Repeater {
-                model: deeds.panel.records.resumable
-                delegate: PanelButton {
-                    required property var modelData
-                    objectName: "resume-" + modelData.number
-                    enabled: !deeds.choices.underWay
-                    text: modelData.label
-                    onClicked: deeds.panel.wish("resume", modelData.number)
-                }
-            }
-        }
-    }
 }

@@ -20,12 +20,12 @@ PanelSection {
             width: parent.width
             spacing: 8 * Theme.unit
             PanelMark { id: mark; well: !row.modelData.odd }
-            PanelCell { width: row.width * 0.09; words: row.modelData.participant }
-            PanelCell { width: row.width * 0.18; words: row.modelData.when }
-            PanelCell { width: row.width * 0.24; words: row.modelData.condition }
-            PanelCell { width: row.width * 0.2; words: row.modelData.stage }
+            PanelCell { width: row.width * 0.07; words: row.modelData.participant }
+            PanelCell { width: row.width * 0.15; words: row.modelData.when }
+            PanelCell { width: row.width * 0.2; words: row.modelData.condition }
+            PanelCell { width: row.width * 0.19; words: row.modelData.stage }
             PanelCell {
-                width: row.width * 0.29 - mark.width - 5 * row.spacing
+                width: row.width * 0.39 - mark.width - 5 * row.spacing
                 words: row.modelData.status + (row.modelData.robot === "" ? "" : " · " + row.modelData.robot)
             }
         }

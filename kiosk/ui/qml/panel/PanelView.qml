@@ -102,6 +102,19 @@ FocusScope {
                         delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
                     }
                 }
+                PanelResume {
+                    width: parent.width
+                    panel: view.panel
+                }
+            }
+            Column {
+                id: middle
+                x: view.wide ? left.width + view.space : 0
+                y: view.wide ? 0 : Math.max(left.height, right.height) + view.space
+                width: view.wide ? content.width * 0.41 : content.width
+                spacing: view.space
+                PanelCounts { width: parent.width; words: view.words; records: view.panel.records }
+                PanelSittings { width: parent.width; words: view.words; records: view.panel.records }
                 PanelSection {
                     width: parent.width
                     title: view.words["desk-deviations"]
@@ -117,16 +130,8 @@ FocusScope {
                             width: parent.width
                         }
                     }
+                    PanelEmpty { words: view.panel.records.more; visible: words !== "" }
                 }
-            }
-            Column {
-                id: middle
-                x: view.wide ? left.width + view.space : 0
-                y: view.wide ? 0 : Math.max(left.height, right.height) + view.space
-                width: view.wide ? content.width * 0.41 : content.width
-                spacing: view.space
-                PanelCounts { width: parent.width; words: view.words; records: view.panel.records }
-                PanelSittings { width: parent.width; words: view.words; records: view.panel.records }
             }
             PanelDeeds {
                 id: right

@@ -1,0 +1,32 @@
+// The sittings that were cut off and can go on.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+import ".."
+
+PanelSection {
+    id: resume
+
+    required property PanelScreen panel
+
+    title: panel.words["desk-resume"]
+
+    PanelEmpty {
+        words: resume.panel.words["desk-resume-none"]
+        visible: resume.panel.records.resumable.length === 0
+    }
+    Flow {
+        width: parent.width
+        spacing: 9 * Theme.unit
+        Repeater {
+            model: resume.panel.records.resumable
+            delegate: PanelButton {
+                required property var modelData
+                objectName: "resume-" + modelData.number
+                enabled: !resume.panel.choices.underWay
+                text: modelData.label
+                onClicked: resume.panel.wish("resume", modelData.number)
+            }
+        }
+    }
+}
