@@ -103,7 +103,10 @@ def test_a_deck_with_too_few_cards_is_refused_in_words() -> None:
         Session(plan(game=Game(rows=6, columns=6)), 1)
     with pytest.raises(BadInput, match="from the deck 'fruit': a board of 4 x 4 needs 8 different cards, not 6"):
         Session(whole(practice=Practice(rows=4, columns=4)), 1)
-    assert Session(plan(practice=Practice(rows=4, columns=4)), 1), "a study without a practice needs no deck for it"
+
+
+def test_a_study_without_a_practice_needs_no_deck_for_it() -> None:
+    assert Session(plan(practice=Practice(rows=4, columns=4)), 1).stage is Stage.ATTRACT
 
 
 def test_a_board_with_an_odd_number_of_cards_is_refused_in_words() -> None:

@@ -131,7 +131,9 @@ def untold(window: QQuickWindow) -> list[str]:
 def _is_told(item: QQuickItem, reached: set[int]) -> bool:
     role, name = described(item)
     if is_control(item):
-        return role not in (QAccessible.Role.NoRole, QAccessible.Role.Client) and bool(name) and identity(item) in reached
+        return (
+            role not in (QAccessible.Role.NoRole, QAccessible.Role.Client) and bool(name) and identity(item) in reached
+        )
     if is_ignored(item) or not (item.inherits("QQuickText") and str(item.property("text")).strip()):
         return True
     return (bool(name) and identity(item) in reached) or _is_in_a_named_control(item, reached)
