@@ -215,14 +215,9 @@ class EngineVoice(Voice):
         process.finished.connect(self._lost)
         process.errorOccurred.connect(self._lost)
         self._process = process
-        command = self._other or self._worker
+        manner = (self._language, str(self._settings.rate), str(self._settings.volume))
+        command = (*self._other, *manner) if self._other else program("voice", *manner)
         process.start(command[0], list(command[1:]))
-
-    @property
-    def _worker(self) -> tuple[str, ...]:
-        """The command that starts the engine for the language at hand."""
-        settings = self._settings
-        return program("voice", self._language, str(settings.rate), str(settings.volume))
 
     def _send(self, command: dict[str, Any]) -> None:
         if self._process is not None:

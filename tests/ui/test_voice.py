@@ -207,6 +207,25 @@ def test_a_missing_engine_is_told_in_words(
     caplog.clear()
 
 
+TELLS_ITS_MANNER = """
+import json, sys
+language, rate, volume = sys.argv[-3:]
+print(json.dumps({"event": "ready", "voice": f"of {language} at {volume}", "player": True}), flush=True)
+sys.stdin.read()
+"""
+
+
+def test_another_volume_and_another_language_are_spoken_by_a_new_process(
+    qtbot: QtBot, voices: list[EngineVoice]
+) -> None:
+    voice = engine(voices, TELLS_ITS_MANNER)
+    qtbot.waitUntil(lambda: voice.health.words == "the voice of en at 0.9 speaks")
+    voice.turn(0.4)
+    qtbot.waitUntil(lambda: voice.health.words == "the voice of en at 0.4 speaks")
+    voice.speak("it")
+    qtbot.waitUntil(lambda: voice.health.words == "the voice of it at 0.4 speaks")
+
+
 SPEAKS_LATE = """
 import json, sys
 late = None
