@@ -43,7 +43,7 @@ def of_screens(app: App) -> dict[str, object]:
         about = screen.metaObject()
         for index in range(OF_EVERY_OBJECT, about.propertyCount()):
             known = str(about.property(index).name())
-            found[f"{name}.{known}"] = screen.property(known)
+            found[f"{name}.{known}"] = getattr(screen, known)
         if isinstance(screen, QAbstractListModel):
             found[f"{name}.rows"] = screen.rowCount()
     return found
