@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRect, QRectF, QSizeF
+from PySide6.QtCore import QObject, QPointF, QRect, QRectF, QSizeF
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QColor, QImage
 from PySide6.QtQml import QQmlComponent, QQmlEngine, QQmlProperty, qmlContext
 from PySide6.QtQuick import QQuickItem, QQuickWindow
@@ -112,10 +112,9 @@ def announced(window: QQuickWindow) -> set[int]:
     return found
 
 
-def identity(thing: object) -> int:
+def identity(thing: QObject) -> int:
     """What tells one of Qt's objects from all others, however often Python is given it."""
-    address: int = Shiboken.getCppPointer(thing)[0]
-    return address
+    return int(Shiboken.getCppPointer(thing)[0])
 
 
 def untold(window: QQuickWindow) -> list[str]:

@@ -45,7 +45,7 @@ class Keyboard(Hand):
         self.click(name, across)
 
     def _tap(self, place: QPoint) -> None:
-        raise Stuck("a keyboard points at nothing")
+        raise Stuck(f"a keyboard points at nothing, and so not at {place.toTuple()}")
 
     def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = NO_KEY) -> None:
         """Press and release a key."""

@@ -17,7 +17,6 @@ from kiosk.ui.clock import VirtualClock
 from kiosk.ui.panel.card import Step
 from kiosk.ui.rehearsing.hand import NO_KEY, Aside, Hand, Stuck, find, lay_out
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.rehearsing.visitor import Character
 from tests.ui.headless import SMALL
 
 SEED = 1
@@ -29,10 +28,14 @@ Look = Callable[[str], None]
 """Looks at the window; is told what stands there."""
 
 
-def whole_study(**screen: object) -> Settings:
-    """Every stage, every kind of item, and an experimenter with a PIN; ``screen`` is that section of the study file."""
-    more = {"screen": screen, "experimenter": {"pin": kept(PIN, bytes(16))}}
-    return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter"}), **more})
+def whole_study(first: str = "en", **screen: object) -> Settings:
+    """Every stage, every kind of item, and an experimenter with a PIN, who reads the language that comes ``first``.
+
+    ``screen`` is that section of the study file.
+    """
+    languages = sorted(SMALL.languages, key=lambda language: language != first)
+    more = {"languages": languages, "screen": screen, "experimenter": {"pin": kept(PIN, bytes(16))}}
+    return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter", "languages"}), **more})
 
 
 class Looking(Hand):
@@ -84,10 +87,9 @@ def looked_at(app: App, look: Look, moment: str) -> None:
         raise Stuck(f"{moment} could not be looked at: {fault!r}") from fault
 
 
-def tour(app: App, look: Look, language: str = "") -> None:
-    """Look at everything there is, in the order in which it comes."""
-    visitor = Character(language=language)
-    Rehearsal(app, SEED, visitor=visitor, hand=partial(Looking, app=app, look=look)).run()
+def tour(app: App, look: Look) -> None:
+    """Look at everything there is, in the order in which it comes, in the study's first language."""
+    Rehearsal(app, SEED, hand=partial(Looking, app=app, look=look)).run()
     look_over(app, look)
     look_behind(app, look)
 

@@ -14,7 +14,12 @@ FocusScope {
     readonly property real cardSize: Math.min(width / 7.4, height / 4)
     readonly property bool several: attract.ways.length > 1
 
-    onVisibleChanged: if (visible && ways.count > 0) (ways.itemAt(0) as Way).focus = true
+    // The next visitor begins as if the last one had never been: at the first language, and with no ring.
+    onVisibleChanged: {
+        if (visible && ways.count > 0)
+            (ways.itemAt(0) as Way).focus = true
+        Theme.byKeyboard = Theme.byKeyboard && !visible
+    }
 
     component Way: FocusScope {
         id: way

@@ -14,6 +14,11 @@ Button {
     font.pixelSize: Theme.body
     font.bold: true
     scale: down ? 0.96 : 1
+    // Where there is no other stop, Tab still shows this one.
+    Keys.onTabPressed: event => {
+        Theme.byKeyboard = true
+        event.accepted = false
+    }
     // A key that is held down is one click.
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }

@@ -172,7 +172,7 @@ FocusScope {
                 radius: Theme.radius * 1.4
                 color: "transparent"
                 border { color: Theme.ink; width: 5 * Theme.unit }
-                visible: cards.activeFocus && cards.currentIndex === place.index && (cards.byKeyboard || Theme.byKeyboard)
+                visible: cards.activeFocus && cards.currentIndex === place.index && Theme.byKeyboard
             }
             TapHandler {
                 id: tap
@@ -185,15 +185,13 @@ FocusScope {
                 cursorShape: !view.board.open ? Qt.WaitCursor : place.up ? Qt.ArrowCursor : Qt.PointingHandCursor
             }
         }
-        property bool byKeyboard: false
-        Keys.onPressed: byKeyboard = true
+        Keys.onPressed: Theme.byKeyboard = true
 
-        // A new board begins at its first card for those who play by keyboard, and with nobody's keyboard.
+        // A new board begins at its first card for those who play by keyboard.
         Connections {
             target: view.board
             function onModelReset() {
                 cards.currentIndex = 0
-                cards.byKeyboard = false
                 cards.focus = true
             }
         }

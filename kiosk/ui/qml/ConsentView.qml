@@ -26,41 +26,42 @@ FocusScope {
             wrapMode: Text.WordWrap
             color: Theme.ink
         }
-        ScrollPane {
-            id: pane
+        FocusScope {
+            id: home
             width: parent.width
-            room: view.height - title.height - answers.height - 4 * Theme.gap
-            more: view.words["scroll-more"]
-            spacing: 0.5 * Theme.gap
+            height: pane.height
+            // At first at no box: the page is read from its top, and no key ticks what was not seen. Tab goes to the first.
+            focus: true
+            Accessible.role: Accessible.Form
+            Accessible.name: view.consent.title
+            ScrollPane {
+                id: pane
+                width: parent.width
+                room: view.height - title.height - answers.height - 4 * Theme.gap
+                more: view.words["scroll-more"]
+                spacing: 0.5 * Theme.gap
 
-            Paragraphs {
-                width: parent.width
-                texts: view.consent.paragraphs
-            }
-            FocusScope {
-                id: home
-                width: parent.width
-                height: boxes.height
-                focus: true
+                Paragraphs {
+                    width: parent.width
+                    texts: view.consent.paragraphs
+                }
                 Column {
                     id: boxes
-                    // The boxes stand out of the text by their padding alone; their edges are the text's.
-                    x: -8 * Theme.unit
-                    width: parent.width + 8 * Theme.unit
+                    // The boxes stand out of the text by their padding alone; their edges are the text's, unless that is cut.
+                    x: pane.long ? 0 : -8 * Theme.unit
+                    width: parent.width - x
                     Repeater {
                         id: purposes
                         model: view.consent.purposes
                         TickBox {
-                            required property int index
                             required property var modelData
                             objectName: "purpose-" + modelData.id
                             width: boxes.width
-                            focus: index === 0
                             text: modelData.text
-                            ticked: view.consent.ticks.includes(modelData.id)
+                            on: view.consent.ticks.includes(modelData.id)
                             note: view.words[modelData.required ? "consent-required" : "consent-optional"]
                             warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
-                            onClicked: view.consent.tick(modelData.id, !ticked)
+                            onClicked: view.consent.tick(modelData.id, !on)
                         }
                     }
                 }

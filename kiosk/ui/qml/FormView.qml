@@ -86,7 +86,7 @@ FocusScope {
         id: keyboard
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
         words: view.words
-        onDone: go.forceActiveFocus(Qt.TabFocusReason)
+        onDone: go.forceActiveFocus(Qt.MouseFocusReason)
     }
     Connections {
         target: view.form

@@ -1,7 +1,6 @@
 // The one window: a screen on the left, the assistant on the right, and at times a calm word over both.
 pragma ComponentBehavior: Bound
 import QtQuick
-import QtQuick.Templates as T
 import QtQuick.Window
 import Recollect
 import "."
@@ -52,18 +51,6 @@ Window {
     Binding { target: Theme; property: "textSize"; value: root.textSize }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
-
-    // Somebody works by keyboard who came somewhere by Tab, and no more once they have pointed at something.
-    function notice(item: T.Control) {
-        if (item && item.focusReason !== Qt.OtherFocusReason && item.focusReason !== Qt.NoFocusReason)
-            Theme.byKeyboard = item.visualFocus
-    }
-    onActiveFocusItemChanged: notice(activeFocusItem as T.Control)
-    Connections {
-        target: root.activeFocusItem as T.Control
-        ignoreUnknownSignals: true
-        function onFocusReasonChanged() { root.notice(root.activeFocusItem as T.Control) }
-    }
 
     Item {
         id: stage
@@ -177,6 +164,11 @@ Window {
     PanelLayer {
         anchors.fill: parent
         experimenter: root.experimenter
+    }
+    // Whoever points at something does not work by keyboard. It lies over everything to know, and takes nothing.
+    Item {
+        anchors.fill: parent
+        PointHandler { onActiveChanged: if (active) Theme.byKeyboard = false }
     }
     Loader {
         id: controls

@@ -49,6 +49,7 @@ Rectangle {
             color: Theme.amber
         }
         MouseArea {
+            objectName: "replay-line"
             // Not a stop of Tab's: its keys are the arrows, wherever the keyboard is.
             Accessible.role: Accessible.Slider
             Accessible.name: bar.words["replay-line"]

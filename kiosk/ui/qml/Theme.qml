@@ -35,7 +35,7 @@ QtObject {
     readonly property real reading: size(29)
     // What the experimenter reads, who sits close and wants all of it at once: 20 of 1080 lines at least.
     readonly property real dense: Math.max(20, 22 * textSize) * unit
-    readonly property real denser: 20 * unit
+    readonly property real denser: Math.max(20, 18 * textSize) * unit
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
 

@@ -1,27 +1,19 @@
-// A box to tick, with its words. It shows the tick that it is told; a double click is one click.
+// A box to tick, with its words.
 import QtQuick
-import QtQuick.Controls.Basic
 import QtQuick.Shapes
 import "."
 
-AbstractButton {
+Choosable {
     id: box
 
-    required property bool ticked
     property string note: ""
     property string warning: ""
 
-    focusPolicy: Qt.StrongFocus
     padding: 8 * Theme.unit
     font.pixelSize: Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: text
     Accessible.description: warning || note
-    Accessible.checkable: true
-    Accessible.checked: ticked
-    onDoubleClicked: {}
-    Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
-    Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     background: Rectangle {
         radius: Theme.radius
@@ -39,11 +31,11 @@ AbstractButton {
             width: 48 * Theme.unit
             height: width
             radius: 10 * Theme.unit
-            color: box.ticked ? Theme.sea : Theme.white
+            color: box.on ? Theme.sea : Theme.white
             border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
             Shape {
                 anchors.fill: parent
-                visible: box.ticked
+                visible: box.on
                 ShapePath {
                     strokeColor: Theme.white
                     strokeWidth: 6 * Theme.unit

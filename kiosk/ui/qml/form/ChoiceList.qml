@@ -1,7 +1,6 @@
 // Options to choose one or several from. It shows the choice that it is told.
 pragma ComponentBehavior: Bound
 import QtQuick
-import QtQuick.Controls.Basic
 import ".."
 
 Flow {
@@ -23,19 +22,19 @@ Flow {
     Repeater {
         id: buttons
         model: list.options
-        AbstractButton {
+        Choosable {
             id: option
             required property int index
             required property var modelData
-            readonly property bool picked: list.chosen.includes(modelData.id)
 
             function go(to: int) {
-                const other = buttons.itemAt(to) as AbstractButton
+                const other = buttons.itemAt(to) as Choosable
                 if (other)
                     other.forceActiveFocus(Qt.TabFocusReason)
             }
             objectName: `option-${list.item}-${modelData.id}`
-            focusPolicy: list.several || picked || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
+            on: list.chosen.includes(modelData.id)
+            focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
             width: list.stacked ? list.width : Math.min(implicitWidth, list.width)
             text: modelData.text
@@ -47,14 +46,9 @@ Flow {
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
             Accessible.name: `${list.label} ${text}`
-            Accessible.checkable: true
-            Accessible.checked: picked
             onClicked: list.picked(modelData.id)
-            onDoubleClicked: {}
             Keys.onLeftPressed: go(index - 1)
             Keys.onRightPressed: go(index + 1)
-            Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
-            Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
             contentItem: Row {
                 spacing: option.spacing
@@ -73,7 +67,7 @@ Flow {
                         height: width
                         radius: list.several ? 3 * Theme.unit : width / 2
                         color: Theme.sea
-                        visible: option.picked
+                        visible: option.on
                     }
                 }
                 Text {
@@ -87,8 +81,8 @@ Flow {
             }
             background: Rectangle {
                 radius: Theme.radius
-                color: option.picked || option.hovered ? Theme.sand : Theme.white
-                border { color: Theme.sea; width: (option.picked ? 5 : 3) * Theme.unit }
+                color: option.on || option.hovered ? Theme.sand : Theme.white
+                border { color: Theme.sea; width: (option.on ? 5 : 3) * Theme.unit }
                 FocusRing {
                     around: option
                     reach: 7 * Theme.unit

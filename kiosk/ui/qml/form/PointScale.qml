@@ -1,7 +1,6 @@
 // Points between two ends, as numbers or as pictures. Nothing is chosen beforehand.
 pragma ComponentBehavior: Bound
 import QtQuick
-import QtQuick.Controls.Basic
 import ".."
 
 Item {
@@ -61,34 +60,29 @@ Item {
         Repeater {
             id: buttons
             model: scale.points
-            AbstractButton {
+            Choosable {
                 id: point
                 required property int index
                 readonly property int number: index + 1
-                readonly property bool picked: scale.value === number
 
                 // The keyboard stops once at a scale, at its answer or its first point; arrows go on from there.
                 function go(to: int) {
-                    const other = buttons.itemAt(to) as AbstractButton
+                    const other = buttons.itemAt(to) as Choosable
                     if (other)
                         other.forceActiveFocus(Qt.TabFocusReason)
                 }
                 objectName: `answer-${scale.item}-${number}`
-                focusPolicy: picked || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
+                on: scale.value === number
+                focusPolicy: on || (scale.value === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
                 focus: index === 0
                 width: scale.size
                 height: scale.size
                 scale: down ? 0.94 : 1
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
-                Accessible.checkable: true
-                Accessible.checked: picked
                 onClicked: scale.chosen(number)
-                onDoubleClicked: {}
                 Keys.onLeftPressed: go(index - 1)
                 Keys.onRightPressed: go(index + 1)
-                Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
-                Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
                 contentItem: Item {
                     Text {
@@ -96,7 +90,7 @@ Item {
                         visible: !scale.pictured
                         text: point.number
                         font { pixelSize: scale.alone ? Theme.heading : Math.min(Theme.body, 0.5 * scale.size); bold: true }
-                        color: point.picked ? Theme.white : Theme.ink
+                        color: point.on ? Theme.white : Theme.ink
                     }
                     Image {
                         anchors.centerIn: parent
@@ -109,9 +103,9 @@ Item {
                 }
                 background: Rectangle {
                     radius: scale.pictured ? Theme.radius : width / 2
-                    color: point.picked ? (scale.pictured ? Theme.sand : Theme.sea) : point.hovered ? Theme.sand : Theme.white
+                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : point.hovered ? Theme.sand : Theme.white
                     border.color: Theme.sea
-                    border.width: (point.picked && scale.pictured ? 8 : 3) * Theme.unit
+                    border.width: (point.on && scale.pictured ? 8 : 3) * Theme.unit
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit

@@ -45,6 +45,7 @@ Rectangle {
         background: Rectangle {
             radius: 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
+            border { color: Theme.edge; width: 2 * Theme.unit }
         }
     }
 
@@ -65,8 +66,9 @@ Rectangle {
                     objectName: "key-shift"
                     text: keyboard.words["keyboard-shift"]
                     pressedIn: keyboard.capitals
-                    Accessible.checkable: true
-                    Accessible.checked: pressedIn
+                    checkable: true
+                    checked: pressedIn
+                    onCheckedChanged: if (checked !== pressedIn) checked = Qt.binding(() => keyboard.capitals)
                     onClicked: keyboard.capitals = !keyboard.capitals
                 }
                 Repeater {

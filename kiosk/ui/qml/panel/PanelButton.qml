@@ -16,8 +16,11 @@ Button {
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
     font { pixelSize: Theme.dense; bold: chosen }
-    Accessible.checkable: choosable
-    Accessible.checked: choosable && chosen
+    checkable: choosable
+    checked: choosable && chosen
+    onCheckedChanged: if (checked !== (choosable && chosen)) checked = Qt.binding(() => button.choosable && button.chosen)
+    Accessible.onPressAction: clicked()
+    Accessible.onToggleAction: clicked()
 
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }

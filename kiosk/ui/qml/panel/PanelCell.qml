@@ -13,6 +13,8 @@ PlainText {
     font.pixelSize: heading ? Theme.denser : Theme.dense
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
+    wrapMode: Text.Wrap
+    maximumLineCount: 2
     elide: Text.ElideRight
     Accessible.role: heading ? Accessible.ColumnHeader : Accessible.StaticText
     Accessible.name: column === "" ? words : `${column}: ${words || "0"}`

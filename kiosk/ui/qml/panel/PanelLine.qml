@@ -12,7 +12,7 @@ Row {
     PanelMark { id: mark; well: row.line.well }
     PlainText {
         id: name
-        width: row.width * 0.25
+        width: row.width * 0.29
         text: row.line.name
         font { pixelSize: Theme.dense; bold: true }
         color: Theme.ink

@@ -12,7 +12,7 @@ Rectangle {
     height: body.height + heading.height + 2.4 * Theme.gap
     radius: Theme.radius
     color: Theme.white
-    border { color: Theme.sand; width: 2 * Theme.unit }
+    border { color: Theme.edge; width: 2 * Theme.unit }
 
     PlainText {
         id: heading

@@ -1,6 +1,7 @@
 // The panel: how everything is, who has come, and what can be done, at one glance and by keyboard alone.
 pragma ComponentBehavior: Bound
 import QtQuick
+import QtQuick.Controls.Basic
 import Recollect
 import ".."
 
@@ -73,6 +74,12 @@ FocusScope {
         contentHeight: content.height
         clip: true
         boundsBehavior: Flickable.StopAtBounds
+        ScrollBar.vertical: ScrollBar {
+            policy: pane.contentHeight > pane.height ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
+            width: 8 * Theme.unit
+            padding: 0
+            contentItem: Rectangle { radius: width / 2; color: Theme.lightSea }
+        }
 
         // Where the keyboard is, there the eye is.
         readonly property Item held: view.Window.activeFocusItem
