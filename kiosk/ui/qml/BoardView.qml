@@ -12,7 +12,7 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
-    readonly property real header: (board.practice ? 148 : 84) * Theme.unit
+    readonly property real header: (84 + (board.practice ? 64 * Math.max(1, Theme.textSize) : 0)) * Theme.unit
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
     readonly property real footer: 64 * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)

@@ -80,6 +80,8 @@ Item {
         }
         ScrollBar.vertical: ScrollBar {
             id: bar
+            // By itself it stays where it was when its width or the pane's changes.
+            anchors { top: parent?.top; bottom: parent?.bottom; right: parent?.right }
             policy: pane.long ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
             width: 18 * Theme.unit
             padding: 2 * Theme.unit

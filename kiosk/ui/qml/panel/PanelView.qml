@@ -75,6 +75,7 @@ FocusScope {
         clip: true
         boundsBehavior: Flickable.StopAtBounds
         ScrollBar.vertical: ScrollBar {
+            anchors { top: parent?.top; bottom: parent?.bottom; right: parent?.right }
             policy: pane.contentHeight > pane.height ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
             width: 8 * Theme.unit
             padding: 0
