@@ -8,12 +8,12 @@ from pathlib import Path
 
 from kiosk import BadInput
 from kiosk.store.recorder import Provenance
-from kiosk.study.events import KioskClosed, WorldEvent
+from kiosk.study.events import WorldEvent
 
 
 @dataclass(frozen=True)
 class CutOff:
-    """What it followed, and what had happened; its ends were none, so they are left out."""
+    """What it followed, and what had happened to it from outside, the closing of the kiosk included."""
 
     number: int
     sitting: Provenance
@@ -35,10 +35,7 @@ def read_cut_off(folder: Path, number: int) -> CutOff | Unreadable:
         with archive(folder) as stored:
             seen = stored.sitting(number)
             story = stored.story(number)
-            sitting = Provenance(
-                stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.simulated, place=None
-            )
+            sitting = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.simulated)
     except (BadInput, sqlite3.Error) as failure:
         return Unreadable(str(failure))
-    past = (event for event in story if isinstance(event, WorldEvent) and not isinstance(event, KioskClosed))
-    return CutOff(number, sitting, tuple(past))
+    return CutOff(number, sitting, tuple(event for event in story if isinstance(event, WorldEvent)))

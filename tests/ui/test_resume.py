@@ -10,11 +10,13 @@ from pytestqt.qtbot import QtBot
 
 from kiosk import BadInput
 from kiosk.settings import Settings
+from kiosk.store.care.verify import verify
+from kiosk.store.cut_off import CutOff, read_cut_off
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.recorder import Recorder
 from kiosk.study import events as happened
 from kiosk.study.after.replay import first_difference, replayed
-from kiosk.study.events import Event, Stage, Status, WorldEvent
+from kiosk.study.events import Event, Stage, Status
 from kiosk.study.stages import BEFORE_DECIDING, UnexpectedEvent
 from kiosk.ui.app import App
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
@@ -59,11 +61,11 @@ def cut_off(data: Path, stage: Stage, qtbot: QtBot, *, crash: bool) -> None:
         pass
 
 
-def past_of(data: Path) -> tuple[Provenance, tuple[WorldEvent, ...]]:
-    """What the sitting followed, and what happened in it."""
-    with archive(data) as stored:
-        provenance = Provenance(stored.plan(1), stored.seed(1), "avatar", "a test", simulated=True)
-        return provenance, tuple(event for event in stored.story(1) if isinstance(event, WorldEvent))
+def read(data: Path) -> CutOff:
+    """The first sitting, as the kiosk reads it."""
+    found = read_cut_off(data, 1)
+    assert isinstance(found, CutOff)
+    return found
 
 
 @pytest.mark.parametrize("crash", [True, False], ids=["killed", "closed"])
@@ -72,10 +74,10 @@ def test_a_sitting_goes_on_from_the_start_of_its_stage_to_its_end(
     stage: Stage, tmp_path: Path, qtbot: QtBot, *, crash: bool
 ) -> None:
     cut_off(tmp_path, stage, qtbot, crash=crash)
-    provenance, past = past_of(tmp_path)
+    cut = read(tmp_path)
     with headless(SMALL, tmp_path) as app:
         qtbot.waitUntil(app.window.isExposed)
-        app.conductor.resume(provenance, 1, past)
+        app.conductor.resume(cut.sitting, cut.number, cut.past)
         assert app.conductor.stage is stage
         Until(app, None, joins=True).run()
     with archive(tmp_path) as stored:
@@ -88,15 +90,16 @@ def test_a_sitting_goes_on_from_the_start_of_its_stage_to_its_end(
     assert events[resumed + 1] == happened.StageEntered(at_ms=events[resumed].at_ms, stage=stage)
     assert all(one.at_ms <= other.at_ms for one, other in pairwise(events))
     assert first_difference(replayed(plan, seed, events), events) is None
+    assert verify(tmp_path) == []
 
 
 def test_a_game_is_not_gone_on_with(tmp_path: Path, qtbot: QtBot) -> None:
     cut_off(tmp_path, Stage.GAME, qtbot, crash=True)
-    provenance, past = past_of(tmp_path)
+    cut = read(tmp_path)
     with headless(SMALL, tmp_path) as app:
         qtbot.waitUntil(app.window.isExposed)
         with pytest.raises(UnexpectedEvent):
-            app.conductor.resume(provenance, 1, past)
+            app.conductor.resume(cut.sitting, cut.number, cut.past)
         assert app.conductor.stage is Stage.ATTRACT
         Rehearsal(app, 2).run()
 
@@ -105,7 +108,7 @@ def test_a_sitting_that_came_to_its_end_is_not_gone_on_with(tmp_path: Path, qtbo
     with headless(SMALL, tmp_path) as app:
         qtbot.waitUntil(app.window.isExposed)
         Rehearsal(app, 1).run()
-        provenance, past = past_of(tmp_path)
+        cut = read(tmp_path)
         with pytest.raises((UnexpectedEvent, BadInput)):
-            app.conductor.resume(provenance, 1, past)
+            app.conductor.resume(cut.sitting, cut.number, cut.past)
         assert app.conductor.stage is Stage.ATTRACT
