@@ -8,11 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from kiosk.store.recorder import Provenance, Recorder
+from kiosk import BadInput
+from kiosk.store.recorder import Provenance, Recorder, StoreFailed
 from kiosk.study.allocation import Allotted, Place
+from kiosk.study.booth.notes import Note
 from kiosk.study.condition import Condition
 from kiosk.study.events import BodyName
 from kiosk.study.plan import Study
+
+
+@dataclass(frozen=True)
+class _Choice:
+    """A condition that the experimenter chose; a later choice is another one, even of the same condition."""
+
+    condition: Condition
 
 
 @dataclass(frozen=True)
@@ -31,16 +40,21 @@ class Desk:
     """Chooses the next sitting's condition: the experimenter's, else the list's next, else the study file's."""
 
     def __init__(self, study: Study, recorder: Recorder, origin: Origin) -> None:
-        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed already."""
+        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed, or it cannot be."""
         self.study = study
         self._recorder = recorder
         self._origin = origin
-        self._chosen: Condition | None = None
+        self._choice: _Choice | None = None
+        self._followed: _Choice | None = None
+        """The choice that the latest sitting follows."""
         allocation = study.settings.allocation
         quotas = {Condition.named(name): quota for name, quota in allocation.quotas.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
-            recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
+            try:
+                recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
+            except StoreFailed as failure:
+                raise BadInput(f"the list of places cannot be fixed: {failure}") from failure
 
     @property
     def simulated(self) -> bool:
@@ -50,18 +64,19 @@ class Desk:
     @property
     def chosen(self) -> Condition | None:
         """The condition that the experimenter chose for the next sitting; None for the list's."""
-        return self._chosen
+        return self._choice.condition if self._choice else None
 
     def choose(self, condition: Condition | None, reason: str) -> None:
         """Have the next sitting in this condition, or, with None, in the list's; raises StoreFailed."""
         name = condition.value if condition else "automatic"
-        self._recorder.note("ConditionChosen", {"condition": name, "reason": reason})
-        self._chosen = condition
+        self._recorder.note(Note.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
+        self._choice = None if condition is None else _Choice(condition)
 
     def next_sitting(self, language: str) -> Provenance:
         """What the next sitting is to follow; raises StoreFailed."""
-        place = self._next_place() if self._listed and self._chosen is None else None
-        condition = self._chosen or (place.condition if place else self._origin.condition)
+        self._followed = self._choice
+        place = self._next_place() if self._listed and self._choice is None else None
+        condition = self.chosen or (place.condition if place else self._origin.condition)
         return Provenance(
             self.study.plan(language, condition),
             self._origin.seed(),
@@ -74,14 +89,14 @@ class Desk:
 
     def kept(self, sitting: Provenance) -> None:
         """Note that a sitting is on record: what was chosen for it does not hold for the one after."""
-        if sitting.allotted is Allotted.OVERRIDE:
-            self._chosen = None
+        if sitting.allotted is Allotted.OVERRIDE and self._choice is self._followed:
+            self._choice = None
 
     def _next_place(self) -> Place | None:
         return self._recorder.next_place(simulated=self._origin.simulated)
 
     def _allotted(self, place: Place | None) -> Allotted | None:
-        if self._chosen is not None:
+        if self._choice is not None:
             return Allotted.OVERRIDE
         if not self._listed:
             return None
