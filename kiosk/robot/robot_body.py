@@ -69,7 +69,9 @@ class RobotBody:
 
     def speak(self, language: str) -> None:
         """Speak this language; a robot without a voice for it is lost to the sitting."""
-        self._post(self._motion, "speak", partial(self._robot.speak, language))
+        # Before its first sentence, on whose lane it goes; but after a search, which gives it a voice as well.
+        lane = self._voice if self._health.well else self._motion
+        self._post(lane, "speak", partial(self._robot.speak, language))
 
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""

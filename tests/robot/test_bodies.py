@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from threading import Event
 
 import pytest
 
 from kiosk.robot.bodies import Bodies
-from kiosk.robot.device import Fault, RobotFailed
+from kiosk.robot.device import Fault, RobotFailed, Saying
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
@@ -16,6 +17,9 @@ from kiosk.study.events import BodyName
 from tests.robot.recording import BodyFake, Interface, Reports, RobotFake, Waits
 
 GONE = RobotFailed(Fault.UNREACHABLE, "saying hello")
+A_MOMENT_S = 0.2
+"""Long enough for a sentence that does not wait to come too early."""
+
 SETTINGS = RobotSettings(kind="furhat", retry_first=1000, retry_longest=8000, probe_every=5000)
 
 
@@ -189,6 +193,27 @@ def test_a_sentence_that_was_stopped_is_not_reported(robot_helps: Stage) -> None
     robot_helps.body.stop()
     robot_helps.settle()
     assert robot_helps.reports.heard == []
+
+
+def test_the_first_sentence_waits_for_its_language() -> None:
+    class SlowToLearn(RobotFake):
+        said = Event()
+
+        def speak(self, language: str) -> None:
+            self.said.wait(A_MOMENT_S)
+            super().speak(language)
+
+        def say(self, saying: Saying) -> None:
+            self.said.set()
+            super().say(saying)
+
+    stage = Stage(SlowToLearn())
+    stage.begin_to_look()
+    stage.bodies.begin("it")
+    stage.body.say(1, "Ciao")
+    stage.settle()
+    assert stage.robot.did.index("speak it") < stage.robot.did.index("say Ciao")
+    stage.bodies.close()
 
 
 def test_a_new_sentence_takes_the_place_of_the_one_under_way(robot_helps: Stage) -> None:

@@ -72,6 +72,24 @@ def test_a_robot_without_a_voice_of_the_language_is_not_used() -> None:
     assert failed.value.fault is Fault.NO_VOICE
 
 
+def test_it_is_given_a_voice_of_each_visitors_language(fake: FurhatFake) -> None:
+    robot = furhat(fake, "en")
+    robot.connect()
+    robot.speak("it")
+    assert fake.voice == "Bianca"
+    robot.connect()
+    assert fake.voice == "Bianca"
+
+
+def test_a_language_that_it_lacks_is_lost_to_one_visitor_only(fake: FurhatFake) -> None:
+    robot = furhat(fake, "it")
+    robot.connect()
+    with pytest.raises(RobotFailed) as failed:
+        robot.speak("fi")
+    assert failed.value.fault is Fault.NO_VOICE
+    assert robot.connect().voice == RobotVoice("Bianca", "it-IT")
+
+
 @pytest.mark.parametrize("language", ["en", "en-US", "en_GB", "EN-au"])
 def test_a_language_is_known_however_it_is_written(language: str) -> None:
     assert chosen_voice((RobotVoice("X", "eng"), RobotVoice("Y", language)), "en").name == "Y"

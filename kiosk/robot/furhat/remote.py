@@ -48,12 +48,13 @@ class Furhat:
         return Found(self._voices, self._gestures, voice)
 
     def speak(self, language: str) -> None:
-        """Give it a voice of another language; raises RobotFailed if it has none."""
+        """Give it a voice of another language; raises RobotFailed if it has none, and keeps to the one before."""
         if language == self._language:
             return
-        self._language = language
         if self._voices:
             self.speak_with(chosen_voice(self._voices, language, self._settings.voice))
+        # Only now: a robot that lacks one visitor's language must still be found for the next one's.
+        self._language = language
 
     def resolve(self) -> None:
         """Look its name up, for all calls that follow; raises RobotFailed."""
