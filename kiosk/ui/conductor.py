@@ -41,8 +41,6 @@ class Conductor:
         """``desk`` is asked once for each sitting, when it begins."""
         self.witness: Witness | None = None
         self.play: Callable[[Effect], None] = lambda _: None
-        self.trouble: Callable[[str], None] = lambda _: None
-        """Is told, in words for the experimenter, of what the disk did not take."""
         self.begun: Callable[[], None] = lambda: None
         """Is told when a visitor has begun, or a sitting goes on."""
         self.rested: Callable[[], None] = lambda: None
@@ -212,5 +210,4 @@ class Conductor:
 
     def _give_way(self, failure: StoreFailed) -> None:
         _log.error("%s", failure)
-        self.trouble(str(failure))
         self.pause()
