@@ -170,6 +170,8 @@ def _rehearse_day(study: Study, mode: Mode, data: Path, seed: int, sittings: int
         day = sit_down(app, seed, visitors, data)
         with _stuck_in_words():
             holdings = list(track(day, "sittings", total=sittings, disable=not sys.stderr.isatty(), console=_STDERR))
+        if app.told_to_end:
+            raise click.Abort
         stored = recorder.begun
     told = summary(visitors, holdings) | {"stored": stored, "seconds": round(monotonic() - begun)} | _ends(data, stored)
     click.echo(json.dumps(told) if as_json else _in_words(told))

@@ -93,6 +93,11 @@ class App:
         """Qt's own window."""
         return self._window.shown
 
+    @property
+    def told_to_end(self) -> bool:
+        """Whether the system asked the kiosk to end."""
+        return self._loop.told_to_end
+
     def run(self) -> None:
         """Run until somebody leaves the kiosk."""
         with watched(self.window, self.screens.kiosk):

@@ -23,6 +23,8 @@ class Loop:
 
     def __init__(self, clock: Clock, owner: QObject, fault: Fault) -> None:
         """``fault`` is told of what nobody caught."""
+        self.told_to_end = False
+        """Whether the system asked the program to end; from then on nothing runs."""
         # A loop of our own: the application's asks every window first, and the window refuses everybody.
         self._loop = QEventLoop()
         self._clock = clock
@@ -32,11 +34,13 @@ class Loop:
         self._heart.timeout.connect(lambda: None)
         self._heart.start(HEARTBEAT_MS)
         self._signals_before = {
-            ending: signal.signal(ending, lambda *_: self.quit()) for ending in (signal.SIGINT, signal.SIGTERM)
+            ending: signal.signal(ending, lambda *_: self._end()) for ending in (signal.SIGINT, signal.SIGTERM)
         }
 
     def run(self) -> None:
-        """Run until ``quit``."""
+        """Run until ``quit``, or not at all once the system asked for the end, be it while all this was built."""
+        if self.told_to_end:
+            return
         before, sys.excepthook = sys.excepthook, self._fault
         ticking = QTimer()
         if isinstance(self._clock, VirtualClock):
@@ -60,3 +64,7 @@ class Loop:
         """Leave the system's requests to whoever had them before."""
         for ending, handler in self._signals_before.items():
             signal.signal(ending, handler)
+
+    def _end(self) -> None:
+        self.told_to_end = True
+        self.quit()

@@ -79,10 +79,15 @@ def crowd(sittings: int, seed: int, languages: Sequence[str]) -> Iterator[Charac
 
 
 def sit_down(app: App, seed: int, visitors: Sequence[Character], data: Path) -> Iterator[Holding]:
-    """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on."""
+    """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on.
+
+    Nobody comes any more once the system asked the kiosk to end.
+    """
     for number, visitor in enumerate(visitors):
         rehearsal = Rehearsal(app, seed + number, visitor=visitor)
         rehearsal.run()
+        if app.told_to_end:
+            return
         yield Holding.now(data, rehearsal.pulse.longest_ms)
 
 

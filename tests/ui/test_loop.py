@@ -1,0 +1,45 @@
+"""The loop ends when the system asks it to, whenever that is."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from functools import partial
+
+import pytest
+from PySide6.QtCore import QObject
+from pytestqt.qtbot import QtBot
+
+from kiosk.ui.clock import VirtualClock
+from kiosk.ui.loop import Loop
+
+
+@pytest.fixture
+def clock() -> VirtualClock:
+    return VirtualClock()
+
+
+@pytest.fixture
+def loop(clock: VirtualClock, qtbot: QtBot) -> Iterator[Loop]:
+    assert qtbot
+    owner = QObject()
+    loop = Loop(clock, owner, lambda *_: None)
+    yield loop
+    loop.close()
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_whoever_asks_for_the_end_before_it_runs_is_heard(loop: Loop, ending: signal.Signals) -> None:
+    signal.raise_signal(ending)
+    loop.run()
+    assert loop.told_to_end
+
+
+def test_it_runs_again_after_it_was_left_from_within(loop: Loop, clock: VirtualClock) -> None:
+    left: list[int] = []
+    for number in (1, 2):
+        clock.after(0, partial(left.append, number))
+        clock.after(0, loop.quit)
+        loop.run()
+    assert left == [1, 2]
+    assert not loop.told_to_end
