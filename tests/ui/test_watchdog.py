@@ -112,4 +112,4 @@ def test_a_whole_sitting_is_told_screen_by_screen(booth: Booth, monkeypatch: pyt
     monkeypatch.setattr("kiosk.ui.watchdog.Notifier", Told)
     booth.rehearse(1)
     screens = [screen for screen, _ in groupby(Told.last.screens)]
-    assert screens[screens.index("introduction") :] == ["introduction", "game", "result", "questions", "attract"]
+    assert screens[screens.index("introduction") :] == ["introduction", "game", "result", "form", "attract"]
