@@ -14,15 +14,16 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "findings", "refusals", "settings"}
-"""The package itself, the study file's types, how they refuse, and what a look finds: every room may know them, and
-they know no room."""
+BELOW_ALL = {"kiosk", "findings", "refusals", "settings", "units"}
+"""The package itself, the study file's types, how they refuse, what a look finds, and units: every room may know
+them, and they know no room."""
 
 ROOMS: dict[str, set[str]] = {
     "kiosk": set(),
     "findings": set(),
     "refusals": set(),
     "settings": set(),
+    "units": set(),
     "keeping": set(),
     "game": set(),
     "assistant": {"game"},

@@ -12,8 +12,8 @@ from rich.table import Table
 
 from kiosk.cli.options import data_option, json_option
 from kiosk.store.reading import Sitting, archive
+from kiosk.units import MS_PER_SECOND
 
-MS_PER_SECOND = 1000
 WIDTH = 150
 """Characters that a line of the list may need."""
 

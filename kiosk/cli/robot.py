@@ -20,11 +20,10 @@ from kiosk.robot.device import Robot, RobotFailed, Saying
 from kiosk.robot.furhat.remote import Furhat, chosen_voice
 from kiosk.robot.kinds import robot_of
 from kiosk.study.commands import Mood
+from kiosk.units import MS_PER_SECOND
 
 FAILED = 1
 """The exit code when a step failed."""
-
-MS_PER_SECOND = 1000
 
 
 @dataclass(frozen=True)

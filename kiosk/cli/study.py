@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from kiosk import BadInput
+from kiosk.cli.front import BAD_INPUT
 from kiosk.cli.options import json_option
 from kiosk.cli.pin import pin
 from kiosk.robot.kinds import robot_of
@@ -23,7 +24,6 @@ from kiosk.study.declared.questionnaire import Order, Page, Questionnaire
 from kiosk.study.declared.reference import as_page, as_study_file
 from kiosk.study.plan import Study
 
-BAD_INPUT = 2
 MOST_PER_PAGE = 8
 
 

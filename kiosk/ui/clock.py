@@ -14,7 +14,7 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer
 
-MS_PER_SECOND = 1000
+from kiosk.units import MS_PER_SECOND
 
 _TICK_S = 0.0005
 """How long a virtual clock that keeps pace with the wall's gives way to whoever it waits for."""

@@ -13,10 +13,10 @@ import psutil
 from kiosk import __version__
 from kiosk.cli.wiring import LOG, LOG_BYTES, LOGS_KEPT
 from kiosk.findings import Finding
+from kiosk.units import MIB
 
 MACHINE, PROGRAM, LOGGED = "machine", "program", "log"
 
-MIB = 1024 * 1024
 LEAST_MIB = 400
 """At rest, at 1080p, the kiosk, its voice, the keeper and the calm window took 328 MiB, 174 of them theirs alone; a day
 adds nothing."""

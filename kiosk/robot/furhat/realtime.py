@@ -25,10 +25,10 @@ from kiosk.robot.furhat.space import location
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName
+from kiosk.units import MS_PER_SECOND
 
 PORT = 9000
 PATH = "/v1/events"
-MS_PER_SECOND = 1000
 
 _REGIONS: Mapping[str, str] = MappingProxyType({"en": "en-US", "es": "es-ES", "it": "it-IT"})
 _CLOSE_S = 0.2

@@ -13,10 +13,11 @@ from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, Found, RobotFailed, RobotVoice, Saying
 from kiosk.robot.furhat.gestures import CONFUSED, gesture
 from kiosk.robot.furhat.space import location
-from kiosk.robot.furhat.wire import MS_PER_SECOND, Call, Http
+from kiosk.robot.furhat.wire import Call, Http
 from kiosk.settings import Robot as RobotSettings
 from kiosk.study.commands import Mood
 from kiosk.study.events import BodyName
+from kiosk.units import MS_PER_SECOND
 
 PORT = 54321
 OK = 200

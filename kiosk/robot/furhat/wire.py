@@ -20,8 +20,8 @@ from urllib3.connection import HTTPConnection
 from urllib3.connectionpool import HTTPConnectionPool
 
 from kiosk.robot.device import Fault, RobotFailed
+from kiosk.units import MS_PER_SECOND
 
-MS_PER_SECOND = 1000
 LARGEST = 1_000_000
 """Bytes; more than this is no answer of a robot."""
 

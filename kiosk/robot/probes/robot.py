@@ -9,11 +9,11 @@ from kiosk.findings import Finding
 from kiosk.robot.device import Robot, RobotFailed
 from kiosk.robot.kinds import robot_of
 from kiosk.settings import Robot as RobotSettings
+from kiosk.units import MS_PER_SECOND
 
 WHAT = "robot"
 
 _CALLS = 4
-_MS_PER_SECOND = 1000
 _MARGIN_S = 2.0
 _AVATAR = "until then the avatar helps"
 _SEE = "'recollect robot' tries it step by step"
@@ -21,7 +21,7 @@ _SEE = "'recollect robot' tries it step by step"
 
 def within_s(settings: RobotSettings) -> float:
     """How long asking may take at most: as long as all its own deadlines."""
-    return _CALLS * (settings.connect_deadline + settings.answer_deadline) / _MS_PER_SECOND + _MARGIN_S
+    return _CALLS * (settings.connect_deadline + settings.answer_deadline) / MS_PER_SECOND + _MARGIN_S
 
 
 def robot(settings: RobotSettings, languages: Sequence[str], *, busy: bool) -> Iterator[Finding]:

@@ -8,8 +8,7 @@ from enum import Enum
 from pathlib import Path
 
 from kiosk import BadInput
-
-MIB = 1024 * 1024
+from kiosk.units import MIB
 
 WARN_MIB = 512
 """A sitting takes some 30 KiB; if it took twice that, a day of 200 would take 12 MiB, and each copy that is kept as

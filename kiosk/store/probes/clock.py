@@ -10,13 +10,13 @@ from kiosk import BadInput
 from kiosk.findings import Finding
 from kiosk.store.database import FILE
 from kiosk.store.glance import last_written_ms
+from kiosk.units import MS_PER_SECOND
 
 WHAT = "clock"
 
 SLACK = timedelta(minutes=1)
 """A clock that is set by the network may go back a little."""
 
-_MS_PER_SECOND = 1000
 _REMEDY = "set the clock (Debian: timedatectl set-ntp true); sittings before that keep their wrong dates"
 
 
@@ -42,4 +42,4 @@ def newest(folder: Path) -> datetime | None:
         written_ms = last_written_ms(folder)
     except BadInput:
         return None
-    return datetime.fromtimestamp(written_ms / _MS_PER_SECOND, UTC) if written_ms else None
+    return datetime.fromtimestamp(written_ms / MS_PER_SECOND, UTC) if written_ms else None

@@ -12,9 +12,10 @@ from math import ceil
 from kiosk.assistant.wording import Catalogue
 from kiosk.study.booth.deeds import Asks, Reason
 from kiosk.study.booth.pin import MOST
-from kiosk.ui.clock import MS_PER_SECOND, Clock, Wait
+from kiosk.ui.clock import Clock, Wait
 from kiosk.ui.panel.card import CardScreen, Step
 from kiosk.ui.panel.lock import Lock
+from kiosk.units import MS_PER_SECOND
 
 AWAY_MS = 10_000
 """Without a key for so long, the card goes away."""

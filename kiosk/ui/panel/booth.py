@@ -15,7 +15,6 @@ from kiosk.store.cut_off import read_cut_off
 from kiosk.store.glance import Glance, glance, last_written_ms, wrong_pins
 from kiosk.study.booth.chords import chords
 from kiosk.study.events import BodyName
-from kiosk.ui.clock import MS_PER_SECOND
 from kiosk.ui.panel.asking import Asking
 from kiosk.ui.panel.deeds import Booth, Deeds, Writing
 from kiosk.ui.panel.health import Clocks, State
@@ -24,6 +23,7 @@ from kiosk.ui.panel.lock import Lock
 from kiosk.ui.panel.panel import Panel
 from kiosk.ui.panel.upkeep import Care, Upkeep
 from kiosk.ui.work import Work
+from kiosk.units import MS_PER_SECOND
 
 
 def wall_ms() -> int:

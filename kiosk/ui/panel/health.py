@@ -9,8 +9,8 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.robot.body import Health
 from kiosk.store.care.disk import Level, Room
 from kiosk.study.plan import Study
-from kiosk.ui.clock import MS_PER_SECOND
-from kiosk.ui.panel.upkeep import MS_PER_MINUTE, Copied
+from kiosk.ui.panel.upkeep import Copied
+from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 
 SHORT_SHA = 8
 MS_PER_HOUR = 60 * MS_PER_MINUTE

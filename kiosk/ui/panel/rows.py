@@ -17,8 +17,8 @@ from kiosk.study.booth.deeds import Reason
 from kiosk.study.booth.notes import Note
 from kiosk.study.condition import Condition
 from kiosk.study.events import Status
-from kiosk.ui.clock import MS_PER_SECOND
 from kiosk.ui.panel.screen import Row
+from kiosk.units import MS_PER_SECOND
 
 DEVIATIONS_SHOWN = 5
 

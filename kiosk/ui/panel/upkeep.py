@@ -17,14 +17,14 @@ from kiosk.store.care.backup import FOLDER, back_up, backups
 from kiosk.store.care.disk import Level, Room, room
 from kiosk.store.recorder import StoreFailed
 from kiosk.study.booth.notes import Note
-from kiosk.ui.clock import MS_PER_SECOND, Clock
+from kiosk.ui.clock import Clock
 from kiosk.ui.panel.lock import Write
 from kiosk.ui.work import Work
+from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 
 BEAT_MS = 60_000
 """How often the disk is looked at, and whether a copy is due."""
 
-MS_PER_MINUTE = 60_000
 
 _log = logging.getLogger(__name__)
 

@@ -17,13 +17,13 @@ from kiosk.ui.booth.awake import Awake
 from kiosk.ui.booth.full_screen import numbered_screens
 from kiosk.ui.booth.ways import ANSWER_MS, ways
 from kiosk.ui.window import Display, check_screen
+from kiosk.units import MS_PER_SECOND
 
 DISPLAY, DESKTOP, LIT = "screen", "desktop", "kept lit"
 
 LEAST_HIGH, LEAST_WIDE = 720, 1280
 """The smallest screen, lying or standing, that every page is tried on."""
 
-_MS_PER_SECOND = 1000
 _TICK_MS = 20
 
 
@@ -66,7 +66,7 @@ def _window_manager() -> str:
 def _lit() -> Finding:
     """Ask all that can hold off the screen saver, wait for an answer, and take it back."""
     awake = Awake(ways())
-    end = monotonic() + ANSWER_MS / _MS_PER_SECOND
+    end = monotonic() + ANSWER_MS / MS_PER_SECOND
     loop = QEventLoop()
     while not awake.health.well and monotonic() < end:
         loop.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, _TICK_MS)

@@ -8,8 +8,9 @@ from time import monotonic
 
 from PySide6.QtCore import QObject, Qt, QTimer
 
+from kiosk.units import MS_PER_SECOND
+
 EVERY_MS = 5
-MS_PER_SECOND = 1000
 
 
 class Pulse(QObject):

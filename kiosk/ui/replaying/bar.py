@@ -7,12 +7,11 @@ from PySide6.QtQml import QmlElement
 
 from kiosk.study.after.replay import Step
 from kiosk.ui.replaying.player import Player
+from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
-MS_PER_SECOND = 1000
-SECONDS_PER_MINUTE = 60
 FASTER = 2.0
 
 

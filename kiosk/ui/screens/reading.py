@@ -8,12 +8,11 @@ from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
 from kiosk.study.declared.information import Page
+from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
-MS_PER_SECOND = 1000
-SECONDS_PER_MINUTE = 60
 
 QUIET_MODULES = 4
 """The white frame that a QR code must have to be found, in its own squares."""

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from kiosk import BadInput
-from kiosk.store.care.disk import MIB, REFUSE_MIB, WARN_MIB, Level, Room, room
+from kiosk.store.care.disk import REFUSE_MIB, WARN_MIB, Level, Room, room
+from kiosk.units import MIB
 
 
 @pytest.mark.parametrize(

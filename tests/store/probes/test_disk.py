@@ -13,9 +13,10 @@ from typing import NamedTuple
 import pytest
 
 from kiosk.findings import Finding, State
-from kiosk.store.care.disk import MIB, REFUSE_MIB, WARN_MIB
+from kiosk.store.care.disk import REFUSE_MIB, WARN_MIB
 from kiosk.store.probes import disk
 from kiosk.store.probes.disk import SLOW_MS, STALL_MS, TIMES, access, space, writing, written_ms
+from kiosk.units import MIB
 
 
 class Usage(NamedTuple):

@@ -18,8 +18,9 @@ from kiosk.study import events as happened
 from kiosk.study.booth.notes import Note
 from kiosk.study.events import Stage
 from kiosk.ui.clock import VirtualClock
-from kiosk.ui.panel.upkeep import BEAT_MS, MS_PER_MINUTE, Care, Upkeep
+from kiosk.ui.panel.upkeep import BEAT_MS, Care, Upkeep
 from kiosk.ui.work import AtOnce
+from kiosk.units import MS_PER_MINUTE
 from tests.ui.panel.conftest import Desk
 
 EVERY = 10

@@ -18,9 +18,9 @@ from kiosk.store.dataset.tables.flow import Flow
 from kiosk.store.dataset.tables.personal import item_variable, told_items
 from kiosk.store.dataset.tables.shared import AT, BOARD, FLIP, PARTICIPANT
 from kiosk.study.declared.questionnaire import Questionnaire
+from kiosk.units import MS_PER_SECOND
 
 BIDS_VERSION = "1.10.0"
-MS_PER_SECOND = 1000
 
 _JOINED = ("flips", "decisions", "hints")
 """The tables that are one table here: of a flip, what was decided before it, and the hint for it."""

@@ -10,6 +10,7 @@ from kiosk.settings import Game, Practice
 from kiosk.study.declared.questionnaire import Item, Page, ShortText
 from kiosk.study.declared.words import in_language
 from kiosk.study.plan import Plan, Study
+from kiosk.units import MS_PER_MINUTE
 
 SHIPPED_TEXT = "study"
 """The information sheets that come as an example."""
@@ -20,7 +21,6 @@ _WITHOUT = {
     "debrief": "without the stage 'debrief', nobody sees the code with which to withdraw",
 }
 
-MS_PER_MINUTE = 60_000
 PAIR_MS = 15_000
 """For each pair of a game: the study's slower condition took 15 s."""
 ANSWER_MS = 3000

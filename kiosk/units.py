@@ -1,0 +1,9 @@
+"""The units that more than one room reckons in."""
+
+from __future__ import annotations
+
+MS_PER_SECOND = 1000
+SECONDS_PER_MINUTE = 60
+MS_PER_MINUTE = MS_PER_SECOND * SECONDS_PER_MINUTE
+
+MIB = 1024 * 1024
