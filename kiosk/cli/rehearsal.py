@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,11 +14,10 @@ from time import monotonic
 from typing import Any
 
 import click
-from rich.console import Console
-from rich.progress import track
 
 from kiosk import BadInput
 from kiosk.cli.options import json_option, rehearsal_data_option, robot_host_option, robot_port_option, study_option
+from kiosk.cli.progress import progress_bar
 from kiosk.cli.wiring import code_commit, read_settings
 from kiosk.robot.flapping import FlappingRobot
 from kiosk.settings import STAGES
@@ -39,7 +37,6 @@ from kiosk.ui.rehearsing.visitor import Character, Manner
 from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 LARGEST_SEED = 2**63 - 1
-_STDERR = Console(stderr=True)
 SETTLE_MS = 450
 """When a picture is taken after its moment, so that nothing moves any more."""
 
@@ -167,9 +164,11 @@ def _rehearse_day(study: Study, mode: Mode, data: Path, seed: int, sittings: int
     robot = None if _has_robot(study) else FlappingRobot(seed)
     begun = monotonic()
     with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
-        day = sit_down(app, seed, visitors, data)
-        with _stuck_in_words():
-            holdings = list(track(day, "sittings", total=sittings, disable=not sys.stderr.isatty(), console=_STDERR))
+        holdings: list[Holding] = []
+        with _stuck_in_words(), progress_bar("sittings", sittings, hidden=as_json) as tell:
+            for holding in sit_down(app, seed, visitors, data):
+                holdings.append(holding)
+                tell(len(holdings))
         if app.told_to_end:
             raise click.Abort
         stored = recorder.begun

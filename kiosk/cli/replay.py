@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 
 import click
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, study_option
+from kiosk.cli.progress import progress_bar
 from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.study.after.replay import Step, first_difference, replayed
@@ -65,7 +65,7 @@ def replay(
         mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
     check_screen(mode.display)
     with Replay(mode, plan, steps, f"Sitting {sitting}") as played:
-        saved = _save(played, frames) if frames is not None else None
+        saved = _save(played, frames, hidden=as_json) if frames is not None else None
         if saved is None:
             played.run()
     _tell(sitting, steps, events, saved, frames, as_json=as_json)
@@ -78,16 +78,13 @@ def _check_pictures(plan: Plan) -> None:
             raise BadInput(f"the pictures of the deck {deck!r} are not here; name the study file with --study")
 
 
-def _save(played: Replay, folder: Path) -> int:
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, transient=True) as progress:
-        task = progress.add_task("pictures", total=len(played.player.steps))
-        return sum(_advance(progress, task, played) for _ in played.frames(folder))
-
-
-def _advance(progress: Progress, task: TaskID, played: Replay) -> int:
-    progress.update(task, completed=played.player.played)
-    return 1
+def _save(played: Replay, folder: Path, *, hidden: bool) -> int:
+    saved: list[Path] = []
+    with progress_bar("steps", len(played.player.steps), hidden=hidden) as tell:
+        for file in played.frames(folder):
+            saved.append(file)
+            tell(played.player.played)
+    return len(saved)
 
 
 def _tell(
