@@ -111,6 +111,27 @@ def test_what_was_put_off_holds_for_the_next_visitor(make_desk: MakeDesk) -> Non
     assert desk.app.desk.next_sitting("en").plan.condition is Condition.TOM
 
 
+def test_a_condition_chosen_before_the_visitor_has_decided_holds_for_the_one_after(make_desk: MakeDesk) -> None:
+    desk = make_desk(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    desk.app.desk.choose(Condition.NO_ASSISTANCE, "for this visitor")
+    desk.go_to(Stage.CONSENT)
+    desk.app.desk.choose(Condition.RANDOM_EXPLAINED, "for the one after")
+    desk.go_to(Stage.INTRODUCTION)
+    desk.do(Deed.END)
+    assert desk.app.desk.next_sitting("en").plan.condition is Condition.RANDOM_EXPLAINED
+
+
+def test_a_chosen_condition_holds_until_a_sitting_in_it_is_on_record(make_desk: MakeDesk) -> None:
+    desk = make_desk(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    desk.app.desk.choose(Condition.NO_ASSISTANCE, "a test")
+    desk.go_to(Stage.CONSENT)
+    desk.app.conductor.tell(happened.DeclineTapped)
+    desk.do(Deed.END)
+    assert desk.app.desk.chosen is Condition.NO_ASSISTANCE
+    desk.go_to(Stage.INTRODUCTION)
+    assert desk.app.desk.chosen is None
+
+
 def test_the_condition_goes_round_while_its_dots_are_shown_and_never_tells_its_name(make_desk: MakeDesk) -> None:
     desk = make_desk(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
     desk.go_to(Stage.ABOUT)
