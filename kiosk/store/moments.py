@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 from kiosk import BadInput
@@ -12,6 +13,7 @@ from kiosk.assistant.mdp import Action
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.game import Board, Concentration, Position
 from kiosk.store.reading import Archive
+from kiosk.study.after.measures import of_the_game
 from kiosk.study.after.moment import Moment
 from kiosk.study.condition import Condition
 from kiosk.study.events import AssistanceDecided, BoardDealt, CardFlipped, Event, HintGiven
@@ -22,7 +24,7 @@ def explained(archive: Archive, number: int, flip: int) -> Explanation:
 
     Raises BadInput if there was none, or if it comes out otherwise today than it was recorded.
     """
-    game = _Recorded.of(archive.events(number), f"sitting {number}")
+    game = _Recorded.of(of_the_game(archive.events(number)), f"sitting {number}")
     explanation = _moment(archive, number, game, flip).explained()
     if not game.agrees(flip, explanation):
         raise BadInput(f"flip {flip} of {game.where} comes out otherwise today than it was decided then")
@@ -58,8 +60,8 @@ class _Recorded:
     hints: dict[int, HintGiven] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, events: list[Event], where: str) -> _Recorded:
-        """The last game that was dealt; raises BadInput if none was."""
+    def of(cls, events: Iterable[Event], where: str) -> _Recorded:
+        """The game among the events of its stage; raises BadInput if none was dealt."""
         game = None
         for event in events:
             if isinstance(event, BoardDealt):
@@ -67,7 +69,7 @@ class _Recorded:
             elif game is not None:
                 game.take(event)
         if game is None:
-            raise BadInput(f"in {where} no board was dealt, so there is nothing to explain")
+            raise BadInput(f"in {where} no game was dealt, so there is nothing to explain")
         return game
 
     def take(self, event: Event) -> None:

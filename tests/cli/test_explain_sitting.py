@@ -18,9 +18,9 @@ from kiosk.store.moments import explained
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.condition import Condition
-from kiosk.study.events import AssistanceDecided, CardFlipped, HintGiven, TableAdapted
+from kiosk.study.events import AssistanceDecided, CardFlipped, HintGiven, Stage, TableAdapted
 from kiosk.study.session import Session
-from tests.samples import mixed, plan
+from tests.samples import mixed, plan, whole
 from tests.study.driver import Driver, at_random, notes
 
 SEED = 5
@@ -127,7 +127,20 @@ def test_a_sitting_without_a_game_is_refused(tmp_path: Path) -> None:
     driver.start()
     with Recorder(tmp_path) as recorder:
         recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
-    with archive(tmp_path) as sittings, pytest.raises(BadInput, match="in sitting 1 no board was dealt"):
+    with archive(tmp_path) as sittings, pytest.raises(BadInput, match="in sitting 1 no game was dealt"):
+        explained(sittings, 1, 1)
+
+
+@pytest.mark.parametrize("condition", [Condition.TOM, Condition.NO_ASSISTANCE])
+def test_a_practice_is_not_taken_for_the_game(tmp_path: Path, condition: Condition) -> None:
+    followed = whole(condition)
+    driver = Driver(followed, SEED)
+    driver.to(Stage.PRACTICE)
+    driver.flip(driver.view.closed[0])
+    driver.end()
+    with Recorder(tmp_path) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    with archive(tmp_path) as sittings, pytest.raises(BadInput, match="in sitting 1 no game was dealt"):
         explained(sittings, 1, 1)
 
 
