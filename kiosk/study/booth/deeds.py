@@ -58,6 +58,15 @@ class Reason(Enum):
     TEST = "test run"
     OTHER = "other"
 
+    def in_own_words(self, typed: str) -> str:
+        """The reason with words of the experimenter's own."""
+        return f"{self.value}: {typed}"
+
+    @staticmethod
+    def without_words(reason: str) -> str:
+        """A reason as the list has it, whatever was typed with it."""
+        return next((each.value for each in Reason if reason.startswith(each.value)), Reason.OTHER.value)
+
 
 @dataclass(frozen=True)
 class Rule:

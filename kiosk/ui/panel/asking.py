@@ -98,7 +98,7 @@ class Asking:
             self._show_typed("")
             self._lock.check(typed, partial(self._checked, question))
         elif step is Step.WORDS and typed:
-            self._done(f"{Reason.OTHER.value}: {typed}")
+            self._done(Reason.OTHER.in_own_words(typed))
 
     def _checked(self, question: int, *, right: bool) -> None:
         if question != self._question:

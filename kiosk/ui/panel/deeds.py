@@ -15,7 +15,7 @@ from kiosk.robot.body import Health
 from kiosk.store.cut_off import CutOff, Unreadable
 from kiosk.store.recorder import Recorder, StoreFailed
 from kiosk.study import events as happened
-from kiosk.study.booth.deeds import Deed, Effect, in_turn, rule
+from kiosk.study.booth.deeds import Deed, Effect, Reason, in_turn, rule
 from kiosk.study.booth.notes import Note
 from kiosk.study.condition import Condition
 from kiosk.study.events import BodyName, Stage
@@ -232,7 +232,9 @@ class Deeds:
             self._tell_sitting(happened.PauseEnded)
 
     def _end(self, _choice: str, reason: str) -> None:
-        if self._written(Note.SITTING_STOPPED, {"stage": self.stage.value, "reason": reason}):
+        # What was typed of a visitor stands with their sitting alone, and goes with it, or was never to be kept.
+        kind = Reason.without_words(reason)
+        if self._written(Note.SITTING_STOPPED, {"stage": self.stage.value, "reason": kind}):
             self._booth.conductor.tell(happened.EndAsked, reason=reason)
 
     def _next(self, _choice: str, reason: str) -> None:

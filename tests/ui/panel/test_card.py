@@ -129,6 +129,16 @@ def test_a_reason_in_ones_own_words_is_kept_in_them(desk: Desk) -> None:
     assert ended.reason == "other: Fire drill 2"
 
 
+def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(desk: Desk) -> None:
+    desk.go_to(Stage.CONSENT)
+    desk.app.conductor.tell(happened.DeclineTapped)
+    desk.do(Deed.END, reason="5")
+    desk.type("Marvin is tired")
+    desk.enter()
+    assert desk.notes[-1] == ("SittingStopped", {"stage": "introduction", "reason": "other"})
+    assert [file for file in desk.data.iterdir() if b"Marvin" in file.read_bytes()] == []
+
+
 def test_a_reason_can_be_chosen_with_the_pointer(desk: Desk) -> None:
     desk.go_to(Stage.ABOUT)
     desk.chord(Deed.END)
