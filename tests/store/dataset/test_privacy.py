@@ -14,7 +14,7 @@ from random import Random
 
 import pytest
 
-from kiosk.settings import Consent, Robot
+from kiosk.settings import Allocation, Consent, Robot
 from kiosk.store.database import FILE
 from kiosk.store.dataset.export import export
 from kiosk.store.dataset.extras import Extra
@@ -80,6 +80,18 @@ def test_neither_code_nor_seed_nor_typed_text_nor_place_is_told(told: Path, layo
     export(told, out, layout)
     secrets = (code, str(SEED), NAME_TYPED, REASON, "robot.at.home", "me@example.org")
     assert [(path, secret) for path, text in texts(out) for secret in secrets if secret in text] == []
+
+
+def test_of_the_allocation_the_blocks_are_told_and_the_seed_is_not(tmp_path: Path) -> None:
+    plan = study_plan()
+    allocation = Allocation(quotas={"tom": 9, "notom": 9}, block=6, seed=SEED)
+    driver = Driver(replace(plan, settings=plan.settings.model_copy(update={"allocation": allocation})), 1)
+    driver.to(Stage.GAME)
+    store(tmp_path / "data", [(driver, 1)])
+    export(tmp_path / "data", tmp_path / "out", PsychDs)
+    (settings,) = (json.loads(path.read_text("utf-8")) for path in (tmp_path / "out").glob("materials/settings/*"))
+    assert settings["allocation"] == {"quotas": {"tom": 9, "notom": 9}, "block": 6}
+    assert settings["consent"] == {"adult": plan.settings.consent.adult}
 
 
 @pytest.mark.parametrize("layout", BOTH)

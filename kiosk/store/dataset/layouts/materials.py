@@ -33,6 +33,9 @@ PUBLISHED = frozenset(
 )
 """The parts of a study file that say nothing of people, devices, keys or seeds; a new part is not among them."""
 
+_PARTLY: dict[str, bool | set[str]] = {"allocation": {"quotas", "block"}, "consent": {"adult"}}
+"""What else is told of other parts: who wants to analyse an allocation as it was made has to know its blocks."""
+
 _SHOWN = 12
 """Characters of a hash in a file's name."""
 
@@ -63,5 +66,5 @@ def _pretty(content: BaseModel) -> str:
 
 
 def _published(settings: Settings) -> str:
-    told: dict[str, Any] = json.loads(settings.model_dump_json(include=set(PUBLISHED)))
+    told: dict[str, Any] = json.loads(settings.model_dump_json(include=_PARTLY | dict.fromkeys(PUBLISHED, True)))
     return json.dumps(told, ensure_ascii=False, indent=2) + "\n"
