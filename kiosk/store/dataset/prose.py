@@ -71,7 +71,7 @@ that chose how much to help, and settings. Of the settings, what concerns people
 so their hash is that of more than stands here. What a program of today cannot read any more is missing.
 """
 
-EXAMPLE = '''"""Moves by condition, of all who completed the game; needs Python and nothing else."""
+EXAMPLE = '''"""Moves by condition, of all who completed the game in a condition that was drawn; nothing but Python."""
 
 import csv
 from pathlib import Path
@@ -79,7 +79,8 @@ from statistics import fmean, stdev
 
 data = Path(__file__).parent.parent / "data"
 with (data / "task-concentration_description-participants_data.csv").open(encoding="utf-8", newline="") as file:
-    people = [person for person in csv.DictReader(file) if person["game_completed"] == "true"]
+    drawn = [person for person in csv.DictReader(file) if person["allotted"] in ("list", "")]
+people = [person for person in drawn if person["game_completed"] == "true"]
 for condition in sorted({person["condition"] for person in people}):
     moves = [int(person["moves"]) for person in people if person["condition"] == condition]
     print(condition, len(moves), round(fmean(moves), 2), round(stdev(moves), 2) if len(moves) > 1 else "")

@@ -59,7 +59,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
                 Allotted,
                 list="by the first free place of a list that was fixed before the first visitor",
                 override="by the experimenter",
-                beyond="the list was used up",
+                beyond="the list was used up, and nothing was drawn: by the study file, the same for all of them",
             ),
             empty="there was no list of places",
         ),
