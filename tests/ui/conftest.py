@@ -15,13 +15,14 @@ os.environ["QSG_RENDER_LOOP"] = "basic"
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QAccessible, QGuiApplication
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.settings import Settings
 from kiosk.store.reading import Archive, archive
+from kiosk.study.declared.questionnaire import Item
 from kiosk.ui.app import App
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.rehearsing.hand import find, lay_out, middle
@@ -86,6 +87,12 @@ class Booth:
         """The name of the screen that is shown."""
         return self.app.screens.kiosk.shown
 
+    def ask(self, *items: Item) -> None:
+        """Show a page of these items."""
+        self.app.screens.form.show(items, 1, 1)
+        self.app.screens.kiosk.show("form")
+        self.settle()
+
     def start_game(self) -> None:
         """Go from attract to the game of a short study."""
         self.click("start-en")
@@ -124,3 +131,12 @@ def stored(booth: Booth) -> Iterator[Archive]:
     """What the booth has stored."""
     with archive(booth.data) as there:
         yield there
+
+
+@pytest.fixture(scope="module")
+def spoken(qapp: QGuiApplication) -> Iterator[None]:  # noqa: ARG001 - Qt is to be there before
+    """A program that reads the screen aloud is there."""
+    before = QAccessible.isActive()
+    QAccessible.setActive(True)
+    yield
+    QAccessible.setActive(before)

@@ -22,6 +22,8 @@ LINEAR_FROM = 0.04045
 RED, GREEN, BLUE = 0.2126, 0.7152, 0.0722
 FLARE = 0.05
 """The light that every screen throws back."""
+LEAST_CHANGE = 3.0
+"""The contrast of what has to be seen and is no text."""
 EXPERIMENTERS = ("PanelLayer", "ReplayControls")
 """What only an experimenter reads."""
 

@@ -9,20 +9,26 @@ from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.settings import Settings
+from kiosk.settings import ASSETS, Settings
 from kiosk.study.booth.pin import kept
 from kiosk.study.commands import Wait
+from kiosk.study.declared.questionnaire import Item, Page, Questionnaire
 from kiosk.ui.app import App
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.panel.card import Step
 from kiosk.ui.rehearsing.hand import NO_KEY, Aside, Hand, Stuck, find, lay_out
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.ui.headless import SMALL
+from tests.ui.reaching import Keyboard
 
 SEED = 1
 """With this seed the visitor practises."""
 PIN, WRONG = "2580", "9999"
 CHORD = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+
+GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
+ASKED: dict[str, Item] = {item.kind: item for item in GALLERY.items if not isinstance(item, Page)}
+"""An item of every kind that is answered."""
 
 Look = Callable[[str], None]
 """Looks at the window; is told what stands there."""
@@ -167,3 +173,13 @@ def wait_until(app: App, condition: Callable[[], bool]) -> None:
             return
         app.clock.jump()
     raise Stuck("it never came")
+
+
+def open_panel(app: App) -> Keyboard:
+    """Open the panel with its chord and the PIN."""
+    keyboard = Keyboard(app.window)
+    keyboard.press(Qt.Key.Key_P, CHORD)
+    keyboard.type(PIN)
+    keyboard.press(Qt.Key.Key_Return)
+    wait_until(app, lambda: app.screens.kiosk.takes_input)
+    return keyboard

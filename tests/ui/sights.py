@@ -1,0 +1,115 @@
+"""What is found on one screen: what nobody is told, what is written how, and what lies where it should not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRect
+from PySide6.QtGui import QImage
+from PySide6.QtQuick import QQuickItem, QQuickWindow
+
+from kiosk.ui.rehearsing.hand import find
+from tests.ui.looking import (
+    EXPERIMENTERS,
+    background,
+    contrast,
+    is_control,
+    items,
+    lies_in,
+    painted,
+    place,
+    texts,
+    untold,
+)
+
+BOARD_SHARE = 0.715
+"""How much of a wide window the board and all other screens have; the assistant has the rest."""
+OVER_EVERYTHING = ("CalmCard", *EXPERIMENTERS)
+
+
+@dataclass(frozen=True)
+class Written:
+    """One text as it stands on a screen of 1080 lines."""
+
+    words: str
+    pixels: int
+    contrast: float
+    for_experimenters: bool
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What was found on one screen."""
+
+    moment: str
+    untold: tuple[str, ...]
+    written: tuple[Written, ...]
+    strayed: tuple[str, ...]
+    """What lies on the wrong side of the window."""
+    covered: tuple[str, ...]
+    """Texts on which a bar lies that scrolls."""
+
+
+def look(window: QQuickWindow, moment: str, side: str) -> Sight:
+    """Look closely at what stands there."""
+    picture = window.grabWindow()
+    shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text)]
+    return Sight(
+        moment,
+        tuple(untold(window)),
+        tuple(_written(picture, text) for text in shown if not painted(text).isEmpty()),
+        tuple(_name(item) for item in _laid_out(window) if _is_astray(window, item, side)),
+        tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in _bars(window))),
+    )
+
+
+def _is_in_front(window: QQuickWindow, text: QQuickItem) -> bool:
+    """Whether nothing lies over a text: the rest steps back by intent."""
+    over = [item for item in items(window.contentItem()) if _covers(item)]
+    if any(item.objectName() == "panel" or lies_in(item, "CalmCard") for item in over):
+        return lies_in(text, *OVER_EVERYTHING) and not _is_below_a_card(window, text)
+    return lies_in(text, *OVER_EVERYTHING) or not any(place(item).intersects(painted(text)) for item in over)
+
+
+def _covers(item: QQuickItem) -> bool:
+    return item.objectName() in {"panel", "pin-card", "experimenter-note"} or (
+        item.metaObject().className().startswith("CalmCard")
+    )
+
+
+def _is_below_a_card(window: QQuickWindow, text: QQuickItem) -> bool:
+    card = find(window.contentItem(), "pin-card")
+    return card is not None and not lies_in(text, "PinCard") and place(card).intersects(painted(text))
+
+
+def _written(picture: QImage, text: QQuickItem) -> Written:
+    color, paper = text.property("color"), background(picture, painted(text))
+    return Written(
+        str(text.property("text")),
+        text.property("font").pixelSize(),
+        round(contrast(color, paper), 2),
+        lies_in(text, *EXPERIMENTERS),
+    )
+
+
+def _laid_out(window: QQuickWindow) -> Iterator[QQuickItem]:
+    """The texts and controls of a visitor's screen, and the assistant's bubble."""
+    for item in items(window.contentItem()):
+        if (is_control(item) or item.inherits("QQuickText")) and not lies_in(item, *OVER_EVERYTHING):
+            yield item
+
+
+def _bars(window: QQuickWindow) -> list[QRect]:
+    return [place(item) for item in items(window.contentItem()) if item.inherits("QQuickScrollBar")]
+
+
+def _is_astray(window: QQuickWindow, item: QQuickItem, side: str) -> bool:
+    """Whether the middle of an item is not on its side: screens where the board is, the assistant on the other."""
+    across = place(item).center().x() / window.width()
+    from_the_board = across if side == "left" else 1 - across
+    return (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel")
+
+
+def _name(item: QQuickItem) -> str:
+    return f"{item.objectName()} {item.property('text') or ''}".strip()
