@@ -23,10 +23,10 @@ STAGE, MARKER = sys.argv[1], Path(sys.argv[2])
 
 
 class Guest(Rehearsal):
-    """Plays until the stage is shown, and then stands there."""
+    """Plays until the stage comes, and then stands there."""
 
     def _think(self) -> None:
-        if self._app.screens.kiosk.shown != STAGE:
+        if self._app.conductor.stage.value != STAGE:
             self._app.clock.after(HASTE_MS, self._act)
 
 

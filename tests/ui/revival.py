@@ -27,22 +27,32 @@ from typing import Any
 
 import click
 
+from kiosk import settings
 from kiosk.store.reading import archive
 from kiosk.study.events import Status
+from kiosk.study.stages import BEFORE_DECIDING
 from kiosk.ui.conductor import PAUSE_MS
 
-STAGES = ("attract", "introduction", "game", "result", "questions")
-"""By the names of the screens."""
+STAGES = ("attract", *(stage for stage in settings.STAGES))
+WAYS = {"about_you": ("form",), "questions": ("result", "form")}
+"""The screens that tell that a stage has come, where they are not called like it."""
+BEFORE_ANYTHING_IS_KEPT = {"attract", *(stage.value for stage in BEFORE_DECIDING)}
 LONGEST_S = 10.0
 UNTIL_STAGE_S = 240.0
 STUDY = """
+[game]
+rows = 2
+columns = 4
+[practice]
+rows = 2
+columns = 2
 [voice]
 rate = 300
 [timing]
 turn_back = 100
 finish = 100
 """
-"""Nobody has to follow what happens, so that a game takes half a minute."""
+"""Nobody has to follow what happens, so that a sitting takes half a minute."""
 STOPPED_S = 60.0
 """How long a stopped kiosk would stay stopped."""
 
@@ -83,8 +93,8 @@ class Revival:
         """Whatever must not be; nothing, if all is well."""
         wrong = {
             "it took too long": self.back_s > (CALM_S if self.fault in MENDED_INSIDE else LONGEST_S),
-            "the sitting is not marked": self.sitting
-            not in {Status.INTERRUPTED.value, "none" if self.stage == "attract" else ""},
+            "the sitting is not as it should be": self.sitting
+            != ("none" if self.stage in BEFORE_ANYTHING_IS_KEPT else Status.INTERRUPTED.value),
             "something was left behind": bool(self.left_behind),
         }
         return [what for what, holds in wrong.items() if holds]
@@ -171,7 +181,8 @@ def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | No
     """One keeper, one visitor, one fault."""
     with tempfile.TemporaryDirectory(prefix="revival-") as place, kept_in(Path(place), stage, environment) as kept:
         folder = Path(place)
-        kept.wait_for(stage, UNTIL_STAGE_S)
+        for shown in WAYS.get(stage, (stage,)):
+            kept.wait_for(shown, UNTIL_STAGE_S)
         kept.seen.clear()
         struck = kept.kiosk()
         at = time.monotonic()
