@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import tomllib
 from collections.abc import Callable
@@ -148,6 +149,24 @@ def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recol
         "consent.contact is empty, so visitors are not told whom to write to",
         "the deck 'toys' has cards without a name in 'en'",
     ]
+
+
+def test_a_purpose_for_publishing_under_another_name_is_told_of(tmp_path: Path, recollect: Recollect) -> None:
+    shutil.copytree(ASSETS / "consent" / "study", tmp_path / "sheets")
+    for sheet in (tmp_path / "sheets").glob("*.toml"):
+        sheet.write_text(sheet.read_text("utf-8").replace('"share"', '"publish"'), "utf-8")
+    study = tmp_path / "study.toml"
+    study.write_text("[consent]\ntext = 'sheets'\ncontact = 'the lab'\n", "utf-8")
+    assert json.loads(recollect("study", "check", study, "--json").out)["cautions"] == [
+        "consent.text: no purpose is named 'share', so nobody is left out of a data set for publishing"
+    ]
+
+
+def test_a_condition_without_help_is_told_of_as_help_is_promised(tmp_path: Path, recollect: Recollect) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text("[allocation]\nquotas = { tom = 2, no_assistance = 2 }\n", "utf-8")
+    cautions = json.loads(recollect("study", "check", study, "--json").out)["cautions"]
+    assert any("promises help to everybody" in caution for caution in cautions)
 
 
 def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(tmp_path: Path, recollect: Recollect) -> None:

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from kiosk import __version__
 from kiosk.store.dataset.column import Shape
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.kept import PUBLISHING
 from kiosk.store.dataset.stored.study import Study
 from kiosk.study.condition import Condition
+from kiosk.study.declared.information import PUBLISHING
 
 KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")
 

@@ -17,6 +17,9 @@ from kiosk.settings import Declared
 from kiosk.study.declared.questionnaire import Name, refuse_twice
 from kiosk.study.declared.words import Text
 
+PUBLISHING = "share"
+"""The purpose of the consent that stands for publishing; where it is offered, it has to be ticked."""
+
 Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
 
 

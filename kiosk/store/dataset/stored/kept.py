@@ -18,11 +18,9 @@ import sqlite_utils
 from kiosk import BadInput
 from kiosk.store.database import in_use, open_for_reading
 from kiosk.store.reading import Archive
+from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.events import ConsentGiven, Event, SittingEnded, Stage, StageEntered, Status, from_record
 from kiosk.study.plan import Plan
-
-PUBLISHING = "share"
-"""The purpose of the consent that stands for publishing; where it is offered, it has to be ticked."""
 
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""

@@ -7,9 +7,9 @@ from functools import partial
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Variable
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.kept import PUBLISHING
 from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.person import Person
+from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.declared.questionnaire import Integer, Item, Multiple, Page, Rating, ShortText, Single
 from kiosk.study.declared.words import in_language
 

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from kiosk.assistant.wording import CARD
 from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import Game, Practice
+from kiosk.study.condition import Condition
+from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.declared.questionnaire import Item, Page, ShortText
 from kiosk.study.declared.words import in_language
 from kiosk.study.plan import Plan, Study
@@ -39,8 +41,20 @@ def _of_texts(study: Study) -> Iterator[str]:
     yield from (sentence for stage, sentence in _WITHOUT.items() if stage not in settings.stages)
     if settings.consent.text == SHIPPED_TEXT:
         yield "consent.text: the information sheets are the shipped example; an ethics board approves those of a study"
+    purposes = {purpose.id for plan in study.plans for purpose in plan.information.consent.purposes}
+    if "consent" in settings.stages and PUBLISHING not in purposes:
+        yield f"consent.text: no purpose is named {PUBLISHING!r}, so nobody is left out of a data set for publishing"
+    if Condition.NO_ASSISTANCE in _given(study):
+        yield "in the condition 'no_assistance' nobody helps, but the introduction promises help to everybody"
     if not settings.consent.contact:
         yield "consent.contact is empty, so visitors are not told whom to write to"
+
+
+def _given(study: Study) -> set[Condition]:
+    """The conditions that visitors can get without a decision of the experimenter's."""
+    return {plan.condition for plan in study.plans} | {
+        Condition.named(name) for name in study.settings.allocation.quotas
+    }
 
 
 def _of_cards(study: Study) -> Iterator[str]:
