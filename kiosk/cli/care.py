@@ -19,7 +19,7 @@ from kiosk.store.care import backup as copies
 from kiosk.store.care import merge as merging
 from kiosk.store.care import verify as checking
 from kiosk.store.care import withdraw as withdrawing
-from kiosk.store.care.verify import Check, Finding
+from kiosk.store.care.verify import Check, Flaw
 from kiosk.store.recorder import StoreFailed
 
 SOMETHING_WRONG = 1
@@ -56,23 +56,23 @@ def backup(data: Path, to: Path | None, keep: int, *, as_json: bool) -> None:
 def verify(data: Path, *, as_json: bool) -> None:
     """Check the database row by row; exit code 1 if anything is wrong. It is never changed."""
     with progress_bar("checking", hidden=as_json) as tell:
-        findings = checking.verify(data, tell)
+        flaws = checking.verify(data, tell)
     if as_json:
-        rows = [asdict(finding) | {"check": finding.check.name.lower()} for finding in findings]
-        click.echo(json.dumps({"data": str(data), "sound": not findings, "findings": rows}))
+        rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
+        click.echo(json.dumps({"data": str(data), "sound": not flaws, "findings": rows}))
     else:
-        Console().print(_table(findings))
-    sys.exit(SOMETHING_WRONG if findings else 0)
+        Console().print(_table(flaws))
+    sys.exit(SOMETHING_WRONG if flaws else 0)
 
 
-def _table(findings: list[Finding]) -> Table:
+def _table(flaws: list[Flaw]) -> Table:
     table = Table(box=None)
     for heading in ("what should be", "where", "what is"):
         table.add_column(heading)
     for check in Check:
-        found = [finding for finding in findings if finding.check is check]
-        for number, finding in enumerate(found):
-            table.add_row("" if number else check.value, finding.where, finding.what)
+        found = [flaw for flaw in flaws if flaw.check is check]
+        for number, flaw in enumerate(found):
+            table.add_row("" if number else check.value, flaw.where, flaw.what)
         if not found:
             table.add_row(check.value, "", "it is so")
     return table

@@ -20,7 +20,7 @@ from kiosk.study.declared.checked.cautions import cautions, minutes
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.declared.imported.items import Heading, read_items
 from kiosk.study.declared.imported.writing import write_questionnaire
-from kiosk.study.declared.questionnaire import Order, Page, Questionnaire
+from kiosk.study.declared.questionnaire import Order, Questionnaire, TextPage
 from kiosk.study.declared.reference import as_page, as_study_file
 from kiosk.study.plan import Study
 
@@ -87,7 +87,7 @@ def summarised(read: Study) -> dict[str, Any]:
 
 
 def _questions(asked: Questionnaire) -> int:
-    return sum(not isinstance(item, Page) for item in asked.items)
+    return sum(not isinstance(item, TextPage) for item in asked.items)
 
 
 def _told(value: object) -> str:

@@ -17,7 +17,7 @@ from kiosk.settings import Game
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Record
-from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Page, Rating, Single
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Rating, Single, TextPage
 from kiosk.study.events import BodyName, Event, SessionEvent, Stage, Timer, WorldEvent
 from kiosk.study.plan import Plan
 from kiosk.study.session import Session
@@ -246,7 +246,7 @@ class Driver:
         here, left = self.stage, list(values)
         while self.stage is here:
             for item in self.view.page.items if self.view.page else ():
-                if not isinstance(item, Page):
+                if not isinstance(item, TextPage):
                     self.answer(left.pop(0) if left else some_answer(item), item.id)
             self.go_on()
 

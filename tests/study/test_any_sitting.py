@@ -15,7 +15,7 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command, Record, Wait
 from kiosk.study.condition import Condition
-from kiosk.study.declared.questionnaire import Page
+from kiosk.study.declared.questionnaire import TextPage
 from kiosk.study.events import BodyName, Stage, Status, Timer, WorldEvent
 from kiosk.study.session import Keeping, Session
 from kiosk.study.stages import BEFORE_DECIDING, UnexpectedEvent
@@ -126,7 +126,7 @@ class AnySitting(RuleBasedStateMachine):
     def answer_all(self) -> None:
         """Answer everything on the page."""
         for item in self.view.page.items if self.view.page else ():
-            if not isinstance(item, Page):
+            if not isinstance(item, TextPage):
                 self.send(happened.AnswerGiven(at_ms=self.now, item=item.id, value=some_answer(item)))
 
     def send(self, event: WorldEvent) -> None:

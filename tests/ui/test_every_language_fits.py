@@ -25,7 +25,7 @@ from kiosk.settings import ASSETS, Settings
 from kiosk.study.commands import Wait
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.declared.information import Information
-from kiosk.study.declared.questionnaire import Item, Page, Questionnaire
+from kiosk.study.declared.questionnaire import Item, Questionnaire, TextPage
 from kiosk.study.plan import Study
 from kiosk.ui.rehearsing.hand import find, lay_out
 from kiosk.ui.screens.every import Screens
@@ -160,7 +160,7 @@ def moments(screens: Screens, study: Study) -> Iterator[tuple[str, str, Callable
     for name, items in pages():
         shown = tuple(worded(item, language) for item in items)
         yield name, "form", partial(screens.form.show, shown, 10, 12)
-        if not any(isinstance(item, Page) for item in items):
+        if not any(isinstance(item, TextPage) for item in items):
             names = tuple(item.id for item in items)
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
     screens.debrief.give_contact("memory-study@psychology.university.test")
@@ -173,7 +173,7 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
     """Pages of a form: every kind alone, kinds together, and the study's own questionnaires."""
     for item in GALLERY.items:
         yield f"one {item.kind}", (item,)
-    asked = tuple(item for item in GALLERY.items if not isinstance(item, Page))
+    asked = tuple(item for item in GALLERY.items if not isinstance(item, TextPage))
     yield "several kinds", asked[:4]
     yield "several other kinds", asked[4:]
     yield "about you", ASKED["about-you"].items

@@ -8,7 +8,7 @@ from functools import partial
 
 import pytest
 from PySide6.QtCore import QObject
-from pytestqt.qtbot import QtBot
+from PySide6.QtGui import QGuiApplication
 
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.loop import Loop
@@ -20,10 +20,8 @@ def clock() -> VirtualClock:
 
 
 @pytest.fixture
-def loop(clock: VirtualClock, qtbot: QtBot) -> Iterator[Loop]:
-    assert qtbot
-    owner = QObject()
-    loop = Loop(clock, owner, lambda *_: None)
+def loop(clock: VirtualClock, qapp: QGuiApplication) -> Iterator[Loop]:
+    loop = Loop(clock, QObject(qapp), lambda *_: None)
     yield loop
     loop.close()
 

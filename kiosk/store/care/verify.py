@@ -38,7 +38,7 @@ class Check(Enum):
 
 
 @dataclass(frozen=True)
-class Finding:
+class Flaw:
     """Something that is wrong, and where."""
 
     check: Check
@@ -46,12 +46,12 @@ class Finding:
     what: str
 
 
-def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Finding]:
+def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]:
     """Everything that is wrong with the database of a data folder; raises BadInput if it cannot be opened at all.
 
     A kiosk may be writing meanwhile: all is seen as it stood at one moment.
     """
-    findings: list[Finding] = []
+    flaws: list[Flaw] = []
     with closing(open_as_it_is(folder)) as connection:
         connection.execute("BEGIN")
         schema: int = connection.execute("PRAGMA user_version").fetchone()[0]
@@ -60,10 +60,10 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Findi
             if schema < since:
                 continue
             try:
-                findings += [Finding(check, where, what) for where, what in look(connection)]
+                flaws += [Flaw(check, where, what) for where, what in look(connection)]
             except (sqlite3.Error, ValueError) as error:
-                findings.append(Finding(check, "the database", f"cannot be looked at: {error}"))
-    return findings
+                flaws.append(Flaw(check, "the database", f"cannot be looked at: {error}"))
+    return flaws
 
 
 _Found = Iterator[tuple[str, str]]

@@ -11,8 +11,8 @@ from kiosk import BadInput
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.files import new_folder
 from kiosk.store.dataset.layouts.layout import Contents, Layout
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept, Source, source
-from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.every import every
 from kiosk.store.dataset.tables.flow import Flow, Quantity
 
@@ -44,7 +44,7 @@ def export(
     """
     rehearsals = Extra.REHEARSALS in extras
     with source(data, rehearsals=rehearsals) as stored, new_folder(out) as folder:
-        study = Study(stored.plans())
+        study = Followed(stored.plans())
         contents = Contents(study, every(study, extras), extras)
         flows = {
             simulated: Flow(simulated, stored.archive.counts(simulated=simulated))

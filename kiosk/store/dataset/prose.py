@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from kiosk import __version__
 from kiosk.store.dataset.column import Shape
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.study import Study
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.study.condition import Condition
 from kiosk.study.declared.information import PUBLISHING
 
@@ -87,7 +87,7 @@ for condition in sorted({person["condition"] for person in people}):
 '''
 
 
-def abstract(study: Study, extras: frozenset[Extra]) -> str:
+def abstract(study: Followed, extras: frozenset[Extra]) -> str:
     """What the data set is, in a few sentences."""
     there = {plan.condition for plan in study.plans}
     conditions = ", ".join(condition.value for condition in Condition if condition in there) or "unknown"
@@ -104,7 +104,7 @@ def _warning(extras: frozenset[Extra]) -> str:
     return f" NOT FOR PUBLISHING: it holds {' and '.join(held)}." if held else ""
 
 
-def readme(study: Study, shapes: Iterable[Shape], file_of: Mapping[str, str], extras: frozenset[Extra]) -> str:
+def readme(study: Followed, shapes: Iterable[Shape], file_of: Mapping[str, str], extras: frozenset[Extra]) -> str:
     """The page that a reader opens first."""
     tables = [f"| [{shape.name}]({file_of[shape.name]}) | {shape.about} |" for shape in shapes]
     return "\n".join(
@@ -131,7 +131,7 @@ def readme(study: Study, shapes: Iterable[Shape], file_of: Mapping[str, str], ex
     )
 
 
-def bids_readme(study: Study, extras: frozenset[Extra]) -> str:
+def bids_readme(study: Followed, extras: frozenset[Extra]) -> str:
     """The same for names like those of BIDS."""
     opening = [f"# {study.title}", "", abstract(study, extras), "", _HOW_TO_READ_BIDS]
     return "\n".join([*opening, "", "## What is not here, and why", "", *_missing(extras), "", _BEFORE_PUBLISHING, ""])

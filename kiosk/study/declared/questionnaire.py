@@ -221,7 +221,7 @@ class ShortText(_Question):
         return isinstance(answer, str) and len(answer) <= self.longest and answer.isprintable()
 
 
-class Page(_Item):
+class TextPage(_Item):
     """A text to read; nothing is answered, and it stands alone."""
 
     kind: Literal["page"]
@@ -232,7 +232,7 @@ class Page(_Item):
 
 
 Item = Annotated[
-    Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | Page,
+    Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | TextPage,
     Field(discriminator="kind"),
 ]
 Rating = Likert | Differential | Slider | Pictures

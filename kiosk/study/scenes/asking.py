@@ -10,7 +10,7 @@ from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.after.answers import meant
 from kiosk.study.commands import Mood, Script
-from kiosk.study.declared.questionnaire import Answer, Item, Order, Page, Questionnaire
+from kiosk.study.declared.questionnaire import Answer, Item, Order, Questionnaire, TextPage
 from kiosk.study.events import WorldEvent
 from kiosk.study.scenes.scene import Scene
 
@@ -27,10 +27,10 @@ def sheets(questionnaire: Questionnaire, chance: Random) -> Iterator[Sheet]:
     """The pages of a questionnaire, in the order of this sitting."""
     together: list[Item] = []
     for item in _ordered(questionnaire, chance):
-        if isinstance(item, Page) or len(together) == questionnaire.per_page:
+        if isinstance(item, TextPage) or len(together) == questionnaire.per_page:
             yield from _sheet(questionnaire, together)
             together = []
-        if isinstance(item, Page):
+        if isinstance(item, TextPage):
             yield Sheet(questionnaire.id, (item,))
         else:
             together.append(item)
@@ -46,10 +46,10 @@ def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
     """The items in their order, or shuffled between the text pages, which keep their places."""
     if questionnaire.order is Order.FIXED:
         return list(questionnaire.items)
-    shuffled = [item for item in questionnaire.items if not isinstance(item, Page)]
+    shuffled = [item for item in questionnaire.items if not isinstance(item, TextPage)]
     chance.shuffle(shuffled)
     rest = iter(shuffled)
-    return [item if isinstance(item, Page) else next(rest) for item in questionnaire.items]
+    return [item if isinstance(item, TextPage) else next(rest) for item in questionnaire.items]
 
 
 class Asking(Scene):
@@ -73,7 +73,7 @@ class Asking(Scene):
         match event:
             case happened.AnswerGiven(item=name, value=value):
                 item = next((item for item in self._sheet.items if item.id == name), None)
-                return item is not None and not isinstance(item, Page) and (value is None or item.accepts(value))
+                return item is not None and not isinstance(item, TextPage) and (value is None or item.accepts(value))
         return True
 
     def react(self, event: WorldEvent, script: Script) -> None:
@@ -102,7 +102,7 @@ class Asking(Scene):
             script.note(happened.QuestionsFinished(at_ms=script.at_ms))
 
     def _lacks(self, item: Item) -> bool:
-        return not isinstance(item, Page) and item.required and meant(self._answers.get(item.id)) is None
+        return not isinstance(item, TextPage) and item.required and meant(self._answers.get(item.id)) is None
 
     def _show(self, script: Script) -> None:
         self._answers.clear()

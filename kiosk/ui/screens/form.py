@@ -14,7 +14,7 @@ from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
-from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Page, Single
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Single, TextPage
 from kiosk.ui.screens.items import described
 
 QML_IMPORT_NAME = "Recollect"
@@ -117,7 +117,7 @@ class FormScreen(QObject):
     @Property(bool, notify=marked)
     def skips(self) -> bool:
         """Whether to go on is to leave out everything on this page, and one may."""
-        asked = [item for item in self._items if not isinstance(item, Page)]
+        asked = [item for item in self._items if not isinstance(item, TextPage)]
         untouched = not self._answers and not any(self._drafts.values())
         return bool(asked) and untouched and not any(item.required for item in asked)
 

@@ -44,8 +44,8 @@ def tamper(folder: Path, *statements: str) -> None:
 def found(folder: Path) -> dict[Check, list[str]]:
     """What is found, as where and what, by check."""
     told: dict[Check, list[str]] = {}
-    for finding in verify(folder):
-        told.setdefault(finding.check, []).append(f"{finding.where}: {finding.what}")
+    for flaw in verify(folder):
+        told.setdefault(flaw.check, []).append(f"{flaw.where}: {flaw.what}")
     return told
 
 

@@ -12,7 +12,7 @@ import pytest
 from kiosk.store.dataset.codebook import variables
 from kiosk.store.dataset.column import SEPARATOR, Column, Kind, Shape, Variable, named
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.study import Study
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.tables.every import every
 from kiosk.store.dataset.tables.measured import MEASURED, MEASURES
 from kiosk.study.after.measures import Measures
@@ -23,7 +23,7 @@ from tests.store.dataset.visitors import study_plan
 Read = Callable[[str], list[dict[str, str]]]
 
 EVERYTHING = frozenset(Extra)
-STUDY = Study((study_plan(),))
+STUDY = Followed((study_plan(),))
 
 
 def shapes(extras: frozenset[Extra] = frozenset()) -> tuple[Shape, ...]:
@@ -125,7 +125,7 @@ def test_the_readme_names_every_file_that_there_is(exported: Path) -> None:
 def test_a_studys_own_names_give_way_to_the_columns_that_are_there_already() -> None:
     about_you = STUDY.plans[0].about_you
     clash = about_you.model_copy(update={"items": (about_you.items[0].model_copy(update={"id": "condition"}),)})
-    study = Study((STUDY.plans[0].__class__(**(vars(STUDY.plans[0]) | {"about_you": clash})),))
+    study = Followed((STUDY.plans[0].__class__(**(vars(STUDY.plans[0]) | {"about_you": clash})),))
     names = every(study, frozenset()).shapes[0].names
     assert "about_you_condition" in names
     assert names.count("condition") == 1

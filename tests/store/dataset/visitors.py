@@ -12,7 +12,7 @@ from kiosk.game import Position
 from kiosk.settings import ASSETS
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.condition import Condition
-from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Page, Questionnaire, Rating, Single
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Questionnaire, Rating, Single, TextPage
 from kiosk.study.events import Stage
 from kiosk.study.plan import Plan
 from tests.samples import mixed, whole
@@ -104,7 +104,7 @@ def answer_all(driver: Driver, chance: Random, given: Mapping[str, Answer] = Map
     here = driver.stage
     while driver.stage is here:
         for item in driver.view.page.items if driver.view.page else ():
-            if isinstance(item, Page):
+            if isinstance(item, TextPage):
                 continue
             for _ in range(chance.choice((1, 1, 1, 2, 3))):
                 driver.spend(chance.randrange(100, 3000))

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from kiosk.study import events as happened
 from kiosk.study.after.answers import Answered, answers, meant
-from kiosk.study.declared.questionnaire import Answer, Multiple, Order, Page, ShortText
+from kiosk.study.declared.questionnaire import Answer, Multiple, Order, ShortText, TextPage
 from kiosk.study.events import BodyName, Event, Stage, Status
 from tests.samples import ABOUT_YOU, CLOSING, likert, options, questionnaire, whole
 from tests.study.driver import driven_to
 
-PAGE = Page(id="read", kind="page", text={"en": "read"})
+PAGE = TextPage(id="read", kind="page", text={"en": "read"})
 ONE = questionnaire("one", PAGE, likert("a"), likert("b"))
 TWO = questionnaire("two", likert("a"))
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from kiosk.study import events as happened
 from kiosk.study.after.answers import Answered, answers
 from kiosk.study.after.scales import Score, scores
-from kiosk.study.declared.questionnaire import Integer, Page, Slider
+from kiosk.study.declared.questionnaire import Integer, Slider, TextPage
 from kiosk.study.events import Event, Stage
 from tests.samples import likert, questionnaire
 
@@ -87,7 +87,7 @@ def test_what_belongs_to_no_scale_does_not_matter() -> None:
         likert("a", scale="S"),
         likert("b"),
         Integer(id="age", kind="integer", text=words),
-        Page(id="p", kind="page", text=words),
+        TextPage(id="p", kind="page", text=words),
     )
     told = [Answered("mixed", "a", 2), Answered("mixed", "b", 5), Answered("mixed", "age", 30)]
     assert scores(told, [mixed]) == (Score("mixed", "S", 1, 1, 2, 2.0),)

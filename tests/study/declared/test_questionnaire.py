@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from kiosk import BadInput
 from kiosk.settings import ASSETS
-from kiosk.study.declared.questionnaire import KINDS, Answer, Likert, Page, Questionnaire, Rating, Slider
+from kiosk.study.declared.questionnaire import KINDS, Answer, Likert, Questionnaire, Rating, Slider, TextPage
 from kiosk.study.declared.words import in_language
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
@@ -108,7 +108,7 @@ def test_a_reversed_item_counts_turned_round(tmp_path: Path) -> None:
 
 
 def test_text_pages_are_no_questions() -> None:
-    assert [item.id for item in GALLERY.items if isinstance(item, Page)] == ["welcome"]
+    assert [item.id for item in GALLERY.items if isinstance(item, TextPage)] == ["welcome"]
     assert len(GALLERY.questions) == len(GALLERY.items) - 1
 
 

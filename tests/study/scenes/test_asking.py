@@ -21,11 +21,11 @@ from kiosk.study.declared.questionnaire import (
     Item,
     Multiple,
     Order,
-    Page,
     Pictures,
     ShortText,
     Single,
     Slider,
+    TextPage,
 )
 from kiosk.study.events import Stage, Status
 from kiosk.study.stages import UnexpectedEvent
@@ -89,7 +89,7 @@ GALLERY: tuple[Item, ...] = (
 
 ENDS = {"likert": (1, 7), "differential": (1, 3), "pictures": (1, 5), "slider": (-5, 20), "integer": (18, 120)}
 
-PAGE = Page(id="page", kind="page", text=WORDS)
+PAGE = TextPage(id="page", kind="page", text=WORDS)
 
 ANYTHING = st.one_of(
     st.integers(),
@@ -236,7 +236,7 @@ def test_a_page_has_as_many_items_as_fit_and_a_text_stands_alone(
     flat = [name for page in shown for name in page]
     assert sorted(flat) == sorted(item.id for item in items)
     assert [name if name.startswith("page") else "" for name in flat] == [
-        item.id if isinstance(item, Page) else "" for item in items
+        item.id if isinstance(item, TextPage) else "" for item in items
     ]
     if order is Order.FIXED:
         assert flat == [item.id for item in items]

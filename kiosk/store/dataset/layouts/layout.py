@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept
-from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.every import Tables
 from kiosk.store.dataset.tables.flow import Flow
 
@@ -19,7 +19,7 @@ TASK = "concentration"
 class Contents:
     """What a data set is made of, but for the sittings."""
 
-    study: Study
+    study: Followed
     tables: Tables
     extras: frozenset[Extra]
 

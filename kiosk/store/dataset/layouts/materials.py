@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from kiosk.settings import Settings
 from kiosk.store.dataset.files import write_text
-from kiosk.store.dataset.stored.study import Study
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.study.plan import Plan
 
 PUBLISHED = frozenset(
@@ -40,7 +40,7 @@ _SHOWN = 12
 """Characters of a hash in a file's name."""
 
 
-def write_materials(folder: Path, study: Study) -> None:
+def write_materials(folder: Path, study: Followed) -> None:
     """Write everything once, however many sittings followed it."""
     for plan in study.plans:
         for name, content in _materials(plan):

@@ -7,8 +7,8 @@ from typing import Any
 
 from kiosk.store.dataset.column import Shape, Table
 from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept
-from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.asked import SCORES, answers
 from kiosk.store.dataset.tables.flow import Flow, flow
 from kiosk.store.dataset.tables.hints import HINTS
@@ -34,7 +34,7 @@ class Tables:
         return next(table for table in self.sittings if table.name == name)
 
 
-def every(study: Study, extras: frozenset[Extra]) -> Tables:
+def every(study: Followed, extras: frozenset[Extra]) -> Tables:
     """The tables of a study's data set."""
     others: tuple[Table[Kept, Any], ...] = (
         FLIPS,

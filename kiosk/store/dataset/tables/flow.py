@@ -12,7 +12,7 @@ from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.shared import SIMULATED, columns
 from kiosk.store.people.counting import Counts, Fate
-from kiosk.study.after.course import Glance, glance
+from kiosk.study.after.overview import Overview, overview
 from kiosk.study.events import Stage, Status
 
 
@@ -65,16 +65,16 @@ class Flow:
         """Count a sitting that is in the data set."""
         self.seen[Quantity.EXPORTED, str(kept.row["condition"])] += 1
         if kept.status is not Status.COMPLETED:
-            self.seen[Quantity.ENDED_AT, last_stage(glance(kept.events)).value] += 1
+            self.seen[Quantity.ENDED_AT, last_stage(overview(kept.events)).value] += 1
 
     def left_out(self, kept: Kept, why: Quantity) -> None:
         """Count one that is not."""
         self.seen[why, str(kept.row["condition"])] += 1
 
 
-def last_stage(course: Glance) -> Stage:
+def last_stage(sitting: Overview) -> Stage:
     """The last stage that was more than the end."""
-    return course.last or Stage.ATTRACT
+    return sitting.last or Stage.ATTRACT
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept
-from kiosk.store.dataset.stored.study import Study
 from kiosk.store.dataset.tables.asked import asked
 from kiosk.store.dataset.tables.flow import last_stage
 from kiosk.store.dataset.tables.measured import MEASURES
@@ -18,7 +18,7 @@ from kiosk.study.allocation import Allotted
 from kiosk.study.events import BodyName, PracticeEnd, Stage, Status
 
 
-def participants(study: Study, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
+def participants(study: Followed, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
     """The table of participants for a study; ``elsewhere`` are the columns of other tables, whose names are taken."""
     before, after = (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_WHAT_IT_FOLLOWED)
     taken = {column.variable.name for column in (*before, *after)} | elsewhere
@@ -80,7 +80,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
     ),
     (
         Variable("body_changes", "How often another body had to take over.", Kind.WHOLE),
-        lambda row: len(row.course.body_changes),
+        lambda row: len(row.overview.body_changes),
     ),
     (
         Variable(
@@ -98,19 +98,19 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
     ),
     (
         Variable("last_stage", "The last stage that the sitting reached.", levels=named(Stage)),
-        lambda row: last_stage(row.course).value,
+        lambda row: last_stage(row.overview).value,
     ),
     (
         Variable("game_completed", "Whether every pair of the game was found.", Kind.TRUTH),
-        lambda row: row.course.game_completed,
+        lambda row: row.overview.game_completed,
     ),
     (
         Variable("resumed", "How often the sitting was cut off and gone on with.", Kind.WHOLE),
-        lambda row: len(row.course.resumptions),
+        lambda row: len(row.overview.resumptions),
     ),
     (
         Variable("pauses", "How often the experimenter paused the sitting.", Kind.WHOLE),
-        lambda row: len(row.course.pauses),
+        lambda row: len(row.overview.pauses),
     ),
     (
         Variable(

@@ -8,8 +8,8 @@ from functools import cached_property
 from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.asked import asked, scores
 from kiosk.study.after.answers import Answered, answers
-from kiosk.study.after.course import Glance, glance
 from kiosk.study.after.measures import Measures, measure
+from kiosk.study.after.overview import Overview, overview
 from kiosk.study.after.scales import Score
 from kiosk.study.events import PracticeEnd, PracticeFinished
 
@@ -21,9 +21,9 @@ class Person:
     kept: Kept
 
     @cached_property
-    def course(self) -> Glance:
+    def overview(self) -> Overview:
         """What became of the sitting."""
-        return glance(self.kept.events)
+        return overview(self.kept.events)
 
     @cached_property
     def measures(self) -> Measures:

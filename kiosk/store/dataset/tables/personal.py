@@ -7,14 +7,14 @@ from functools import partial
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Variable
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.study import Study
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.tables.person import Person
 from kiosk.study.declared.information import PUBLISHING
-from kiosk.study.declared.questionnaire import Integer, Item, Multiple, Page, Rating, ShortText, Single
+from kiosk.study.declared.questionnaire import Integer, Item, Multiple, Rating, ShortText, Single, TextPage
 from kiosk.study.declared.words import in_language
 
 
-def agreed(study: Study, taken: set[str]) -> Iterator[Column[Person]]:
+def agreed(study: Followed, taken: set[str]) -> Iterator[Column[Person]]:
     """One column for every purpose of the consent."""
     for purpose in study.purposes.values():
         publishing = " Without it a sitting is not published." if purpose.id == PUBLISHING else ""
@@ -33,7 +33,7 @@ def _agreed_to(purpose: str, row: Person) -> Cell:
     return None if row.kept.consent is None else purpose in row.kept.consent.purposes
 
 
-def about_you(study: Study, extras: frozenset[Extra], taken: set[str]) -> Iterator[Column[Person]]:
+def about_you(study: Followed, extras: frozenset[Extra], taken: set[str]) -> Iterator[Column[Person]]:
     """One column for every item about the visitor; what was typed only if it is asked for."""
     for item in told_items(study.about_you.values(), extras):
         name = _free(item.id, "about_you", taken)
@@ -42,7 +42,7 @@ def about_you(study: Study, extras: frozenset[Extra], taken: set[str]) -> Iterat
 
 def told_items(items: Iterable[Item], extras: frozenset[Extra]) -> list[Item]:
     """The items whose answers are told: all that are answered, but for typed ones that nobody asked for."""
-    untold = (Page,) if Extra.TEXTS in extras else (Page, ShortText)
+    untold = (TextPage,) if Extra.TEXTS in extras else (TextPage, ShortText)
     return [item for item in items if not isinstance(item, untold)]
 
 
@@ -77,7 +77,7 @@ def item_variable(name: str, item: Item, language: str) -> Variable:
     )
 
 
-def scales(study: Study, taken: set[str]) -> Iterator[Column[Person]]:
+def scales(study: Followed, taken: set[str]) -> Iterator[Column[Person]]:
     """The sum and the mean of every scale."""
     for questionnaire, scale, items in study.scales:
         name = _free(scale, questionnaire.id, taken, "_sum", "_mean")

@@ -9,7 +9,7 @@ from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import Game, Practice
 from kiosk.study.condition import Condition
 from kiosk.study.declared.information import PUBLISHING
-from kiosk.study.declared.questionnaire import Item, Page, ShortText
+from kiosk.study.declared.questionnaire import Item, ShortText, TextPage
 from kiosk.study.declared.words import in_language
 from kiosk.study.plan import Plan, Study
 from kiosk.units import MS_PER_MINUTE
@@ -95,7 +95,7 @@ def _reading(plan: Plan, *texts: str) -> int:
 
 
 def _answering(plan: Plan, item: Item) -> int:
-    answer = 0 if isinstance(item, Page) else TYPING_MS if isinstance(item, ShortText) else ANSWER_MS
+    answer = 0 if isinstance(item, TextPage) else TYPING_MS if isinstance(item, ShortText) else ANSWER_MS
     return plan.settings.timing.reading * len(in_language(item.text, plan.language)) + answer
 
 

@@ -21,15 +21,15 @@ from kiosk.study.declared.questionnaire import (
     Likert,
     Multiple,
     Order,
-    Page,
     Pictures,
     Questionnaire,
     ShortText,
     Single,
     Slider,
+    TextPage,
 )
 
-Model = type[Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | Page]
+Model = type[Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | TextPage]
 
 MODELS: Mapping[str, Model] = {
     "likert": Likert,
@@ -40,7 +40,7 @@ MODELS: Mapping[str, Model] = {
     "multiple": Multiple,
     "integer": Integer,
     "text": ShortText,
-    "page": Page,
+    "page": TextPage,
 }
 
 _YES = dict.fromkeys(("yes", "y", "true", "vero", "verdadero", "1", "x"), True)

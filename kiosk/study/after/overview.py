@@ -40,7 +40,7 @@ class Pause:
 
 
 @dataclass(frozen=True)
-class Glance:
+class Overview:
     """What became of a sitting.
 
     ``last`` is the stage that it was in, or last in before its end; None if it never came to one. ``status`` is how it
@@ -59,11 +59,11 @@ class Glance:
     resumptions: tuple[SittingResumed, ...]
 
 
-def glance(events: Iterable[Event]) -> Glance:
+def overview(events: Iterable[Event]) -> Overview:
     """See what became of a sitting."""
     events = tuple(events)
     entered = tuple(Entered(event.stage, event.at_ms) for event in _all(StageEntered, events))
-    return Glance(
+    return Overview(
         entered=entered,
         last=next((stage.stage for stage in reversed(entered) if stage.stage is not Stage.OVER), None),
         status=_status(events),

@@ -14,7 +14,7 @@ _T = TypeVar("_T")
 
 
 @dataclass(frozen=True)
-class Study:
+class Followed:
     """Everything that gives rise to columns; ``plans`` are those that can be read, the newest first."""
 
     plans: tuple[Plan, ...]

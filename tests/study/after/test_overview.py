@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kiosk.study import events as happened
-from kiosk.study.after.course import Entered, Glance, Pause, glance
+from kiosk.study.after.overview import Entered, Overview, Pause, overview
 from kiosk.study.events import BodyName, Event, Stage, Status
 from tests.samples import INFORMATION, whole
 from tests.study.driver import Driver, driven_to
@@ -14,7 +14,7 @@ UNDERWAY = list(Stage)[1:-1]
 
 
 def test_of_nothing_nothing_became() -> None:
-    assert glance([]) == Glance(
+    assert overview([]) == Overview(
         entered=(),
         last=None,
         status=None,
@@ -28,7 +28,7 @@ def test_of_nothing_nothing_became() -> None:
 
 def test_a_whole_sitting_went_through_every_stage() -> None:
     driver = driven_to(Stage.OVER)
-    seen = glance(driver.events)
+    seen = overview(driver.events)
     assert [entered.stage for entered in seen.entered] == list(Stage)[1:]
     assert [entered.at_ms for entered in seen.entered] == sorted(entered.at_ms for entered in seen.entered)
     assert seen.entered[-1].at_ms == driver.now
@@ -41,10 +41,10 @@ def test_a_whole_sitting_went_through_every_stage() -> None:
 @pytest.mark.parametrize("stage", UNDERWAY)
 def test_a_sitting_that_was_ended_tells_in_which_stage_and_how(stage: Stage) -> None:
     driver = driven_to(stage)
-    assert glance(driver.events).status is None
-    assert glance(driver.events).last is stage
+    assert overview(driver.events).status is None
+    assert overview(driver.events).last is stage
     driver.end()
-    seen = glance(driver.events)
+    seen = overview(driver.events)
     assert (seen.last, seen.status) == (stage, Status.STOPPED)
     assert seen.game_completed is (UNDERWAY.index(stage) > UNDERWAY.index(Stage.GAME))
     assert (seen.consent is None) is (stage in {Stage.ABOUT, Stage.CONSENT})
@@ -52,22 +52,22 @@ def test_a_sitting_that_was_ended_tells_in_which_stage_and_how(stage: Stage) -> 
 
 def test_every_pair_found_is_not_yet_a_completed_game() -> None:
     events: list[Event] = [happened.StageEntered(at_ms=0, stage=Stage.GAME)]
-    assert not glance(events).game_completed
-    assert glance([*events, happened.GameFinished(at_ms=9)]).game_completed
+    assert not overview(events).game_completed
+    assert overview([*events, happened.GameFinished(at_ms=9)]).game_completed
 
 
 def test_a_sitting_that_went_on_after_an_interruption_has_not_ended() -> None:
     driver = driven_to(Stage.PRACTICE)
     cut = [*driver.events, happened.SittingEnded(at_ms=driver.now, status=Status.INTERRUPTED)]
-    assert glance(cut).status is Status.INTERRUPTED
+    assert overview(cut).status is Status.INTERRUPTED
     resumed = Driver.resumed(driver.plan, 5, driver.world, BodyName.FURHAT)
     later = [*cut, *resumed.events[len(driver.events) :]]
-    seen = glance(later)
+    seen = overview(later)
     assert seen.status is None
     assert seen.resumptions == (happened.SittingResumed(at_ms=driver.now, body=BodyName.FURHAT),)
     assert [entered.stage for entered in seen.entered[-2:]] == [Stage.PRACTICE, Stage.PRACTICE]
     resumed.to(Stage.OVER)
-    assert glance([*cut, *resumed.events[len(driver.events) :]]).status is Status.COMPLETED
+    assert overview([*cut, *resumed.events[len(driver.events) :]]).status is Status.COMPLETED
 
 
 def test_pauses_are_told_from_when_to_when() -> None:
@@ -80,26 +80,26 @@ def test_pauses_are_told_from_when_to_when() -> None:
     began = driver.now - 100 - 4000 - 100 - 300
     driver.pause()
     pauses = (Pause(began, began + 300), Pause(began + 400, began + 4400), Pause(driver.now))
-    assert glance(driver.events).pauses == pauses
+    assert overview(driver.events).pauses == pauses
     driver.spend(50)
     driver.end()
-    assert glance(driver.events).pauses == (*pauses[:2], Pause(driver.now - 50, driver.now))
+    assert overview(driver.events).pauses == (*pauses[:2], Pause(driver.now - 50, driver.now))
 
 
 def test_a_pause_that_was_cut_off_is_over_when_the_sitting_goes_on() -> None:
     events = [happened.PauseAsked(at_ms=10), happened.SittingResumed(at_ms=30, body=BodyName.AVATAR)]
-    assert glance(events).pauses == (Pause(10, 30),)
-    assert glance([*events, happened.PauseAsked(at_ms=40)]).pauses == (Pause(10, 30), Pause(40))
+    assert overview(events).pauses == (Pause(10, 30),)
+    assert overview([*events, happened.PauseAsked(at_ms=40)]).pauses == (Pause(10, 30), Pause(40))
 
 
 def test_changes_of_the_body_are_told_with_why() -> None:
     driver = driven_to(Stage.GAME)
     driver.send(happened.RobotLost(at_ms=driver.now, why="the plug"))
     changed = happened.BodyChanged(at_ms=driver.now, body=BodyName.AVATAR, why="the plug")
-    assert glance(driver.events).body_changes == (changed,)
+    assert overview(driver.events).body_changes == (changed,)
 
 
 def test_a_stage_is_told_with_its_time() -> None:
     events = [happened.StageEntered(at_ms=7, stage=Stage.AGE), happened.StageEntered(at_ms=9, stage=Stage.OVER)]
-    seen = glance(events)
+    seen = overview(events)
     assert (seen.entered, seen.last) == ((Entered(Stage.AGE, 7), Entered(Stage.OVER, 9)), Stage.AGE)
