@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,6 +35,6 @@ def read_cut_off(folder: Path, number: int) -> CutOff | Unreadable:
             seen = stored.sitting(number)
             story = stored.story(number)
             sitting = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.simulated)
-    except (BadInput, sqlite3.Error) as failure:
+    except BadInput as failure:
         return Unreadable(str(failure))
     return CutOff(number, sitting, tuple(event for event in story if isinstance(event, WorldEvent)))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -140,7 +141,7 @@ class Archive:
         raise BadInput(f"nothing is kept under the hash {sha256}")
 
     def _row(self, number: int) -> dict[str, Any]:
-        rows = self._database["sitting"].rows_where("id = ?", [number]) if number <= LARGEST else ()
+        rows = self._database["sitting"].rows_where("id = ?", [number]) if abs(number) <= LARGEST else ()
         for row in rows:
             return row
         raise BadInput(f"there is no sitting {number}")
@@ -176,12 +177,12 @@ class Archive:
 
 @contextmanager
 def archive(folder: Path) -> Iterator[Archive]:
-    """The archive of a data folder; raises BadInput if there is none that can be read."""
-    connection = open_for_reading(folder)
-    try:
-        yield Archive(sqlite_utils.Database(connection), in_use=in_use(folder))
-    finally:
-        connection.close()
+    """The archive of a data folder; raises BadInput if there is none that can be read, or not all of it."""
+    with closing(open_for_reading(folder)) as connection:
+        try:
+            yield Archive(sqlite_utils.Database(connection), in_use=in_use(folder))
+        except sqlite3.DatabaseError as error:
+            raise BadInput(f"the database in {folder} cannot be read: {error}") from error
 
 
 def _stage(events: list[Event]) -> Stage | None:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import shutil
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from kiosk import BadInput
 from kiosk.store.database import FILE
+from kiosk.store.dataset.export import export
+from kiosk.store.dataset.extras import Extra
+from kiosk.store.dataset.layouts.psych_ds import PsychDs
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import events as happened
@@ -181,3 +186,26 @@ def test_every_sitting_has_its_own_measures(folder: Path, provenance: Provenance
             )
         with archive(folder) as stored:
             assert [sitting.measures for sitting in stored.sittings()] == measures
+
+
+def test_a_database_that_is_damaged_is_refused_in_words(
+    folder: Path, provenance: Provenance, played: Driver, tmp_path: Path
+) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, played.events)
+    damage(folder / FILE, "event")
+    with pytest.raises(BadInput, match="cannot be read"), archive(folder) as stored:
+        stored.sittings()
+    with pytest.raises(BadInput, match="cannot be read"):
+        export(folder, tmp_path / "out", PsychDs, frozenset({Extra.REHEARSALS}))
+    assert not (tmp_path / "out").exists()
+
+
+def damage(database: Path, table: str) -> None:
+    """Write over the first page of a table."""
+    with closing(sqlite3.connect(database)) as connection:
+        [page] = connection.execute("SELECT rootpage FROM sqlite_master WHERE name = ?", (table,)).fetchone()
+        [size] = connection.execute("PRAGMA page_size").fetchone()
+    with database.open("r+b") as file:
+        file.seek((page - 1) * size)
+        file.write(b"\xff" * size)

@@ -166,7 +166,10 @@ def source(folder: Path, *, rehearsals: bool) -> Iterator[Source]:
         writing = in_use(folder)
         connection.execute("BEGIN")
         archive = Archive(sqlite_utils.Database(connection), in_use=writing)
-        yield Source(connection, archive, rehearsals, None if writing else Status.INTERRUPTED)
+        try:
+            yield Source(connection, archive, rehearsals, None if writing else Status.INTERRUPTED)
+        except sqlite3.DatabaseError as error:
+            raise BadInput(f"the database in {folder} cannot be read: {error}") from error
 
 
 def _told(records: list[dict[str, Any]]) -> Iterator[Record]:
