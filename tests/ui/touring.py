@@ -75,7 +75,9 @@ class Looking(Hand):
         """The same with something that has to be done first."""
         screens = self._app.screens
         if moment == "consent":
-            screens.consent.show_missing(tuple(screens.consent.needed))
+            screens.consent.show_missing(
+                tuple(each for each in screens.consent.offered if each in screens.consent.needed)
+            )
         elif screens.kiosk.shown == "form" and not screens.form.given and "page" not in moment and "keys" not in moment:
             screens.form.show_missing(tuple(item.id for item in screens.form.shown))
         else:
