@@ -31,5 +31,16 @@ def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
     recollect("rehearse", "--headless", "--seed", "1", "--data", str(tmp_path / "data"), "--shots", str(shots))
     taken = {picture.stem[3:] for picture in shots.glob("*.png")}
     assert taken >= {"attract", "introduction", "board", "card", "turning-back", "speaking", "pair", "result"}
-    assert taken >= {"about", "consent", "ticks", "age", "about-you-1", "items-1", "items-5", "answer", "debrief", "thanks"}
+    assert taken >= {
+        "about",
+        "consent",
+        "ticks",
+        "age",
+        "about-you-1",
+        "items-1",
+        "items-5",
+        "answer",
+        "debrief",
+        "thanks",
+    }
     assert taken & {"mark-card", "mark-row", "mark-column"}

@@ -175,6 +175,13 @@ class AnswerGiven(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Typed(WorldEvent):
+    """The visitor is typing an answer; what it says is theirs until they are done. Told every few letters."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
 class StillHereTapped(WorldEvent):
     """The visitor is still there."""
 

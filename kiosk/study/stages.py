@@ -44,6 +44,7 @@ from kiosk.study.events import (
     StillHereTapped,
     Thanked,
     TimerEnded,
+    Typed,
     VisitorLeft,
     WorldEvent,
 )
@@ -91,7 +92,12 @@ def _underway(own: Mapping[type[Event], Turn]) -> Mapping[type[Event], Turn]:
 
 
 _READ: Mapping[type[Event], Turn] = {ContinueTapped: Turn.ON}
-_ASK: Mapping[type[Event], Turn] = {AnswerGiven: Turn.STAY, ContinueTapped: Turn.STAY, QuestionsFinished: Turn.ON}
+_ASK: Mapping[type[Event], Turn] = {
+    Typed: Turn.STAY,
+    AnswerGiven: Turn.STAY,
+    ContinueTapped: Turn.STAY,
+    QuestionsFinished: Turn.ON,
+}
 
 TABLE: Mapping[Stage, Mapping[type[Event], Turn]] = MappingProxyType(
     {

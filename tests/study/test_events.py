@@ -69,6 +69,7 @@ def test_a_tap_shows_that_somebody_is_there_and_a_clock_does_not() -> None:
         "CardTapped",
         "AnswerGiven",
         "StillHereTapped",
+        "Typed",
     }
 
 

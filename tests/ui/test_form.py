@@ -155,6 +155,15 @@ def test_what_is_typed_is_sent_once_and_not_letter_by_letter(booth: Booth, given
     assert given == [("remark", "Perché no? ¡Qué bien!")]
 
 
+def test_whoever_types_is_told_to_be_there_every_few_letters_and_not_what(booth: Booth, given: Given) -> None:
+    told: list[int] = []
+    booth.app.screens.form.typed.connect(lambda: told.append(len(given)))
+    ask(booth, ITEMS["text"])
+    booth.click(f"text-{ITEMS['text'].id}")
+    Hand(booth.app.window).type("twelve words")
+    assert told == [0, 0]
+
+
 def test_what_is_typed_is_not_lost_when_the_visitor_goes_on_at_once(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["text"])
     booth.click("text-remark")

@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.booth.pin import kept
 from kiosk.study.commands import Wait
-from kiosk.study.declared.questionnaire import Item, Page, Questionnaire
+from kiosk.study.declared.questionnaire import Item, Questionnaire, TextPage
 from kiosk.ui.app import App
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.panel.card import Step
@@ -27,7 +27,7 @@ PIN, WRONG = "2580", "9999"
 CHORD = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
-ASKED: dict[str, Item] = {item.kind: item for item in GALLERY.items if not isinstance(item, Page)}
+ASKED: dict[str, Item] = {item.kind: item for item in GALLERY.items if not isinstance(item, TextPage)}
 """An item of every kind that is answered."""
 
 Look = Callable[[str], None]

@@ -114,6 +114,7 @@ class Screens:
         self.consent.agreed.connect(partial(tell, happened.AgreeTapped))
         self.consent.declined.connect(partial(tell, happened.DeclineTapped))
         self.age.answered.connect(lambda adult: tell(happened.AgeTapped, adult=adult))
+        self.form.typed.connect(partial(tell, happened.Typed))
         self.form.answered.connect(lambda item, value: tell(happened.AnswerGiven, item=item, value=value))
         self.board.tapped.connect(lambda position: tell(happened.CardTapped, position=position))
         self.board.skipped.connect(partial(tell, happened.SkipTapped))

@@ -21,6 +21,10 @@ QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 
+KEYSTROKES = 5
+"""After so many letters it is told again that somebody types: nobody who does is asked whether they are there."""
+
+
 @QmlElement
 class FormScreen(QObject):
     """A page of items."""
@@ -33,6 +37,8 @@ class FormScreen(QObject):
     """The first item that is missed is to be brought into view."""
     answered = Signal(str, object)
     """The visitor answered an item; None takes the answer back."""
+    typed = Signal()
+    """The visitor is typing; told every few letters."""
     continued = Signal()
 
     def __init__(self, catalogue: Catalogue, scale: Callable[[str], Path], parent: QObject | None = None) -> None:
@@ -45,6 +51,7 @@ class FormScreen(QObject):
         self._answers: dict[str, Answer] = {}
         self._drafts: dict[str, str] = {}
         self._missing: tuple[str, ...] = ()
+        self._keystrokes = 0
 
     def speak(self, catalogue: Catalogue) -> None:
         """Ask in this language, from the next page on."""
@@ -55,6 +62,7 @@ class FormScreen(QObject):
         """Show a page, ``number`` ``of`` so many; nothing is answered."""
         self._items, self._number, self._of = items, number, of
         self._answers, self._drafts, self._missing = {}, {}, ()
+        self._keystrokes = 0
         self.changed.emit()
         self.marked.emit()
 
@@ -144,6 +152,9 @@ class FormScreen(QObject):
         """The visitor is typing; this is what stands there now."""
         self._drafts[item] = text
         self.marked.emit()
+        self._keystrokes += 1
+        if self._keystrokes % KEYSTROKES == 0:
+            self.typed.emit()
 
     @Slot(str)
     def finish(self, item: str) -> None:
