@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept
+from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.tables.asked import asked
 from kiosk.store.dataset.tables.flow import last_stage
 from kiosk.store.dataset.tables.measured import MEASURES
@@ -79,7 +79,11 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
         lambda row: row.kept.row["body"],
     ),
     (
-        Variable("body_changes", "How often another body had to take over.", Kind.WHOLE),
+        Variable(
+            "body_changes",
+            "How often another body had to take over; who went on after a cut is in the events.",
+            Kind.WHOLE,
+        ),
         lambda row: len(row.overview.body_changes),
     ),
     (
@@ -101,7 +105,11 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
         lambda row: last_stage(row.overview).value,
     ),
     (
-        Variable("game_completed", "Whether every pair of the game was found.", Kind.TRUTH),
+        Variable(
+            "game_completed",
+            "Whether every pair of the game was found and the last one looked at; with that its place is consumed.",
+            Kind.TRUTH,
+        ),
         lambda row: row.overview.game_completed,
     ),
     (
