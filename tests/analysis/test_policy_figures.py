@@ -8,7 +8,7 @@ pytest.importorskip("matplotlib")
 
 from kiosk.analysis.policy_figures import distributions, heat_map
 from kiosk.assistant.mdp import STATES, Action
-from kiosk.cli.evidence import Sample
+from kiosk.cli.learning.evidence import Sample
 from tests.samples import always, policy_that
 
 

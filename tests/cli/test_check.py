@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from kiosk.cli import check as command
-from kiosk.cli.checking.machine import BUSY, LEAST_MIB, Load, log, machine, program
-from kiosk.cli.checking.together import look
+from kiosk.cli.booth import check as command
+from kiosk.cli.booth.checking.machine import BUSY, LEAST_MIB, Load, log, machine, program
+from kiosk.cli.booth.checking.together import look
 from kiosk.cli.front import main
 from kiosk.cli.wiring import LOG, LOG_BYTES, code_commit, code_made
 from kiosk.findings import Finding, Probe, State

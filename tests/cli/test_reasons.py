@@ -10,8 +10,8 @@ import pytest
 
 from kiosk.assistant.hint import Reason
 from kiosk.assistant.mdp import Card
+from kiosk.cli.explaining.reasons import EXAMPLES, example, table
 from kiosk.cli.front import main
-from kiosk.cli.reasons import EXAMPLES, example, table
 from tests.samples import CATALOGUES
 
 PAGE = Path(__file__).parents[2] / "docs" / "mentaliser.md"

@@ -204,7 +204,7 @@ def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, mon
 
         return Bar()
 
-    monkeypatch.setattr("kiosk.cli.learning.progress_bar", interrupted)
+    monkeypatch.setattr("kiosk.cli.learning.commands.progress_bar", interrupted)
     result = run("train", "--episodes", "4000", "--out", str(out))
     beside = tmp_path / "table.checkpoint.json"
     assert result.exit_code == 130

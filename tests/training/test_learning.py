@@ -13,7 +13,7 @@ from kiosk.assistant.gate import NO_GATE
 from kiosk.assistant.mdp import STATES, Action, Outcome
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
-from kiosk.cli.learning import command
+from kiosk.cli.learning.commands import command
 from kiosk.training import policies
 from kiosk.training.kernel import COMPILED, floats
 from kiosk.training.learning import (

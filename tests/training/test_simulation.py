@@ -20,7 +20,7 @@ from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import Action, Outcome, State
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import PolicyError, QTable
-from kiosk.cli.evidence import difference
+from kiosk.cli.learning.evidence import difference
 from kiosk.settings import POLICIES
 from kiosk.training import policies, simulation
 from kiosk.training.players import ChancePlayer, MemoryPlayer

@@ -67,7 +67,7 @@ if __name__ == "__main__":
     plain_run = App.run
     with (
         patch("kiosk.ui.app.App.run", run),
-        patch("kiosk.cli.keep.program", program),
+        patch("kiosk.cli.booth.keep.program", program),
         patch("kiosk.ui.voice.program", program),
     ):
         main()

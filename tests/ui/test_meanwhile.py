@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk import program
 from kiosk.assistant.wording import Catalogue
-from kiosk.cli.case import languages
+from kiosk.cli.languages import languages
 from kiosk.keeping.notice import SocketListener
 from kiosk.settings import ASSETS
 from kiosk.ui.meanwhile import _window

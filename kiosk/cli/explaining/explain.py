@@ -12,7 +12,7 @@ from kiosk import BadInput
 from kiosk.assistant.explain import Explanation
 from kiosk.assistant.hint import Hint
 from kiosk.assistant.mdp import Action, Outcome
-from kiosk.cli import case, reasons
+from kiosk.cli.explaining import case, reasons
 from kiosk.cli.options import data_option, json_option
 from kiosk.game import Board
 from kiosk.store import moments

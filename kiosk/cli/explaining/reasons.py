@@ -10,7 +10,7 @@ from kiosk.assistant.hint import Hint, Reason
 from kiosk.assistant.mdp import Action, Card
 from kiosk.assistant.mentaliser import Mentaliser, TargetRule
 from kiosk.assistant.wording import ReasonedSentences, Wording
-from kiosk.cli.case import catalogue, languages
+from kiosk.cli.languages import catalogue, languages
 from kiosk.game import Board, Position
 
 CARDS = (

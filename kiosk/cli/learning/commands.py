@@ -20,7 +20,7 @@ from kiosk.assistant.gate import NO_GATE, Gate
 from kiosk.assistant.mdp import STATES, Action, State
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
-from kiosk.cli import evidence
+from kiosk.cli.learning import evidence
 from kiosk.cli.progress import progress_bar
 from kiosk.study.condition import Condition, target_rule
 from kiosk.training import policies, simulation

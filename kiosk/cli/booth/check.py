@@ -12,8 +12,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from kiosk import BadInput
-from kiosk.cli.checking.all import Booth, probes
-from kiosk.cli.checking.together import look
+from kiosk.cli.booth.checking.all import Booth, probes
+from kiosk.cli.booth.checking.together import look
 from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, site_option, study_option
 from kiosk.cli.progress import progress_bar
 from kiosk.cli.wiring import read_settings

@@ -11,13 +11,11 @@ from pathlib import Path
 import click
 
 from kiosk import program
-from kiosk.assistant.wording import Catalogue
-from kiosk.cli.case import languages
+from kiosk.cli.languages import catalogue, languages
 from kiosk.cli.options import data_option
 from kiosk.cli.wiring import log_into
 from kiosk.keeping.keeper import REFUSED, Happening, Keeper, What
 from kiosk.keeping.watch import Patience
-from kiosk.settings import ASSETS
 
 _TROUBLE = {What.DIED, What.HUNG, What.PAUSE, What.REFUSED, What.NO_MEANWHILE}
 
@@ -72,4 +70,4 @@ def meanwhile() -> None:
     """Show the calm window that lies underneath the kiosk; the keeper starts it."""
     from kiosk.ui.meanwhile import show_meanwhile  # noqa: PLC0415 - the keeper itself opens no window
 
-    show_meanwhile([Catalogue(ASSETS / "sentences" / language).text("meanwhile-line") for language in languages()])
+    show_meanwhile([catalogue(language).text("meanwhile-line") for language in languages()])

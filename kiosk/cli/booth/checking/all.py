@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from kiosk import program
-from kiosk.cli.checking import machine
+from kiosk.cli.booth.checking import machine
 from kiosk.cli.wiring import code_commit, code_made
 from kiosk.findings import Finding, Probe, State
 from kiosk.keeping.kept import WHAT, kept

@@ -14,9 +14,9 @@ from kiosk import BadInput
 from kiosk.assistant.mdp import Action
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable, said_once
-from kiosk.assistant.wording import Catalogue
+from kiosk.cli.languages import catalogue
 from kiosk.game import Board
-from kiosk.settings import ASSETS, Assistance, Game
+from kiosk.settings import Assistance, Game
 from kiosk.study.after.moment import Moment
 from kiosk.study.condition import Condition
 
@@ -66,19 +66,6 @@ def read(path: Path) -> Case:
         raise BadInput(f"the case {path}: {_sentence(error.errors()[0])}") from error
     except (ValueError, RecursionError) as error:
         raise BadInput(f"the case {path} is not JSON: {error}") from error
-
-
-def catalogue(language: str) -> Catalogue:
-    """The catalogue of a language; raises BadInput with all the languages there are."""
-    if language not in languages():
-        raise BadInput(f"there is no language {language!r}; there are {', '.join(languages())}")
-    return Catalogue(ASSETS / "sentences" / language)
-
-
-def languages() -> tuple[str, ...]:
-    """Every language that has a folder of sentences, English first, as everything else is measured against it."""
-    names = sorted(folder.name for folder in (ASSETS / "sentences").iterdir() if folder.is_dir())
-    return tuple(sorted(names, key=lambda name: name != "en"))
 
 
 def _action(name: str) -> Action:

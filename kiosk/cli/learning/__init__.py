@@ -1,0 +1,1 @@
+"""The commands of the learning layer, and the evidence for what its documents claim."""

@@ -1,0 +1,1 @@
+"""Commands for what is stored: listing, copying, checking, withdrawing, merging, exporting, playing again."""
