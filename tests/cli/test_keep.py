@@ -63,8 +63,9 @@ def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path
         keeper.process.send_signal(signal.SIGTERM)
         keeper.wait_for("told to end")
         assert keeper.process.wait(20) == 0
-    logged = (tmp_path / "recollect.log").read_text().splitlines()
-    died, ready = (line for line in logged if " kiosk.cli.booth.keep: " in line)
+    log = (tmp_path / "recollect.log").read_text().splitlines()
+    # What the kiosk itself logs depends on the machine: whether it has a bus, say.
+    died, ready = (line for line in log if "kiosk.cli.booth.keep" in line)
     assert died.endswith("WARNING kiosk.cli.booth.keep: start 1 of the kiosk: died: signal 9")
     assert "WARNING kiosk.cli.booth.keep: start 2 of the kiosk: ready (" in ready
 
