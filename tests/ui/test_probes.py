@@ -124,6 +124,7 @@ def test_what_a_process_found_comes_back_as_it_was() -> None:
             "could not connect to display :7",
         ),
         ("import os; os.abort()", "it ended with -6"),
+        ("raise OSError('no display')", "OSError: no display"),
     ],
 )
 def test_a_process_that_qt_ends_is_told_in_its_own_words(program: str, words: str) -> None:

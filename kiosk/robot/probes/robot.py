@@ -74,7 +74,8 @@ def _any(device: Robot) -> Finding:
         device.connect()
     except RobotFailed as failure:
         return _lost(failure)
-    device.close()
+    finally:
+        device.close()
     return Finding.good(WHAT, "it answers; it does not tell its voices")
 
 

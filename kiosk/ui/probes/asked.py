@@ -22,8 +22,15 @@ def ask(what: str, command: Sequence[str], within_s: float, remedy: str) -> Iter
     if done.returncode == 0:
         yield from from_json(done.stdout)
         return
-    said = [line for line in done.stderr.splitlines() if line.strip()]
-    yield Finding.bad(what, said[0].strip() if said else f"it ended with {done.returncode}", remedy)
+    yield Finding.bad(what, _said(done.stderr) or f"it ended with {done.returncode}", remedy)
+
+
+def _said(stderr: str) -> str:
+    """The line that tells most: the first, for others follow from it; but the last of what a fault of ours leaves."""
+    lines = [line.strip() for line in stderr.splitlines() if line.strip()]
+    if not lines:
+        return ""
+    return lines[-1] if lines[0].startswith("Traceback ") else lines[0]
 
 
 def to_json(findings: Iterable[Finding]) -> str:
