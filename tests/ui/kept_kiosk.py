@@ -26,7 +26,8 @@ class Guest(Rehearsal):
     """Plays until the stage comes, and then stands there."""
 
     def _think(self) -> None:
-        if self._app.conductor.stage.value != STAGE:
+        # A fault may strike while a click is still at work.
+        if self._app.conductor.stage.value != STAGE and self._app.screens.kiosk.shown != "pause":
             self._app.clock.after(HASTE_MS, self._act)
 
 

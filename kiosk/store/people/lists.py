@@ -55,7 +55,7 @@ class Lists:
         rows = self._connection.execute(
             """
             SELECT place FROM sitting WHERE site = :site AND simulated = :simulated AND allotted = 'list'
-            AND EXISTS (SELECT 1 FROM event WHERE event.sitting = sitting.id AND type = 'GameFinished')
+            AND id IN (SELECT sitting FROM event WHERE type = 'GameFinished')
             UNION
             SELECT place FROM tombstone WHERE site = :site AND simulated = :simulated AND allotted = 'list'
             AND game_completed

@@ -20,15 +20,15 @@ class Pulse(QObject):
         super().__init__()
         self.longest_ms = 0.0
         """The longest time between two beats, in ms; a free loop reaches EVERY_MS and a little more."""
-        self._last = 0.0
+        self._last: float | None = None
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.setInterval(EVERY_MS)
         self._timer.timeout.connect(self._beat)
 
     def start(self) -> None:
-        """Count from here on."""
-        self._last = monotonic()
+        """Count from the first beat on: what is done before the loop runs is not the loop's."""
+        self._last = None
         self._timer.start()
 
     def stop(self) -> None:
@@ -40,9 +40,11 @@ class Pulse(QObject):
         """What happens meanwhile is not the interface's doing, and does not count."""
         begun = monotonic()
         yield
-        self._last += monotonic() - begun
+        if self._last is not None:
+            self._last += monotonic() - begun
 
     def _beat(self) -> None:
         now = monotonic()
-        self.longest_ms = max(self.longest_ms, (now - self._last) * MS_PER_SECOND)
+        if self._last is not None:
+            self.longest_ms = max(self.longest_ms, (now - self._last) * MS_PER_SECOND)
         self._last = now

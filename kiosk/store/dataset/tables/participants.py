@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.stored.followed import Followed
+from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.asked import asked
 from kiosk.store.dataset.tables.flow import last_stage
 from kiosk.store.dataset.tables.measured import MEASURES
