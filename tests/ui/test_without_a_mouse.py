@@ -123,12 +123,12 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     keyboard = open_panel(booth.app)
     assert booth.app.experimenter.panel.is_open
     keyboard.click("condition-notom")
-    keyboard.type("1")
+    keyboard.type("5in their own words")
+    keyboard.press(Qt.Key.Key_Return)
     for name in ("volume-0.2", "deed-quiet"):
         keyboard.click(name)
     keyboard.click("deed-end")
-    keyboard.type("5in their own words")
-    keyboard.press(Qt.Key.Key_Return)
+    keyboard.type("1")
     booth.wait_until(lambda: booth.app.conductor.stage is not Stage.ABOUT)
     if booth.app.experimenter.panel.is_open:
         keyboard.press(Qt.Key.Key_Escape)
@@ -138,7 +138,10 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
         for each in glance(booth.data, 0, simulated=True).deviations
         if each.body.get("reason")
     }
-    assert noted == {Note.CONDITION_CHOSEN: Reason.TECHNICAL.value, Note.SITTING_STOPPED: "other: in their own words"}
+    assert noted == {
+        Note.CONDITION_CHOSEN: Reason.OTHER.in_own_words("in their own words"),
+        Note.SITTING_STOPPED: Reason.TECHNICAL.value,
+    }
 
 
 def test_page_up_and_down_home_and_end_move_a_slider_far(booth: Booth) -> None:
