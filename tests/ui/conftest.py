@@ -22,6 +22,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.settings import Settings
 from kiosk.store.reading import Archive, archive
+from kiosk.store.recorder import Recorder
 from kiosk.study.declared.questionnaire import Item
 from kiosk.ui.app import App
 from kiosk.ui.clock import VirtualClock
@@ -111,9 +112,15 @@ def make_booth(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeBooth]:
     """Build a booth, with a short study unless told otherwise; all are taken down at the end."""
     with ExitStack() as built:
 
-        def make(seed: int = 1, condition: str = "tom", settings: Settings | None = None) -> Booth:
+        def make(
+            seed: int = 1,
+            condition: str = "tom",
+            settings: Settings | None = None,
+            opened: Callable[[Path], Recorder] = Recorder,
+        ) -> Booth:
             data = Path(mkdtemp(dir=tmp_path))
-            app = built.enter_context(headless(settings or short(), data, seed=seed, condition=condition))
+            kiosk = headless(settings or short(), data, seed=seed, condition=condition, opened=opened)
+            app = built.enter_context(kiosk)
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
             return Booth(app, data)
 

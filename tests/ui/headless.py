@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -43,10 +43,14 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     condition: str | None = "tom",
     mode: Mode = VIRTUAL,
     robot: Robot | None = None,
+    opened: Callable[[Path], Recorder] = Recorder,
 ) -> Iterator[App]:
-    """A kiosk with this study, in this condition, or None for its list's; every sitting has the same seed."""
+    """A kiosk with this study, in this condition, or None for its list's; every sitting has the same seed.
+
+    ``opened`` gives the recorder of a data folder.
+    """
     study = read_study(settings)
     fixed = Condition.named(condition) if condition else None
     origin = Origin("a test", simulated=True, seed=lambda: seed, condition=fixed)
-    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
+    with opened(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
         yield app

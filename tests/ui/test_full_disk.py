@@ -1,7 +1,4 @@
-"""A disk that is full, in whatever stage: the visitor sees a calm screen, the log tells of it, nothing is torn.
-
-The disk is real as far as SQLite is concerned: its file may not grow by another page.
-"""
+"""A disk that is full, in whatever stage: the visitor sees a calm screen, the log tells of it, nothing is torn."""
 
 from __future__ import annotations
 
@@ -20,6 +17,7 @@ from kiosk.study.events import Stage, Status
 from kiosk.study.stages import BEFORE_DECIDING
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.small_disk import SmallDisk
 
 SMALL = Settings.model_validate(
     {
@@ -32,17 +30,16 @@ SMALL = Settings.model_validate(
 KEPT = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.OVER}]
 
 
-def fill(booth: Booth) -> None:
-    """From now on the database may not grow."""
-    recorder = booth.app.conductor._recorder
-    connection = recorder._connection
-    pages = connection.execute("PRAGMA page_count").fetchone()[0]
-    connection.execute(f"PRAGMA max_page_count = {pages}")
+@pytest.fixture
+def disk() -> SmallDisk:
+    """The disk under the booth."""
+    return SmallDisk()
 
 
-def empty(booth: Booth) -> None:
-    """The disk has room again."""
-    booth.app.conductor._recorder._connection.execute("PRAGMA max_page_count = 1073741823")
+@pytest.fixture
+def booth(make_booth: MakeBooth, disk: SmallDisk) -> Booth:
+    """A booth on a disk that can be full."""
+    return make_booth(settings=SMALL, opened=disk.open)
 
 
 def go_to(booth: Booth, stage: Stage) -> None:
@@ -70,17 +67,16 @@ def write_until(booth: Booth, over: Callable[[], bool]) -> None:
 
 @pytest.mark.parametrize("stage", KEPT, ids=lambda stage: stage.value)
 def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
-    make_booth: MakeBooth, stage: Stage, caplog: pytest.LogCaptureFixture
+    booth: Booth, disk: SmallDisk, stage: Stage, caplog: pytest.LogCaptureFixture
 ) -> None:
-    booth = make_booth(settings=SMALL)
     go_to(booth, stage)
-    fill(booth)
+    disk.fill()
     write_until(booth, lambda: booth.screen == "pause")
     [told] = caplog.messages
     assert "database or disk is full" in told
     with closing(sqlite3.connect(booth.data / FILE)) as database:
         assert database.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
-    empty(booth)
+    disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
     booth.rehearse(seed=2)
     with archive(booth.data) as stored:
@@ -93,15 +89,14 @@ def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
 
 
 def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_take_part(
-    make_booth: MakeBooth, caplog: pytest.LogCaptureFixture
+    booth: Booth, disk: SmallDisk, caplog: pytest.LogCaptureFixture
 ) -> None:
-    booth = make_booth(settings=SMALL)
     go_to(booth, Stage.AGE)
-    fill(booth)
+    disk.fill()
     booth.click("age-yes")
     assert booth.screen == "pause"
     assert "database or disk is full" in caplog.text
-    empty(booth)
+    disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
     with archive(booth.data) as stored:
         assert stored.sittings() == []

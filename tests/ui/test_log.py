@@ -19,7 +19,8 @@ from kiosk.ui.voice import EngineVoice
 from tests.robot.furhat_fake import FurhatFake, Mode
 from tests.ui.conftest import MakeBooth
 from tests.ui.sabotage import Moment, Sabotage
-from tests.ui.test_full_disk import fill, write_until
+from tests.ui.small_disk import SmallDisk
+from tests.ui.test_full_disk import write_until
 from tests.ui.test_nothing_is_left import Memory
 
 SMALL = {
@@ -57,10 +58,10 @@ def raise_with(words: str) -> None:
 def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voice_disk_and_we_fail(
     qtbot: QtBot, make_booth: MakeBooth, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    memory = Memory()
+    memory, disk = Memory(), SmallDisk()
     with logging_into(tmp_path / "log") as log, FurhatFake(character_ms=0.2) as fake:
         robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, "answer_deadline": 300}
-        booth = make_booth(settings=Settings.model_validate(SMALL | {"robot": robot}))
+        booth = make_booth(settings=Settings.model_validate(SMALL | {"robot": robot}), opened=disk.open)
         rehearsal = Sabotage(booth.app, 7, lambda: setattr(fake, "mode", Mode.RESET), Moment.GAME)
         check = booth.app.conductor.witness
         assert check is not None
@@ -76,7 +77,7 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
         private = memory.typed | memory.codes
         assert memory.typed
         assert memory.codes
-        fill(booth)
+        disk.fill()
         write_until(booth, lambda: booth.screen == "pause")
         voice = EngineVoice(VoiceSettings(), "en", command=(sys.executable, "-c", TALKS_NONSENSE))
         with qtbot.waitSignal(voice.failed):
