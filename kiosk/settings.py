@@ -160,7 +160,7 @@ class Allocation(Declared):
     ] = {"tom": 28, "notom": 28}
     block: Annotated[
         PositiveInt, Field(description="How many visitors make a block, in which every condition has its share.")
-    ] = 4
+    ] = 8
     seed: Annotated[
         NonNegativeInt | None,
         Field(description="From which the list is drawn; by default a secret one, drawn and stored once."),

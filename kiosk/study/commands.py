@@ -86,7 +86,9 @@ class ShowAgeQuestion(Command):
 
 @dataclass(frozen=True)
 class ShowIntroduction(Command):
-    """Show what the game is about."""
+    """Show what the game is about; hints are spoken of only where there are some."""
+
+    helped: bool = True
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import count
 from random import Random
 
@@ -11,10 +12,9 @@ from kiosk.assistant.adaptation import assistant_with
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.wording import Wording
 from kiosk.game import Board
-from kiosk.game.board import CARDS_IN_A_PAIR
 from kiosk.settings import Game, Practice
 from kiosk.study.commands import Script
-from kiosk.study.condition import help_in
+from kiosk.study.condition import Condition, help_in
 from kiosk.study.events import Event, Stage
 from kiosk.study.plan import Plan
 from kiosk.study.scenes.asking import Asking
@@ -29,26 +29,35 @@ class Scenery:
 
     def __init__(self, plan: Plan, seed: int, log: Callable[[Script], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
-        wording, numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
-        self.speaker = Speaker(wording, numbers)
+        self._plan, self._seed = plan, seed
+        self._wording, self._numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
+        self.speaker = Speaker(self._wording, self._numbers)
         settings = plan.settings
         makers: dict[Stage, Callable[[], Scene]] = {
             Stage.ABOUT: lambda: About(plan.information.about),
             Stage.CONSENT: lambda: Consent(plan.information, plan.language),
             Stage.AGE: lambda: AgeGate(settings.consent.adult),
             Stage.ABOUT_YOU: lambda: Asking((plan.about_you,), Random(f"{seed}/about_you")),
-            Stage.INTRODUCTION: lambda: Introduction(
-                self.speaker, settings.game.rows * settings.game.columns // CARDS_IN_A_PAIR
-            ),
             Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
-            Stage.GAME: lambda: _game(plan, seed, wording, numbers),
             Stage.RESULT: lambda: Result(self.speaker, log),
             Stage.QUESTIONS: lambda: Asking(plan.questionnaires, Random(f"{seed}/questions")),
             Stage.DEBRIEF: lambda: Debrief(plan.information.debrief),
             Stage.THANKS: lambda: Thanks(self.speaker, settings.timing.thanks),
         }
         # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
-        self._scenes = {stage: makers[stage]() for stage in plan.course.stages}
+        self._scenes: dict[Stage, Scene] = {stage: makers[stage]() for stage in plan.course.stages if stage in makers}
+        self._play_in(plan.condition)
+
+    def play_by_chance(self) -> None:
+        """Have the game in any condition of the study: whoever is not stored shall tell nobody who comes next."""
+        listed = sorted(self._plan.settings.allocation.quotas) or [self._plan.condition.value]
+        self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
+
+    def _play_in(self, condition: Condition) -> None:
+        game = _game(replace(self._plan, condition=condition), self._seed, self._wording, self._numbers)
+        pairs = game.game.board.pairs
+        self._scenes[Stage.GAME] = game
+        self._scenes[Stage.INTRODUCTION] = Introduction(self.speaker, pairs, helped=game.helped)
 
     def of(self, stage: Stage) -> Scene:
         """The scene of a stage; before the first and after the last one nothing is to be seen of a sitting."""

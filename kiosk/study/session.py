@@ -148,6 +148,7 @@ class Session:
     def _forget(self, why: Unstored, script: Script) -> None:
         if self.keeping is Keeping.UNDECIDED:
             self.keeping = Keeping.FORGOTTEN
+            self._scenery.play_by_chance()
             script.do(do.ForgetSitting(why))
 
     def _end(self, status: Status, script: Script) -> None:

@@ -66,6 +66,11 @@ class Desk:
         """The condition that the experimenter chose for the next sitting; None for the list's."""
         return self._choice.condition if self._choice else None
 
+    @property
+    def is_followed(self) -> bool:
+        """Whether the choice is that of the visitor who sits there, and not yet one for the visitor after."""
+        return self._choice is not None and self._choice is self._followed
+
     def choose(self, condition: Condition | None, reason: str) -> None:
         """Have the next sitting in this condition, or, with None, in the list's; raises StoreFailed."""
         name = condition.value if condition else "automatic"

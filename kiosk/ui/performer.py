@@ -85,6 +85,7 @@ class Performer:
 
     @perform.register
     def _(self, command: do.ShowIntroduction) -> None:
+        self.screens.introduction.show(helped=command.helped)
         self.screens.kiosk.show("introduction")
 
     @perform.register

@@ -6,15 +6,17 @@ from collections.abc import Callable
 
 import pytest
 
+from kiosk.assistant.mdp import Action
 from kiosk.settings import STAGES, Game
 from kiosk.study import commands as do
 from kiosk.study import events as happened
+from kiosk.study.condition import Condition
 from kiosk.study.events import Stage, Status, Unstored
 from kiosk.study.plan import Plan
 from kiosk.study.session import Keeping
 from kiosk.study.stages import BEFORE_DECIDING
-from tests.samples import plan
-from tests.study.driver import Driver, driven_to, notes
+from tests.samples import always, plan
+from tests.study.driver import Driver, driven_to, notes, with_memory
 
 DECIDING = [stage for stage in Stage if stage in BEFORE_DECIDING]
 AFTER = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRACT, Stage.OVER}]
@@ -161,3 +163,24 @@ def test_the_experimenter_can_end_a_sitting_anywhere(stage: Stage) -> None:
     assert [type(event).__name__ for event in notes(commands)] == ["StageEntered", "SittingEnded"]
     assert commands[-1] == do.EndSitting(Status.STOPPED)
     assert (driver.stage, driver.running) == (Stage.OVER, {})
+
+
+def unstored_game(condition: Condition, seed: int) -> list[tuple[do.Command, ...]]:
+    """What somebody who declines sees of a game, flip by flip of the same cards."""
+    quotas = {"quotas": {"tom": 1, "no_assistance": 1}, "block": 2}
+    driver = Driver(plan(condition, always(Action.SUG_CARD), STAGES, allocation=quotas), seed)
+    driver.to(Stage.CONSENT)
+    driver.send(happened.DeclineTapped(at_ms=driver.now))
+    driver.to(Stage.GAME)
+    driver.play(with_memory(seed))
+    return [step.commands for step in driver.steps]
+
+
+def test_whoever_declines_plays_in_a_condition_by_chance_that_tells_nothing_of_the_next_visitor_s() -> None:
+    games = []
+    for seed in range(8):
+        assert unstored_game(Condition.TOM, seed) == unstored_game(Condition.NO_ASSISTANCE, seed)
+        games.append(
+            any(isinstance(c, do.ShowMark) for commands in unstored_game(Condition.TOM, seed) for c in commands)
+        )
+    assert set(games) == {True, False}

@@ -14,7 +14,8 @@ from kiosk import BadInput
 from kiosk.study.allocation import Place, next_place, places, ratio_in_words
 from kiosk.study.condition import Condition
 
-SEED_BITS = 32
+SEED_BITS = 63
+"""Who has seen many places of a list shall not find the rest by trying seeds."""
 
 
 @dataclass(frozen=True)

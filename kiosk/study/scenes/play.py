@@ -64,6 +64,11 @@ class Play(Scene):
         self._utterances = utterances
         self._given: _Given | None = None
 
+    @property
+    def helped(self) -> bool:
+        """Whether anybody helps."""
+        return self._guide is not None
+
     def enter(self, script: Script) -> None:
         """Show and open the board."""
         board, table = self.game.board, self._table

@@ -34,15 +34,17 @@ class About(Scene):
 class Introduction(Scene):
     """The assistant greets, and says what is to be done."""
 
-    def __init__(self, speaker: Speaker, pairs: int) -> None:
-        """Introduce a game of so many pairs."""
+    def __init__(self, speaker: Speaker, pairs: int, *, helped: bool) -> None:
+        """Introduce a game of so many pairs, in which somebody helps or nobody does."""
         self._speaker = speaker
         self._pairs = pairs
+        self._helped = helped
 
     def enter(self, script: Script) -> None:
         """Show the rules and say them."""
-        script.do(do.ShowIntroduction())
-        self._speaker.say("introduction-speech", script, cards=2 * self._pairs, pairs=self._pairs)
+        script.do(do.ShowIntroduction(helped=self._helped))
+        speech = "introduction-speech" if self._helped else "introduction-speech-alone"
+        self._speaker.say(speech, script, cards=2 * self._pairs, pairs=self._pairs)
 
 
 class Result(Scene):

@@ -149,12 +149,16 @@ class Panel:
         self._looking = False
         self._unread = seen if isinstance(seen, str) else ""
         if isinstance(seen, Glance):
-            self._screen.show_records(rows(seen, self._catalogue))
+            self._screen.show_records(rows(seen, self._catalogue, played=self._under_way))
+
+    @property
+    def _under_way(self) -> bool:
+        return self._deeds.stage not in (Stage.ATTRACT, Stage.OVER)
 
     def _choices(self) -> Row:
         """What can be chosen, and what is chosen now."""
         booth, deeds, told = self._booth, self._deeds, self._catalogue.text
-        under_way = deeds.stage not in (Stage.ATTRACT, Stage.OVER)
+        under_way = self._under_way
         bodies = booth.bodies
         robot = next((name.value for name in bodies.health if name is not BodyName.AVATAR), "")
         return {
@@ -163,7 +167,7 @@ class Panel:
             "conditions": [
                 {"value": each.value if each else AUTOMATIC, "label": condition_name(each, told)} for each in deeds.turn
             ],
-            "condition": booth.desk.chosen.value if booth.desk.chosen else AUTOMATIC,
+            "condition": booth.desk.chosen.value if booth.desk.chosen and not booth.desk.is_followed else AUTOMATIC,
             "bodies": [
                 {"value": robot, "label": told("desk-robot")},
                 {"value": BodyName.AVATAR.value, "label": told("desk-avatar")},

@@ -1,6 +1,7 @@
 """What is stored, as lines of the panel, in the experimenter's language.
 
-Of the sitting that is under way the condition is not told: whoever sits there may look up, and so may who asks them.
+While somebody plays no condition is told, of them or of those before: whoever sits there may look up, and so may who
+asks them.
 """
 
 from __future__ import annotations
@@ -25,18 +26,31 @@ DEVIATIONS_SHOWN = 5
 Told = Callable[..., str]
 
 
-def rows(seen: Glance, catalogue: Catalogue) -> Row:
-    """Every list of the panel that follows from the records."""
-    told = catalogue.text
+def rows(seen: Glance, catalogue: Catalogue, *, played: bool) -> Row:
+    """Every list of the panel that follows from the records; while somebody plays, none tells of a condition."""
+    told = _discreet(catalogue.text) if played else catalogue.text
     visits = {why.value: number for why, number in seen.counts.visits.items()}
+    cells = {} if played else seen.counts.cells
     return {
-        "cells": [_cell(condition, cell, told) for condition, cell in seen.counts.cells.items()],
+        "cells": [_cell(condition, cell, told) for condition, cell in cells.items()],
         "visits": told("desk-visits", **visits),
         "sittings": [_sitting(sitting, told) for sitting in seen.sittings],
         "deviations": [_deviation(noted, told) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
         "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, told),
         "resumable": [_resumable(sitting, told) for sitting in seen.resumable],
     }
+
+
+def _discreet(told: Told) -> Told:
+    """The same words, but for the names of conditions: from those before, the one of now could be guessed."""
+
+    def tell(message: str, **what: str | int) -> str:
+        return told("desk-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
+
+    return tell
+
+
+_OF_CONDITIONS = ("desk-condition-", "desk-automatic")
 
 
 def condition_name(condition: Condition | None, told: Told) -> str:
@@ -63,11 +77,10 @@ def _cell(condition: Condition, cell: Cell, told: Told) -> Row:
 
 
 def _sitting(sitting: Seen, told: Told) -> Row:
-    under_way = sitting.status is None
     return {
         "participant": sitting.participant or "-",
         "when": _time(datetime.fromisoformat(sitting.started_at)),
-        "condition": told("desk-hidden") if under_way else condition_name(sitting.condition, told),
+        "condition": condition_name(sitting.condition, told),
         "stage": told(f"desk-stage-{_kebab(sitting.stage.value)}") if sitting.stage else "-",
         "status": told(f"desk-status-{sitting.status.value if sitting.status else 'running'}"),
         "robot": told("desk-robot-lost") if sitting.robot_lost else "",

@@ -63,7 +63,11 @@ FocusScope {
             leftCard: view.attract.pictures[2]
             rightCard: view.attract.pictures[2]
         }
-        Rule { text: view.words["introduction-help"]; leftCard: view.attract.pictures[4] }
+        Rule {
+            visible: view.introduction.helped
+            text: view.words["introduction-help"]
+            leftCard: view.attract.pictures[4]
+        }
         BigButton {
             objectName: "continue"
             text: view.words["introduction-continue"]

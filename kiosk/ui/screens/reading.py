@@ -74,8 +74,25 @@ class AboutScreen(PageScreen):
 class IntroductionScreen(ReadingScreen):
     """What the game is about."""
 
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._helped = True
+
+    def show(self, *, helped: bool) -> None:
+        """Speak of hints, or not."""
+        self._helped = helped
+        self.changed.emit()
+
     def clear(self) -> None:
-        """It is the same for everybody."""
+        """Speak of hints, as for most."""
+        self.show(helped=True)
+
+    @Property(bool, notify=changed)
+    def helped(self) -> bool:
+        """Whether hints are spoken of."""
+        return self._helped
 
 
 @QmlElement

@@ -8,6 +8,7 @@ from kiosk.settings import Timing
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Mood
+from kiosk.study.condition import Condition
 from kiosk.study.events import Stage, Status
 from tests.samples import ENGLISH, INFORMATION, plan, whole
 from tests.study.driver import Driver, driven_to, with_memory
@@ -39,6 +40,18 @@ def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> Non
     driver.wait_until_open()
     assert driver.session.measures.moves == moves
     assert driver.view.bubble in ENGLISH.wordings(f"result-speech-{message}", moves=moves)
+
+
+# Introduction
+
+
+@pytest.mark.parametrize("condition", Condition)
+def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None:
+    driver = driven_to(Stage.INTRODUCTION, whole(condition))
+    helped = condition is not Condition.NO_ASSISTANCE
+    assert do.ShowIntroduction(helped=helped) in driver.steps[-1].commands
+    speech = "introduction-speech" if helped else "introduction-speech-alone"
+    assert driver.view.bubble in ENGLISH.wordings(speech, cards=24, pairs=12)
 
 
 # Debrief and thanks

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -173,6 +174,19 @@ def test_the_condition_of_the_sitting_under_way_is_not_told(make_desk: MakeDesk)
     (under_way,) = records(desk)["sittings"]
     assert under_way["condition"] == "hidden"
     assert under_way["status"] == "under way"
+
+
+@pytest.mark.parametrize("stage", [Stage.CONSENT, Stage.GAME])
+def test_while_somebody_plays_no_condition_is_told_of_anybody(make_desk: MakeDesk, stage: Stage) -> None:
+    desk = make_desk(**LISTED)
+    desk.app.desk.choose(Condition.NOTOM, "test run")
+    desk.go_to(stage)
+    desk.open_panel()
+    desk.wait_until(lambda: bool(records(desk)["deviations"]))
+    assert choices(desk)["condition"] == "automatic"
+    assert records(desk)["cells"] == []
+    assert "ToM" not in json.dumps(records(desk))
+    assert any(noted["words"] == "next condition: hidden" for noted in records(desk)["deviations"])
 
 
 def test_one_line_tells_that_all_is_well_or_what_is_not(desk: Desk) -> None:
