@@ -12,6 +12,9 @@ from PySide6.QtGui import QGuiApplication
 
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.loop import Loop
+from kiosk.ui.rehearsing.day import sit_down
+from kiosk.ui.rehearsing.visitor import Character
+from tests.ui.conftest import MakeBooth
 
 
 @pytest.fixture
@@ -41,3 +44,9 @@ def test_it_runs_again_after_it_was_left_from_within(loop: Loop, clock: VirtualC
         loop.run()
     assert left == [1, 2]
     assert not loop.told_to_end
+
+
+def test_nobody_comes_any_more_once_the_system_asked_for_the_end(make_booth: MakeBooth) -> None:
+    booth = make_booth()
+    booth.app.clock.after(0, partial(signal.raise_signal, signal.SIGTERM))
+    assert list(sit_down(booth.app, 1, [Character()] * 3, booth.data)) == []
