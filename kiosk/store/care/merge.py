@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import shutil
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,10 +15,9 @@ from kiosk.store.database import in_use, open_for_reading, open_for_writing
 from kiosk.store.people.participants import participant_name
 from kiosk.store.recorder import StoreFailed
 from kiosk.store.rows import insert
+from kiosk.store.whole_folder import whole_folder
 
 Row = dict[str, Any]
-
-_UNFINISHED = ".unfinished"
 
 
 def merge(folders: Sequence[Path], out: Path, tell: Progress = lambda _done, _of: None) -> int:
@@ -36,7 +34,7 @@ def merge(folders: Sequence[Path], out: Path, tell: Progress = lambda _done, _of
         _check_at_rest(parts)
         _check_apart(parts)
         try:
-            with _made_whole(out) as unfinished, closing(open_for_writing(unfinished)) as target:
+            with whole_folder(out) as unfinished, closing(open_for_writing(unfinished)) as target:
                 target.execute("BEGIN IMMEDIATE")
                 sittings = _copy(parts, target, tell)
                 target.execute("COMMIT")
@@ -88,20 +86,6 @@ def _check_apart(parts: Sequence[_Part]) -> None:
             first = codes.setdefault(row["code"], part.folder) if "code" in row else part.folder
             if first != part.folder:
                 raise BadInput(f"the code {row['code']} stands in {first} and in {part.folder}; nothing was merged")
-
-
-@contextmanager
-def _made_whole(out: Path) -> Iterator[Path]:
-    """A folder beside the new one, which takes its name when all is in it."""
-    unfinished = out.with_name(out.name + _UNFINISHED)
-    shutil.rmtree(unfinished, ignore_errors=True)
-    try:
-        yield unfinished
-        if out.exists():
-            out.rmdir()
-        unfinished.rename(out)
-    finally:
-        shutil.rmtree(unfinished, ignore_errors=True)
 
 
 def _copy(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-import shutil
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from kiosk import BadInput
+from kiosk.store.whole_folder import whole_folder
 
 UNDATED = datetime(1980, 1, 2, tzinfo=UTC).timestamp()
 """What every file says of when it was changed: nothing. No archive format knows an earlier day than this one's eve."""
@@ -77,22 +77,13 @@ def new_folder(out: Path) -> Iterator[Path]:
 
     Raises BadInput, and leaves everything as it was, if ``out`` holds something or cannot be written.
     """
-    made = out.with_name(f".{out.name}.{os.getpid()}")
     try:
         _check_free(out)
-        made.mkdir(parents=True)
-    except OSError as error:
-        raise BadInput(f"the folder {out} cannot be used: {error.strerror}") from error
-    try:
-        yield made
-        _take_the_dates_away(made)
-        if out.exists():
-            out.rmdir()
-        made.rename(out)
+        with whole_folder(out) as made:
+            yield made
+            _take_the_dates_away(made)
     except OSError as error:
         raise BadInput(f"the data set cannot be written to {out}: {error.strerror}") from error
-    finally:
-        shutil.rmtree(made, ignore_errors=True)
 
 
 def _check_free(out: Path) -> None:
