@@ -20,10 +20,6 @@ APPLICATION_ID = int.from_bytes(b"Rclt")
 
 CACHE_KIB = 256
 
-_MAGIC = b"SQLite format 3\0"
-_USER_VERSION_AT, _APPLICATION_ID_AT, _HEADER = 60, 68, 100
-"""Where the SQLite file format keeps these numbers (sqlite.org/fileformat2.html, 1.3)."""
-
 
 def lock(folder: Path) -> FileLock:
     """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
@@ -150,14 +146,22 @@ def durable(connection: sqlite3.Connection) -> None:
 
 
 def _refuse_foreign_or_newer(path: Path) -> None:
-    """Look at the header's bytes alone: even opening a database can change it, or the files beside it."""
+    """Look at the header alone: even opening a database can change it, or the files beside it."""
     if not path.exists() or path.stat().st_size == 0:
         return
-    with path.open("rb") as file:
-        header = file.read(_HEADER)
-    if not header.startswith(_MAGIC) or _number(header, _APPLICATION_ID_AT) != APPLICATION_ID:
+    # Never read it as a file: whoever closes one loses all locks that this process has on it, also those of SQLite,
+    # and the next program that looks into the database takes away the log under the kiosk's hands.
+    try:
+        with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)) as connection:
+            application = connection.execute("PRAGMA application_id").fetchone()[0]
+            schema = connection.execute("PRAGMA user_version").fetchone()[0]
+    except sqlite3.DatabaseError as error:
+        if error.sqlite_errorcode != sqlite3.SQLITE_NOTADB:
+            raise
+        application, schema = 0, 0
+    if application != APPLICATION_ID:
         raise BadInput(f"{path} is not a Recollect database; it was left as it is")
-    _refuse_newer(_number(header, _USER_VERSION_AT), path)
+    _refuse_newer(schema, path)
     if path.with_name(f"{path.name}-wal").exists():
         # A newer number may still stand in the write-ahead log alone; only a connection that may write would move it.
         with closing(_read_only(path, briefly=True)) as connection:
@@ -169,10 +173,6 @@ def _refuse_newer(schema: int, path: Path) -> None:
         raise BadInput(
             f"{path} was written by a newer Recollect (schema {schema}, this one knows {SCHEMA}); it was left as it is"
         )
-
-
-def _number(header: bytes, at: int) -> int:
-    return int.from_bytes(header[at : at + 4])
 
 
 def _migrate(connection: sqlite3.Connection) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+import subprocess
+import sys
 import zipfile
 from collections.abc import Callable
 from contextlib import closing
@@ -252,3 +254,13 @@ def test_an_empty_file_is_not_a_database_to_read(folder: Path) -> None:
     with pytest.raises(BadInput, match="cannot be read: no such table"):
         open_for_reading(folder)
     assert contents(folder) == {FILE: b""}
+
+
+def test_what_a_kiosk_reads_of_its_database_never_lets_another_program_take_its_log_away(folder: Path) -> None:
+    with closing(open_for_writing(folder)) as kiosk:
+        open_for_reading(folder).close()
+        kiosk.execute("CREATE TABLE more (id INTEGER) STRICT")
+        look = "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]); c.execute('SELECT 1 FROM migration'); c.close()"
+        subprocess.run([sys.executable, "-c", look, folder / FILE], check=True)
+
+        assert folder.joinpath(f"{FILE}-wal").exists()
