@@ -11,13 +11,16 @@ TextField {
     // By mouse or touch: whoever comes by keyboard has one.
     signal pointed()
 
-    // What the keys on the screen do.
+    // What the keys on the screen do. A number grows and shrinks at its end: they have no arrows, and a finger that
+    // fell before a digit could never delete it.
     function type(letters: string) {
-        insert(cursorPosition, letters)
+        insert(digits ? length : cursorPosition, letters)
     }
     function wipe() {
         if (selectedText !== "")
             remove(selectionStart, selectionEnd)
+        else if (digits)
+            remove(length - 1, length)
         else
             remove(cursorPosition - 1, cursorPosition)
     }
