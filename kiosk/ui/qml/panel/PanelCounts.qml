@@ -8,8 +8,8 @@ PanelSection {
 
     required property var words
     required property var records
-    readonly property real first: width * 0.25
-    readonly property real second: width * 0.22
+    readonly property real first: width * 0.22
+    readonly property real second: width * 0.19
     readonly property real other: (width - first - second - 1.6 * Theme.gap) / 4
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
