@@ -110,7 +110,7 @@ class Upkeep:
 
     def begin(self) -> None:
         """See how things are, and go on seeing to them."""
-        self._work(self._care.last_copy, self._found_copy)
+        self._work(self._last_copy, self._found_copy)
         self._beat()
 
     def look(self) -> None:
@@ -153,11 +153,21 @@ class Upkeep:
             self._write(Note.BACKUP_FAILED, {"why": copied.why})
         self.changed()
 
-    def _found_copy(self, file: Path | None) -> None:
-        if file is not None and self.copied is None:
-            at_ms = int(file.stat().st_mtime * MS_PER_SECOND)
-            self.copied = Copied(at_ms, file)
-            self._copied_at -= max(0, self._now_ms() - at_ms)
+    def _last_copy(self) -> Copied | None:
+        file = self._care.last_copy()
+        if file is None:
+            return None
+        try:
+            return Copied(int(file.stat().st_mtime * MS_PER_SECOND), file)
+        except OSError as failure:
+            # A newer copy may just have taken its place.
+            _log.info("the last copy cannot be looked at: %s", failure)
+            return None
+
+    def _found_copy(self, found: Copied | None) -> None:
+        if found is not None and self.copied is None:
+            self.copied = found
+            self._copied_at -= max(0, self._now_ms() - found.at_ms)
             self.changed()
 
     def _look_at_room(self) -> Room | None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
@@ -19,20 +20,39 @@ from kiosk.study.booth.notes import Note
 from kiosk.study.events import Stage
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.panel.upkeep import BEAT_MS, Care, Upkeep
-from kiosk.ui.work import AtOnce
+from kiosk.ui.work import AtOnce, Work
 from kiosk.units import MS_PER_MINUTE
 from tests.ui.panel.conftest import Desk
 
 EVERY = 10
 """Minutes between two copies."""
 
+Result = TypeVar("Result")
+
 PLENTY, LITTLE, NONE = Room(5000), Room(300), Room(10)
+
+
+class Later:
+    """Does at once what it is given, and lands it only when it is told to."""
+
+    def __init__(self) -> None:
+        self._landings: list[Callable[[], None]] = []
+
+    def __call__(self, job: Callable[[], Result], then: Callable[[Result], None]) -> None:
+        """Do ``job`` now."""
+        self._landings.append(partial(then, job()))
+
+    def land(self) -> None:
+        """Land everything that was done."""
+        landings, self._landings = self._landings, []
+        for landing in landings:
+            landing()
 
 
 class Place:
     """A booth that is taken care of; the test says what becomes of copies, and how much room there is."""
 
-    def __init__(self, last: Path | None = None) -> None:
+    def __init__(self, last: Path | None = None, work: Work | None = None) -> None:
         self.clock = VirtualClock()
         self.room: Room | BadInput = PLENTY
         self.failure: Exception | None = None
@@ -46,7 +66,7 @@ class Place:
             EVERY,
             self.clock,
             self.wall_ms,
-            AtOnce(),
+            work or AtOnce(),
             self.write,
             lambda: self.resting,
             self.let_begin,
@@ -119,6 +139,26 @@ def test_an_old_copy_makes_the_next_one_due_at_once(tmp_path: Path) -> None:
     os.utime(last, (long_ago, long_ago))
     place.upkeep.begin()
     assert place.copies == 1
+
+
+def test_a_copy_that_goes_away_while_it_is_looked_for_is_none(tmp_path: Path) -> None:
+    place = Place(tmp_path / "recollect-0.db")
+    place.upkeep.begin()
+    assert place.upkeep.copied is None
+    place.wait(EVERY)
+    assert place.copies == 1
+
+
+def test_a_copy_that_goes_away_once_it_was_looked_at_is_not_looked_at_again(tmp_path: Path) -> None:
+    last = tmp_path / "recollect-0.db"
+    last.touch()
+    work = Later()
+    place = Place(last, work)
+    place.upkeep.begin()
+    last.unlink()
+    work.land()
+    assert place.upkeep.copied is not None
+    assert place.upkeep.copied.file == last
 
 
 def test_no_copy_is_made_during_a_sitting_and_it_is_made_up_for_right_after() -> None:
