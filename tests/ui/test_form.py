@@ -146,6 +146,26 @@ def test_a_number_that_cannot_be_is_not_sent_and_has_to_be_mended(booth: Booth, 
     assert given == [("alone", 9), ("", "continued")]
 
 
+def test_a_number_field_takes_no_more_digits_than_its_highest_number_has(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"])
+    booth.click("number-alone")
+    Hand(booth.app.window).type("123456")
+    assert booth.item("number-alone").property("text") == "12"
+    booth.click("continue")
+    assert given == [("alone", 12), ("", "continued")]
+
+
+@pytest.mark.parametrize("text", ["9" * 5_000, "0" * 5_000, "013"])
+def test_more_digits_than_that_are_no_answer_however_they_came(booth: Booth, given: Given, text: str) -> None:
+    ask(booth, ITEMS["integer"])
+    form = booth.app.screens.form
+    form.draft("alone", text)
+    form.finish("alone")
+    form.proceed()
+    assert given == []
+    assert form.property("missing") == ["alone"]
+
+
 def test_what_is_typed_is_sent_once_and_not_letter_by_letter(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["text"])
     booth.click("text-remark")

@@ -179,9 +179,11 @@ class FormScreen(QObject):
     def _typed(self, name: str) -> Answer | None:
         """What stands in a field, as an answer; None for nothing, and for what is no number where one is asked for."""
         text = "".join(letter for letter in self._drafts.get(name, "") if letter.isprintable()).strip()
-        if not isinstance(self._item(name), Integer):
+        item = self._item(name)
+        if not isinstance(item, Integer):
             return text or None
-        return int(text) if text.isdecimal() else None
+        # No more digits than the field takes: Python reads no number of thousands.
+        return int(text) if text.isdecimal() and len(text) <= len(str(item.highest)) else None
 
     def _is_wrong(self, name: str) -> bool:
         """Whether something stands in a field that cannot be an answer."""
