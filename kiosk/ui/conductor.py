@@ -18,7 +18,7 @@ from kiosk.study.commands import Command
 from kiosk.study.events import Stage, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
-from kiosk.ui.clock import Clock
+from kiosk.ui.clock import Clock, Wait
 from kiosk.ui.desk import Desk
 from kiosk.ui.performer import Performer
 from kiosk.ui.record import Record
@@ -46,6 +46,7 @@ class Conductor:
         self.rested: Callable[[], None] = lambda: None
         """Is told when no sitting is under way any more."""
         self._shut = False
+        self._calm: Wait | None = None
         self._recorder = recorder
         self._clock = clock
         self._desk = desk
@@ -94,7 +95,7 @@ class Conductor:
         record = Record(self._recorder, sitting, partial(self._desk.kept, sitting))
         self._begin(sitting, record, self._clock.now_ms())
         self.tell(happened.StartTapped)
-        self.begun()
+        self._tell_begun()
 
     def resume(self, sitting: Provenance, number: int, past: tuple[WorldEvent, ...]) -> None:
         """Go on with a sitting that was cut off after these events, from the start of the stage it was in.
@@ -110,7 +111,7 @@ class Conductor:
         record = Record.resumed(self._recorder, sitting, number)
         self._begin(sitting, record, self._clock.now_ms() - past[-1].at_ms, session)
         self.tell(happened.SittingResumed, body=resumed.body)
-        self.begun()
+        self._tell_begun()
 
     def tell(self, kind: type[WorldEvent], **what: object) -> None:
         """Something happened just now; without a sitting it does not matter."""
@@ -144,7 +145,12 @@ class Conductor:
     def pause(self) -> None:
         """Something failed that the visitor can do nothing about: drop the sitting behind a calm screen, then go on."""
         self._rest("pause")
-        self._clock.after(PAUSE_MS, self.go_on)
+        self._stay_calm()
+
+    def _stay_calm(self) -> None:
+        if self._calm is not None:
+            self._calm.cancel()
+        self._calm = self._clock.after(PAUSE_MS, self.go_on)
 
     def go_on(self) -> None:
         """Leave the calm screen; nothing happens while a sitting is under way."""
@@ -156,6 +162,11 @@ class Conductor:
         self._shut = shut
         if self._session is None and shut is not self.gives_way:
             self._rest("attract")
+
+    def _tell_begun(self) -> None:
+        # There is no sitting any more if the disk did not take its first event.
+        if self._session is not None:
+            self.begun()
 
     def _begin(self, sitting: Provenance, record: Record, begun_at: int, session: Session | None = None) -> None:
         self._session = session or Session(sitting.plan, sitting.seed)

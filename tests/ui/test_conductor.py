@@ -9,9 +9,10 @@ from PySide6.QtCore import Qt
 
 from kiosk.game import Position
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder, StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.events import Event, Status
+from kiosk.ui.conductor import PAUSE_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 
@@ -21,6 +22,11 @@ QUICK = short(idle={"game": 3_000, "still_there": 1_000})
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature
     """Stand in for a recorder whose disk is full."""
     raise StoreFailed("what happened could not be written: the disk is full")
+
+
+def refuse_to_begin(self: Recorder, sitting: Provenance, events: Sequence[Event]) -> None:  # noqa: ARG001 - as above
+    """The same where a sitting is to be stored."""
+    raise StoreFailed("the sitting could not be stored: the disk is full")
 
 
 def test_a_tap_that_cannot_be_recorded_is_not_shown(
@@ -133,3 +139,27 @@ def test_nothing_of_one_visitor_is_left_for_the_next(booth: Booth) -> None:
     assert board.marked == (None, None)
     assert str(board.property("progress")) == "0 of 12 pairs"
     assert str(board.property("moves")) == "0 moves"
+
+
+def test_a_sitting_whose_first_event_cannot_be_recorded_has_not_begun(
+    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    begun: list[str] = []
+    booth.app.conductor.begun = lambda: begun.append(booth.screen)
+    with monkeypatch.context() as patch:
+        patch.setattr(Recorder, "begin", refuse_to_begin)
+        booth.click("start-en")
+    assert booth.screen == "pause"
+    assert begun == []
+    caplog.clear()
+    booth.wait_until(lambda: booth.screen == "attract")
+    booth.click("start-en")
+    assert begun == ["introduction"]
+
+
+def test_a_second_failure_has_a_calm_screen_as_long_as_the_first(booth: Booth) -> None:
+    clock, conductor = booth.app.clock, booth.app.conductor
+    conductor.pause()
+    clock.after(PAUSE_MS - 1, conductor.pause)
+    booth.wait_until(lambda: booth.screen == "attract")
+    assert clock.now_ms() == PAUSE_MS - 1 + PAUSE_MS
