@@ -97,10 +97,17 @@ class Conductor:
         self.tell(happened.StartTapped)
         self._tell_begun()
 
-    def resume(self, sitting: Provenance, number: int, past: tuple[WorldEvent, ...]) -> None:
+    def resume(
+        self,
+        sitting: Provenance,
+        number: int,
+        past: tuple[WorldEvent, ...],
+        noted: Callable[[], bool] = lambda: True,
+    ) -> None:
         """Go on with a sitting that was cut off after these events, from the start of the stage it was in.
 
-        Raises UnexpectedEvent, and leaves everything as it is, if that stage cannot begin anew.
+        ``noted`` writes that down once it is known to be possible; if it says no, everything stays as it is. So it does
+        where this raises: UnexpectedEvent if that stage cannot begin anew, BadInput or StoreFailed from the store.
         """
         session = Session(sitting.plan, sitting.seed)
         for event in past:
@@ -109,6 +116,8 @@ class Conductor:
         resumed = happened.SittingResumed(at_ms=past[-1].at_ms, body=body or happened.BodyName.AVATAR)
         session.check(resumed)
         record = Record.resumed(self._recorder, sitting, number)
+        if not noted():
+            return
         self._begin(sitting, record, self._clock.now_ms() - past[-1].at_ms, session)
         self.tell(happened.SittingResumed, body=resumed.body)
         self._tell_begun()

@@ -256,10 +256,9 @@ class Deeds:
         if rule(Deed.RESUME, self.stage).effect is Effect.REFUSED:
             self.tell("desk-not-now")
             return
-        if not self._written(Note.SITTING_RESUMED, {"sitting": found.number, "reason": reason}):
-            return
+        noted = partial(self._written, Note.SITTING_RESUMED, {"sitting": found.number, "reason": reason})
         try:
-            self._booth.conductor.resume(found.sitting, found.number, found.past)
+            self._booth.conductor.resume(found.sitting, found.number, found.past, noted)
         except (BadInput, UnexpectedEvent, StoreFailed) as failure:
             self.tell("desk-cannot-resume", why=str(failure))
         else:

@@ -9,7 +9,9 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickItem
 
+from kiosk import BadInput
 from kiosk.store.care.disk import Room
+from kiosk.store.reading import archive
 from kiosk.store.recorder import Recorder, StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.booth.deeds import Deed
@@ -215,6 +217,58 @@ def test_a_sitting_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_des
     again.chord(Deed.PANEL)
     assert not again.app.screens.kiosk.property("paused")
     assert again.screen == "form"
+
+
+def cut_off(make_desk: MakeDesk) -> Desk:
+    """A booth whose panel offers to go on with a sitting."""
+    desk = make_desk()
+    desk.go_to(Stage.QUESTIONS)
+    desk.close()
+    again = make_desk(data=desk.data)
+    again.open_panel()
+    again.wait_until(lambda: bool(records(again)["resumable"]))
+    return again
+
+
+def ask_to_go_on(desk: Desk) -> None:
+    """Choose that sitting, and give a reason."""
+    desk.click("resume-1")
+    desk.type("1")
+    desk.wait_until(lambda: bool(desk.noted))
+
+
+def refuse_to_resume(*_: object) -> None:
+    """Stand in for a store that knows why a sitting cannot go on."""
+    raise BadInput("its participant has come back since")
+
+
+def test_a_sitting_that_cannot_go_on_after_all_is_no_deviation(
+    make_desk: MakeDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk = cut_off(make_desk)
+    monkeypatch.setattr(Recorder, "resume", refuse_to_resume)
+    ask_to_go_on(desk)
+    assert "its participant has come back since" in desk.noted
+    assert desk.stage is Stage.ATTRACT
+    assert "SittingResumed" not in dict(desk.notes)
+
+
+def test_a_sitting_does_not_go_on_where_that_cannot_be_noted_and_can_once_it_can(
+    make_desk: MakeDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk = cut_off(make_desk)
+    with monkeypatch.context() as patch:
+        patch.setattr(Recorder, "note", refuse_to_write)
+        ask_to_go_on(desk)
+        assert desk.noted == "It could not be written down, so nothing was changed"
+        assert desk.stage is Stage.ATTRACT
+    with archive(desk.data) as stored:
+        assert not any(isinstance(event, happened.SittingResumed) for event in stored.events(1))
+    desk.wait_for_note_to_go()
+    desk.click("resume-1")
+    desk.type("1")
+    desk.wait_until(lambda: desk.stage is Stage.QUESTIONS)
+    assert dict(desk.notes)["SittingResumed"] == {"sitting": 1, "reason": "technical problem"}
 
 
 def test_a_sitting_that_was_cut_off_in_the_game_cannot_go_on(make_desk: MakeDesk) -> None:
