@@ -61,6 +61,7 @@ def _go_on_in_venv(arguments: Sequence[str]) -> int:
 
 def folder() -> str:
     """Build the folder ``dist/recollect``, and say how large it is."""
+    import notices  # noqa: PLC0415 - not wanted elsewhere
     import trim  # noqa: PLC0415 - needs PyInstaller
 
     WORK.mkdir(parents=True, exist_ok=True)
@@ -85,6 +86,11 @@ def folder() -> str:
     built = DIST / NAME
     before = _megabytes(built)
     trim.trim(built, ROOT)
+    try:
+        shipped = notices.parts(notices.sources(WORK / NAME / "Analysis-00.toc", built / "_internal"))
+    except notices.NoLicence as failure:
+        raise BuildFailed(str(failure)) from failure
+    notices.write(shipped, built / notices.FOLDER)
     return f"{built.relative_to(ROOT)}: {_megabytes(built)} MB, {before} MB before it was trimmed"
 
 

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import notices
 from bootstrap import QT, VOICE, WINDOW
 
 from kiosk import __version__
@@ -25,6 +26,7 @@ PLACES = {
     ROOT / "assets" / "CREDITS.md": "usr/share/doc/recollect/CREDITS.md",
 }
 PROGRAM = "usr/lib/recollect"
+DOCUMENTS = "usr/share/doc/recollect"
 
 CONTROL = """\
 Package: recollect
@@ -48,6 +50,8 @@ def package(built: Path, work: Path, place: Path) -> Path:
     tree = work / "deb"
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(built, tree / PROGRAM, symlinks=True)
+    (tree / DOCUMENTS).mkdir(parents=True)
+    (tree / PROGRAM / notices.FOLDER).rename(tree / DOCUMENTS / notices.FOLDER)
     for source, target in PLACES.items():
         _put(source.read_bytes(), tree / target)
     _put(gzip.compress((LINUX / "recollect.1").read_bytes(), mtime=0), tree / "usr/share/man/man1/recollect.1.gz")

@@ -125,6 +125,18 @@ def test_a_package_holds_what_a_system_needs_to_start_it(unpacked: Path) -> None
     assert os.access(unpacked / "usr/bin/recollect-cage", os.X_OK)
 
 
+def test_a_build_and_its_package_hold_the_notices_of_what_they_ship(folder: Path, unpacked: Path) -> None:
+    index = (folder / "third-party" / "NOTICES.md").read_text(encoding="utf-8")
+    for shipped in (folder / "_internal").glob("*.dist-info"):
+        name, version = shipped.stem.split("-")
+        assert f"| {name} | {version} | " in index
+    assert {"Python", "PySide6_Essentials", "python-xlib", "pyinstaller"} <= set(index.split())
+    documents = unpacked / "usr/share/doc/recollect"
+    assert (documents / "third-party" / "NOTICES.md").read_text(encoding="utf-8") == index
+    assert (documents / "third-party" / "numpy" / "LICENSE.txt").is_file()
+    assert not (unpacked / "usr/lib/recollect/third-party").exists()
+
+
 def test_what_the_screens_do_not_use_is_not_in_a_build(folder: Path) -> None:
     qt = folder / "_internal" / "PySide6" / "Qt"
     modules = {module.name for module in (qt / "qml" / "QtQuick").iterdir() if module.is_dir()}
