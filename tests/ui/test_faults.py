@@ -22,7 +22,8 @@ from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
-QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 300)
+QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 2_000)
+"""Short, but longer than the collector holds up every thread of a process that has run thousands of tests."""
 
 
 @pytest.fixture
