@@ -135,6 +135,9 @@ class Idle(Declared):
     debrief: Annotated[Milliseconds, Field(description="While the study is explained.")] = 90_000
     thanks: Annotated[Milliseconds, Field(description="While thanks are shown.")] = 45_000
     still_there: Annotated[Milliseconds, Field(description="From that question to the end of the sitting.")] = 20_000
+    pause: Annotated[
+        Milliseconds, Field(description="The longest that the experimenter's pause lasts; then the sitting is over.")
+    ] = 900_000
 
     def of(self, stage: str) -> int:
         """The time of the stage of this name, in ms."""

@@ -25,7 +25,8 @@ HIDDEN = ("pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.cl
 """What is imported by a name that is only known at run time."""
 EXCLUDED = (
     *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),
-    *("tkinter", "IPython", "pytest", "_pytest", "hypothesis", "setuptools", "pkg_resources", "mypy"),
+    # readline is under the GPL, and nobody types into a kiosk's terminal.
+    *("readline", "tkinter", "IPython", "pytest", "_pytest", "hypothesis", "setuptools", "pkg_resources", "mypy"),
 )
 
 

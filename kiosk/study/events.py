@@ -51,6 +51,7 @@ class Timer(Enum):
     FINISH = "finish"
     PRACTICE = "practice"
     THANKS = "thanks"
+    PAUSE = "pause"
     IDLE = "idle"
     STILL_THERE = "still_there"
 

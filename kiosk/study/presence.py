@@ -34,23 +34,26 @@ class Presence:
             case happened.TimerEnded(timer=Timer.IDLE):
                 self._asked = True
                 script.do(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._idle.still_there))
-            case happened.TimerEnded(timer=Timer.STILL_THERE):
+            case happened.TimerEnded(timer=Timer.STILL_THERE | Timer.PAUSE):
                 script.note(happened.VisitorLeft(at_ms=script.at_ms))
             case happened.PauseAsked():
                 self._paused = True
                 self.stop_asking(script)
                 script.do(do.StopTimer(Timer.IDLE), do.ShowPause())
+                self.wait(stage, script)
             case happened.PauseEnded():
                 self._paused = False
-                script.do(do.HidePause())
+                script.do(do.HidePause(), do.StopTimer(Timer.PAUSE))
                 self.wait(stage, script)
             case _ if event.by_visitor and stage is not Stage.ATTRACT:
                 self.stop_asking(script)
                 self.wait(stage, script)
 
     def wait(self, stage: Stage, script: Script) -> None:
-        """Start the idle time of a stage."""
-        if not self._paused:
+        """Start the idle time of a stage; in a pause its own, so that nobody who only begins one parks a booth."""
+        if self._paused:
+            script.do(do.StartTimer(Timer.PAUSE, self._idle.pause))
+        else:
             script.do(do.StartTimer(Timer.IDLE, self._idle.of(stage.value)))
 
     def go_on(self, script: Script) -> None:

@@ -33,6 +33,8 @@ MAX_FAILURES = 3
 
 QUIT_MS = 500
 
+NOT_HEARD = Health(well=False, words="sentences are only shown: the sound cannot be played")
+
 _log = logging.getLogger(__name__)
 
 
@@ -129,6 +131,8 @@ class EngineVoice(Voice):
         self._language = language
         self._health = Health(well=True, words="the voice is starting")
         self._ready = False
+        self._name: object = None
+        self._audible = True
         self._saying: int | None = None
         # Every sitting counts its sentences from 1; what comes late of the last one must not be taken for this one's.
         self._requests = count(1)
@@ -237,7 +241,8 @@ class EngineVoice(Voice):
     def _heard(self, kind: str, event: dict[str, Any]) -> None:
         if kind == "ready":
             self._ready = True
-            self._health = _found(self._language, event.get("voice"), plays=event.get("player") is True)
+            self._name = event.get("voice")
+            self._health = _found(self._language, self._name, plays=event.get("player") is True)
             if not self._health.well:
                 _log.warning("%s", self._health.words)
         if kind == "unavailable":
@@ -253,9 +258,19 @@ class EngineVoice(Voice):
                 self.started.emit(self._saying, event["loudness"])
             case "finished":
                 self._failures = 0
+                self._notice_sound(audible=event.get("audible") is not False)
                 self._done()
             case "failed":
                 self._give_up(str(event.get("why")))
+
+    def _notice_sound(self, *, audible: bool) -> None:
+        """Whether the player could play shows only when it does: there may be a program, and no sound card."""
+        if audible == self._audible:
+            return
+        self._audible = audible
+        self._health = _found(self._language, self._name, plays=True) if audible else NOT_HEARD
+        if not audible:
+            _log.warning("%s", NOT_HEARD.words)
 
     def _done(self) -> None:
         number, self._saying = self._saying, None
