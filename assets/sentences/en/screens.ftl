@@ -116,7 +116,7 @@ keyboard-done = Done
 ## Debrief
 
 debrief-code = Your code
-debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }.
+debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
 debrief-subject = Please delete my data: { $code }
 debrief-continue = Continue

@@ -117,7 +117,7 @@ keyboard-done = Hecho
 ## Debrief
 
 debrief-code = Tu código
-debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }.
+debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
 debrief-subject = Por favor, borren mis datos: { $code }
 debrief-continue = Continuar

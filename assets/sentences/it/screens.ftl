@@ -121,7 +121,7 @@ keyboard-done = Fatto
 ## Debrief
 
 debrief-code = Il tuo codice
-debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }.
+debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
 debrief-subject = Per favore, cancellate i miei dati: { $code }
 debrief-continue = Continua

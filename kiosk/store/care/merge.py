@@ -82,7 +82,10 @@ def _check_apart(parts: Sequence[_Part]) -> None:
             first = people.setdefault(who, part.folder)
             if first != part.folder:
                 name = participant_name(row["site"], row["number"])
-                raise BadInput(f"participant {name} stands in {first} and in {part.folder}; nothing was merged")
+                raise BadInput(
+                    f"participant {name} stands in {first} and in {part.folder}; nothing was merged "
+                    "(kiosks whose data will be merged need a --site each)"
+                )
             first = codes.setdefault(row["code"], part.folder) if "code" in row else part.folder
             if first != part.folder:
                 raise BadInput(f"the code {row['code']} stands in {first} and in {part.folder}; nothing was merged")

@@ -87,4 +87,8 @@ def _why_none(exported: Exported, stored: Source) -> str:
         return "nobody agreed to publishing"
     if exported.under_way:
         return "the only ones are still under way"
-    return "it is empty" if stored.rehearsals else "nobody has sat there; rehearsals are left out unless asked for"
+    return (
+        "it is empty"
+        if stored.rehearsals
+        else "nobody has sat there; rehearsals are left out without --with-rehearsals"
+    )
