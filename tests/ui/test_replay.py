@@ -18,8 +18,10 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import events as happened
 from kiosk.study.after.replay import Step, first_difference, replayed
 from kiosk.study.commands import TurnUp
+from kiosk.study.events import Stage
 from kiosk.ui.rehearsing.hand import lay_out
 from kiosk.ui.replaying.replay import Replay
+from kiosk.ui.screens.avatar import PATIENCE_MS
 from kiosk.ui.window import Display, Mode, Pace
 from tests.samples import whole
 from tests.study.driver import Driver, with_memory
@@ -102,6 +104,13 @@ def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[
     assert seen(replay) != before
     replay.player.go_to(flip)
     assert seen(replay) == before
+
+
+def test_the_avatar_does_not_search_for_words_that_were_found_then(replay: Replay, qtbot: QtBot) -> None:
+    replay.player.go_to(1 + next(i for i, step in enumerate(replay.player.steps) if step.stage is Stage.PRACTICE))
+    assert replay.screens.avatar.property("bubble")
+    qtbot.wait(2 * PATIENCE_MS)
+    assert replay.screens.avatar.property("mood") == "idle"
 
 
 def test_it_plays_by_itself_to_the_end_and_stays_there(replay: Replay, qtbot: QtBot) -> None:
