@@ -103,6 +103,7 @@ def test_tap_to_first_changed_frame(benchmark: Any, tmp_path: Path) -> None:
     with headless(Settings(), tmp_path) as app:
         app.screens.board.deal(4, 6, 12, "animals")
         app.screens.kiosk.show("game")
+        app.screens.kiosk.settle()
         lay_out(app.window)
         card = find(app.window.contentItem(), "card-9")
         assert card is not None
