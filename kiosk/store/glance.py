@@ -111,7 +111,8 @@ def _seen(connection: sqlite3.Connection, *, simulated: bool) -> Iterator[Seen]:
     for number, started_at, condition, site, place, person, stage, ending, lost, finished in rows:
         status = Status(ending) if ending else None
         reached = Stage(stage) if stage else None
-        free = place is None or finished or place not in Lists(connection, site, simulated=simulated).consumed()
+        lists = Lists(connection, site, simulated=simulated)
+        cut_short = status is Status.INTERRUPTED and bool(person) and reached not in (None, Stage.GAME)
         yield Seen(
             number,
             participant_name(site, person) if person else "",
@@ -120,7 +121,8 @@ def _seen(connection: sqlite3.Connection, *, simulated: bool) -> Iterator[Seen]:
             reached,
             status,
             bool(lost),
-            resumable=bool(status is Status.INTERRUPTED and person and reached not in (None, Stage.GAME) and free),
+            # Whether the place is free is asked last: for the few that were cut short, not for all of every look.
+            resumable=cut_short and bool(place is None or finished or place not in lists.consumed()),
         )
 
 
