@@ -77,6 +77,9 @@ class Asking:
     def type(self, text: str) -> None:
         """A digit, or a letter, was typed."""
         match self._card.asks_for:
+            case Step.PIN if self._lock.checks:
+                # What is typed before the answer is no attempt, not even a part of the next one.
+                self._wait_for_answer()
             case Step.PIN if text.isdecimal() and text.isascii() and len(self._typed) < MOST:
                 self._show_typed(self._typed + text)
             case Step.REASON if text in _digits():
@@ -93,7 +96,7 @@ class Asking:
     def enter(self) -> None:
         """What was typed is what is meant."""
         step, typed = self._card.asks_for, self._typed.strip()
-        if step is Step.PIN and typed:
+        if step is Step.PIN and typed and not self._lock.checks:
             question = self._question
             self._show_typed("")
             self._lock.check(typed, partial(self._checked, question))
@@ -101,11 +104,10 @@ class Asking:
             self._done(Reason.OTHER.in_own_words(typed))
 
     def _checked(self, question: int, *, right: bool) -> None:
-        if question != self._question:
-            return
-        if right:
+        if right and question == self._question:
             self._go_on()
-        else:
+        elif self._card.asks_for is Step.PIN:
+            # Also where another question has come meanwhile: it has to wait as well.
             self._ask_pin()
 
     def _ask_pin(self) -> None:

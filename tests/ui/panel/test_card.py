@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from typing import Any
 
+import pytest
 from PySide6.QtCore import Qt
 
 from kiosk.study import events as happened
@@ -65,6 +68,87 @@ def test_while_nobody_may_try_even_the_right_pin_does_nothing(desk: Desk) -> Non
     assert not desk.panel.is_open
     assert desk.card.asks_for is Step.WAIT
     guess(desk, PIN)
+    assert desk.panel.is_open
+
+
+class Slow:
+    """Checks that end when the test says so."""
+
+    def __init__(self, desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+        self._jobs: list[Callable[[], None]] = []
+        monkeypatch.setattr(desk.app.experimenter._lock, "_work", self._keep)
+
+    def _keep(self, job: Callable[[], Any], then: Callable[[Any], None]) -> None:
+        self._jobs.append(lambda: then(job()))
+
+    def answer(self) -> None:
+        """Let the check end that is under way; there is never more than one."""
+        [job] = self._jobs
+        self._jobs.clear()
+        job()
+
+
+@pytest.fixture
+def slow(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Slow:
+    """The checks of the desk's lock."""
+    return Slow(desk, monkeypatch)
+
+
+def test_a_burst_of_pins_is_one_attempt_and_the_right_one_in_it_does_not_open(desk: Desk, slow: Slow) -> None:
+    desk.chord(Deed.PANEL)
+    for pin in ("1111", *[PIN] * 39):
+        desk.type(pin)
+        desk.enter()
+    slow.answer()
+    assert desk.card.asks_for is Step.WAIT
+    assert not desk.panel.is_open
+    assert len(refusals(desk)) == 1
+    desk.type(PIN)
+    desk.enter()
+    assert not desk.panel.is_open
+    desk.wait_until(lambda: desk.card.asks_for is Step.PIN)
+    desk.type(PIN)
+    desk.enter()
+    slow.answer()
+    assert desk.panel.is_open
+
+
+def test_what_is_typed_while_a_pin_is_checked_is_no_part_of_the_next_one(desk: Desk, slow: Slow) -> None:
+    desk.chord(Deed.PANEL)
+    desk.type("1111")
+    desk.enter()
+    desk.type(PIN)
+    assert desk.card.property("text") == ""
+    slow.answer()
+    desk.wait_until(lambda: desk.card.asks_for is Step.PIN)
+    assert desk.card.property("text") == ""
+
+
+def test_to_ask_anew_while_a_pin_is_checked_is_no_further_attempt(desk: Desk, slow: Slow) -> None:
+    desk.chord(Deed.PANEL)
+    desk.type("1111")
+    desk.enter()
+    desk.press(Qt.Key.Key_Escape)
+    desk.chord(Deed.LEAVE)
+    desk.type(PIN)
+    desk.enter()
+    slow.answer()
+    assert desk.card.asks_for is Step.WAIT
+    assert len(refusals(desk)) == 1
+
+
+def test_a_right_pin_for_a_question_that_was_put_away_opens_nothing(desk: Desk, slow: Slow) -> None:
+    desk.chord(Deed.PANEL)
+    desk.type(PIN)
+    desk.enter()
+    desk.press(Qt.Key.Key_Escape)
+    desk.chord(Deed.PANEL)
+    slow.answer()
+    assert not desk.panel.is_open
+    assert desk.card.asks_for is Step.PIN
+    desk.type(PIN)
+    desk.enter()
+    slow.answer()
     assert desk.panel.is_open
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
+
+import pytest
 
 from kiosk.study.booth.notes import Note
 from kiosk.study.booth.pin import SALT_BYTES, Wrong, kept
@@ -57,3 +59,58 @@ def test_the_row_goes_on_from_the_records() -> None:
     door.now_ms += 7000
     door.check("1111")
     assert door.lock.left_ms == 16_000
+
+
+class Slow:
+    """Work that is done when the test says so."""
+
+    def __init__(self) -> None:
+        self.jobs: list[Callable[[], None]] = []
+
+    def __call__(self, job: Callable[[], Any], then: Callable[[Any], None]) -> None:
+        """Keep it for later."""
+        self.jobs.append(lambda: then(job()))
+
+    def do(self) -> None:
+        """Do what was kept."""
+        jobs, self.jobs = self.jobs, []
+        for job in jobs:
+            job()
+
+
+def test_of_a_burst_one_pin_is_checked_and_the_right_one_among_them_opens_nothing() -> None:
+    slow = Slow()
+    door = Door()
+    door.lock = Lock(LINE, Wrong(), lambda: door.now_ms, slow, door.write)
+    for pin in ("1111", *["2580"] * 39):
+        door.lock.check(pin, door.tell)
+    assert len(slow.jobs) == 1
+    slow.do()
+    assert door.heard == [*[False] * 39, Note.PIN_REFUSED, False]
+    assert door.check("2580") == [False]
+    assert slow.jobs == []
+    door.now_ms += door.lock.left_ms
+    door.check("2580")
+    slow.do()
+    assert door.heard == [Note.PIN_ACCEPTED, True]
+
+
+def test_the_wait_is_whole_however_long_the_check_took() -> None:
+    slow = Slow()
+    door = Door(Wrong(4, last_ms=0))
+    door.lock = Lock(LINE, Wrong(4), lambda: door.now_ms, slow, door.write)
+    door.check("1111")
+    door.now_ms += 10_000
+    slow.do()
+    assert door.lock.left_ms == 16_000
+
+
+def test_a_check_that_fails_counts_as_a_wrong_pin_and_locks_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    door = Door()
+    with monkeypatch.context() as patch:
+        patch.setattr("kiosk.ui.panel.lock.matches", lambda *_: 1 / 0)
+        with pytest.raises(ZeroDivisionError):
+            door.lock.check("2580", door.tell)
+    assert door.heard == [Note.PIN_REFUSED, False]
+    door.now_ms += door.lock.left_ms
+    assert door.check("2580") == [Note.PIN_ACCEPTED, True]
