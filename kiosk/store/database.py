@@ -20,6 +20,11 @@ APPLICATION_ID = int.from_bytes(b"Rclt")
 
 CACHE_KIB = 256
 
+BUSY = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
+"""What SQLite answers where another connection holds the database."""
+PRIMARY_CODE = 0xFF
+"""The bits of one of SQLite's answers that tell its kind; the others tell more of it."""
+
 
 def lock(folder: Path) -> FileLock:
     """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.

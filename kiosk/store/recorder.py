@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from kiosk import BadInput, __version__
-from kiosk.store.database import lock, open_for_writing
+from kiosk.store.database import BUSY, PRIMARY_CODE, lock, open_for_writing
 from kiosk.store.people.lists import Lists, check_not_given_out_again
 from kiosk.store.people.participants import Participant, checked_site, enrol, participant_of
 from kiosk.store.rows import insert, insert_events, interrupted_at, json_text, mark_interrupted, now_ms
@@ -27,6 +27,10 @@ from kiosk.study.plan import Plan
 
 class StoreFailed(Exception):
     """The disk did not take what happened; nothing of it was written. The message is for the experimenter."""
+
+
+class StoreBusy(StoreFailed):
+    """Another program holds the database just now; nothing was written, and the same can be tried again."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +47,19 @@ class Provenance:
     allotted: Allotted | None = None
 
 
+OPENING_WAIT_MS = 5_000
+"""How long opening waits for another program that holds the database."""
+
+
 class Recorder:
     """Writes one data folder; a second one on the same folder is refused in words."""
 
-    def __init__(self, folder: Path, site: str = "") -> None:
+    def __init__(self, folder: Path, site: str = "", *, wait_ms: int = 0) -> None:
         """Open the folder's database, and mark the sittings that a crash cut off; raises BadInput if it cannot.
 
-        ``site`` stands before the participants' numbers and codes, where data of several places will be merged.
+        ``site`` stands before the participants' numbers and codes, where data of several places will be merged. Once
+        it is open, every method that writes waits ``wait_ms`` for another program that holds the database, and then
+        raises StoreBusy. With 0 the caller never waits and can try again.
         """
         self.folder = folder
         self._site = checked_site(site)
@@ -63,8 +73,9 @@ class Recorder:
         except BaseException:
             self._lock.release()
             raise
+        self._wait_ms = wait_ms
         try:
-            with self._transaction():
+            with self.waiting(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
         except StoreFailed as error:
             self._close()
@@ -78,6 +89,15 @@ class Recorder:
         """Close the database and let others write."""
         self._close()
 
+    @contextmanager
+    def waiting(self, wait_ms: int) -> Iterator[None]:
+        """Wait so long for another program that holds the database, in place of the usual time."""
+        self._set_wait(max(wait_ms, self._wait_ms))
+        try:
+            yield
+        finally:
+            self._set_wait(self._wait_ms)
+
     # The list of places
 
     def fix_list(
@@ -86,17 +106,17 @@ class Recorder:
         """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
 
         Without a seed one is drawn and stored. Raises BadInput if the list that is fixed is another one, or if there
-        is no such list; StoreFailed if the disk does not take it.
+        is no such list; StoreFailed if the disk does not take it. It waits for another program, as opening does.
         """
-        with self._transaction():
+        with self.waiting(OPENING_WAIT_MS), self._transaction():
             return self._lists(simulated=simulated).fix(quotas, block, seed)
 
     def next_place(self, *, simulated: bool) -> Place | None:
         """The first place of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
 
-        It is computed from what is stored and nothing else.
+        It is computed from what is stored and nothing else. It only reads, so a program that writes is no hindrance.
         """
-        with self._transaction():
+        with self._transaction("DEFERRED"):
             return self._lists(simulated=simulated).next_place()
 
     # Sittings
@@ -145,10 +165,14 @@ class Recorder:
         with self._transaction():
             insert(self._connection, "visit", {"why": why.value, "simulated": int(simulated)})
 
-    def note(self, kind: str, body: Mapping[str, Any]) -> None:
-        """Write down what an experimenter did outside a sitting; ``body`` holds JSON values."""
+    def note(self, kind: str, body: Mapping[str, Any], wall_ms: int | None = None) -> None:
+        """Write down what an experimenter did outside a sitting; ``body`` holds JSON values.
+
+        ``wall_ms`` is when that was, in ms since 1970; by default now.
+        """
+        row = {"wall_ms": now_ms() if wall_ms is None else wall_ms, "type": kind, "body": json_text(body)}
         with self._transaction():
-            insert(self._connection, "booth_event", {"wall_ms": now_ms(), "type": kind, "body": json_text(body)})
+            insert(self._connection, "booth_event", row)
 
     def _lists(self, *, simulated: bool) -> Lists:
         return Lists(self._connection, self._site, simulated=simulated)
@@ -157,13 +181,18 @@ class Recorder:
         self._connection.close()
         self._lock.release()
 
+    def _set_wait(self, wait_ms: int) -> None:
+        self._connection.execute(f"PRAGMA busy_timeout = {wait_ms}")
+
     @contextmanager
-    def _transaction(self) -> Iterator[None]:
+    def _transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
         try:
-            self._connection.execute("BEGIN IMMEDIATE")
+            self._connection.execute(f"BEGIN {kind}")
             yield
             self._connection.execute("COMMIT")
         except sqlite3.Error as error:
+            if getattr(error, "sqlite_errorcode", 0) & PRIMARY_CODE in BUSY:
+                raise StoreBusy(f"another program holds the database: {error}") from error
             raise StoreFailed(f"what happened could not be written: {error}") from error
         finally:
             # Whatever went wrong, nothing of it stays; a full disk has already ended the transaction by itself.

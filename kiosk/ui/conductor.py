@@ -1,6 +1,7 @@
 """Between the study and the world: events in, commands out; first recorded, then shown, then spoken.
 
-It decides nothing. A failure of the disk, or a fault of ours, puts a calm screen in front of the visitor.
+It decides nothing. A failure of the disk, or a fault of ours, puts a calm screen in front of the visitor. While another
+program holds the database, what happened waits and is tried again by the clock, and what happens next waits behind it.
 """
 
 from __future__ import annotations
@@ -8,11 +9,12 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from kiosk.robot.bodies import Bodies
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder, StoreBusy, StoreFailed
+from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command
 from kiosk.study.events import Stage, WorldEvent
@@ -24,14 +26,27 @@ from kiosk.ui.performer import Performer
 from kiosk.ui.record import Record
 from kiosk.ui.screens.every import Screens
 from kiosk.ui.sounds import Effect, effect
+from kiosk.ui.waiting import BusyWait
 
 PAUSE_MS = 8_000
 """How long the calm screen stays before the kiosk tries to go on."""
+
+CLOSING_WAIT_MS = 2_000
+"""How long closing waits for another program that holds the database; the supervisor waits five seconds."""
 
 _log = logging.getLogger(__name__)
 
 Witness = Callable[[WorldEvent, tuple[Command, ...], Stage], None]
 """Is told of every event once its commands were carried out, and of the stage that the sitting is in."""
+
+
+@dataclass(frozen=True)
+class _Queued:
+    """What happened, and waits for its turn."""
+
+    event: WorldEvent
+    by_visitor: bool
+    """Whether it answers what was on the screen then."""
 
 
 class Conductor:
@@ -51,12 +66,16 @@ class Conductor:
         self._clock = clock
         self._desk = desk
         self._performer = Performer(screens, clock, lambda timer: self.tell(happened.TimerEnded, timer=timer))
-        self._queue: deque[WorldEvent] = deque()
-        self._working = False
+        self._queue: deque[_Queued] = deque()
+        self._unwritten: tuple[WorldEvent, tuple[Command, ...]] | None = None
+        """What the session has concluded, and the database has not taken yet."""
+        self._busy = BusyWait(clock, lambda waits: screens.kiosk.wait(waits=waits))
+        self._working = self._screen_changed = False
         self._begun_at = 0
         self._session: Session | None = None
         self._record: Record | None = None
-        screens.listen(self.start, self.tell)
+        screens.listen(self.start, self._tell_of_visitor)
+        screens.kiosk.unsettled.connect(self._note_change)
         self._performer.reset("attract")
 
     @property
@@ -85,16 +104,22 @@ class Conductor:
 
     def start(self, language: str) -> None:
         """A visitor begins, in this language; nothing happens while somebody else is at it."""
-        if self._session is not None or self._performer.screens.kiosk.shown != "attract":
-            return
+        if self._session is None and not self._busy.under_way and self._performer.screens.kiosk.shown == "attract":
+            self._start(language, self._clock.now_ms())
+
+    def _start(self, language: str, tapped_at: int) -> None:
         try:
             sitting = self._with_body(self._desk.next_sitting(language))
+        except StoreBusy as busy:
+            self._try_again(partial(self._start, language, tapped_at), busy)
+            return
         except StoreFailed as failure:
             self._give_way(failure)
             return
+        self._busy.end()
         record = Record(self._recorder, sitting, partial(self._desk.kept, sitting))
-        self._begin(sitting, record, self._clock.now_ms())
-        self.tell(happened.StartTapped)
+        self._begin(sitting, record, tapped_at)
+        self._enqueue(happened.StartTapped(at_ms=0))
         self._tell_begun()
 
     def resume(
@@ -124,11 +149,18 @@ class Conductor:
 
     def tell(self, kind: type[WorldEvent], **what: object) -> None:
         """Something happened just now; without a sitting it does not matter."""
-        if self._session is None:
-            return
-        self._queue.append(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+        if self._session is not None:
+            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+
+    def _tell_of_visitor(self, kind: type[WorldEvent], **what: object) -> None:
+        """The visitor did something to what is on the screen."""
+        if self._session is not None:
+            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what), by_visitor=True)
+
+    def _enqueue(self, event: WorldEvent, *, by_visitor: bool = False) -> None:
+        self._queue.append(_Queued(event, by_visitor))
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
-        if not self._working:
+        if not self._working and not self._busy.under_way:
             self._work()
 
     def speech_started(self, utterance: int) -> None:
@@ -148,8 +180,17 @@ class Conductor:
         self.tell(happened.RobotLost, why=why)
 
     def close(self) -> None:
-        """End the sitting that is under way, if there is one, because the program is being closed."""
-        self.tell(happened.KioskClosed)
+        """End the sitting that is under way, if there is one, because the program is being closed.
+
+        Another program that holds the database is waited for now, because no loop runs that could try again. If that
+        is in vain, the sitting counts as interrupted from the last thing that was written.
+        """
+        self._busy.end()
+        with self._recorder.waiting(CLOSING_WAIT_MS):
+            self.tell(happened.KioskClosed)
+        if self._busy.under_way:
+            _log.error("what happened last could not be written: another program holds the database")
+            self._busy.end()
 
     def pause(self) -> None:
         """Something failed that the visitor can do nothing about: drop the sitting behind a calm screen, then go on."""
@@ -190,35 +231,77 @@ class Conductor:
 
     def _rest(self, screen: str) -> None:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""
+        self._busy.end()
         self._queue.clear()
-        self._session = self._record = None
+        self._session = self._record = self._unwritten = None
         self._performer.reset("pause" if self._shut else screen)
         self.rested()
 
     def _work(self) -> None:
+        """Take what happened in turn, until nothing is left or the database cannot take it now."""
         self._working = True
         try:
-            while self._queue and self._session is not None and self._record is not None:
-                self._handle(self._queue.popleft(), self._session, self._record)
+            while self._session is not None and self._record is not None and self._decided(self._session):
+                if not self._written(self._record):
+                    return
+                self._carry_out(self._session, self._record)
         finally:
             self._working = False
 
-    def _handle(self, event: WorldEvent, session: Session, record: Record) -> None:
+    def _decided(self, session: Session) -> bool:
+        """Whether there is something to be written; what has no place in the sitting is passed over."""
+        while self._unwritten is None and self._queue:
+            event = self._queue.popleft().event
+            try:
+                self._unwritten = (event, session.handle(event))
+            except UnexpectedEvent as refusal:
+                _log.info("%s", refusal)
+        return self._unwritten is not None
+
+    def _written(self, record: Record) -> bool:
+        """Write what was concluded; whether the database took it. Nothing of it is shown before."""
+        if self._unwritten is None:
+            return True
         try:
-            commands = session.handle(event)
-        except UnexpectedEvent as refusal:
-            _log.info("%s", refusal)
-            return
-        try:
-            record.write(event, commands)
+            record.write(*self._unwritten)
+        except StoreBusy as busy:
+            self._try_again(self._work, busy)
+            return False
         except StoreFailed as failure:
             self._give_way(failure)
+            return False
+        self._busy.end()
+        return True
+
+    def _carry_out(self, session: Session, record: Record) -> None:
+        if self._unwritten is None:
             return
+        (event, commands), self._unwritten = self._unwritten, None
+        self._screen_changed = False
         self._perform(commands, record)
+        self._queue = deque(one for one in self._queue if not self._is_outrun(one, commands))
         if self.witness is not None:
             self.witness(event, commands, session.stage)
         if session.stage is Stage.OVER:
             self._rest("attract")
+
+    def _is_outrun(self, queued: _Queued, commands: tuple[Command, ...]) -> bool:
+        """Whether what waits belongs to what these commands have ended."""
+        if isinstance(queued.event, happened.TimerEnded):
+            # It ended while the command to stop it, or to begin it anew, waited for the database.
+            timers = {command.timer for command in commands if isinstance(command, (do.StartTimer, do.StopTimer))}
+            return queued.event.timer in timers
+        # As with a double click: what was tapped meanwhile was meant for what was there before.
+        return queued.by_visitor and self._screen_changed
+
+    def _note_change(self) -> None:
+        self._screen_changed = True
+
+    def _try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
+        try:
+            self._busy.try_again(call, busy)
+        except StoreFailed as failure:
+            self._give_way(failure)
 
     def _perform(self, commands: tuple[Command, ...], record: Record) -> None:
         self._performer.screens.debrief.give_code(record.code)

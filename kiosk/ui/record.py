@@ -34,7 +34,10 @@ class Record:
         return record
 
     def write(self, event: WorldEvent, commands: tuple[Command, ...]) -> None:
-        """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it."""
+        """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it.
+
+        Where it raises nothing has changed, so the same event can be written again after StoreBusy.
+        """
         events = (event, *(command.event for command in commands if isinstance(command, do.Record)))
         forgotten = next((command for command in commands if isinstance(command, do.ForgetSitting)), None)
         if self._keeping is Keeping.KEPT:
@@ -44,12 +47,14 @@ class Record:
             self._keeping = Keeping.FORGOTTEN
             self._held.clear()
         elif self._keeping is Keeping.UNDECIDED:
-            self._held += events
+            held = [*self._held, *events]
             if any(isinstance(command, do.KeepSitting) for command in commands):
-                self._keep()
+                self._keep(held)
+            else:
+                self._held = held
 
-    def _keep(self) -> None:
-        self.code = self._recorder.begin(self._sitting, self._held).code
+    def _keep(self, events: list[Event]) -> None:
+        self.code = self._recorder.begin(self._sitting, events).code
         self._keeping = Keeping.KEPT
         self._held.clear()
         self._kept()

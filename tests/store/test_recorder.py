@@ -7,6 +7,7 @@ import os
 import signal
 import sqlite3
 import subprocess
+import threading
 import time
 from contextlib import closing
 from pathlib import Path
@@ -20,7 +21,7 @@ from kiosk.game import Position
 from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder, StoreBusy, StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.condition import Condition
 from kiosk.study.declared.questionnaire import QUESTIONNAIRES
@@ -485,3 +486,46 @@ def kill_in_the_middle(writer: subprocess.Popen[str], folder: Path, after: int) 
     os.kill(process, signal.SIGKILL)
     said += [int(line) for line in iter(writer.stdout.readline, f"{GONE}\n")]
     return said[-1]
+
+
+# Another program
+
+
+def test_a_recorder_never_waits_for_another_program_unless_it_is_told_to(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        with pytest.raises(StoreBusy, match="another program holds the database"):
+            recorder.note("PanelOpened", {})
+        other.execute("ROLLBACK")
+        recorder.note("PanelOpened", {}, wall_ms=5)
+    assert rows(tmp_path, "SELECT type, wall_ms FROM booth_event") == [("PanelOpened", 5)]
+
+
+def test_a_recorder_that_is_told_to_wait_writes_when_the_other_program_lets_go(
+    tmp_path: Path, connections: list[sqlite3.Connection]
+) -> None:
+    begun = threading.Event()
+    with (
+        Recorder(tmp_path, wait_ms=60_000) as recorder,
+        closing(sqlite3.connect(tmp_path / FILE, isolation_level=None, check_same_thread=False)) as other,
+    ):
+        connections[0].set_trace_callback(lambda _: begun.set())
+        other.execute("BEGIN IMMEDIATE")
+
+        def let_go() -> None:
+            begun.wait()
+            other.execute("ROLLBACK")
+
+        letting_go = threading.Thread(target=let_go)
+        letting_go.start()
+        recorder.note("PanelOpened", {})
+        letting_go.join()
+    assert rows(tmp_path, "SELECT type FROM booth_event") == [("PanelOpened",)]
+
+
+def test_the_next_place_is_read_while_another_program_writes(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
+        listed = recorder.fix_list({Condition("tom"): 1, Condition("notom"): 1}, 2, 1, simulated=False)
+        other.execute("BEGIN IMMEDIATE")
+        assert recorder.next_place(simulated=False) == listed[0]
+        other.execute("ROLLBACK")

@@ -15,6 +15,7 @@ desk-reason-test = test run
 desk-reason-other = something else
 desk-not-now = Not now
 desk-not-written = It could not be written down, so nothing was changed
+desk-busy = One moment: another program holds the database
 desk-done = Done
 desk-next-avatar = Next: avatar
 desk-next-robot = Next: robot

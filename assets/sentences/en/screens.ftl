@@ -138,5 +138,7 @@ still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here
 pause-title = A short break
 pause-line = Please ask the people at this table for help.
+wait-title = One moment, please
+wait-line = It goes on by itself.
 replay-line = How far it has been played
 replay-differs = differs from the record

@@ -15,6 +15,7 @@ desk-reason-test = prueba
 desk-reason-other = otra cosa
 desk-not-now = Ahora no
 desk-not-written = No se pudo anotar: nada ha cambiado
+desk-busy = Un momento: otro programa ocupa la base de datos
 desk-done = Hecho
 desk-next-avatar = Después: avatar
 desk-next-robot = Después: robot

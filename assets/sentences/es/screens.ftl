@@ -139,5 +139,7 @@ still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí
 pause-title = Una breve pausa
 pause-line = Pide ayuda a las personas de esta mesa, por favor.
+wait-title = Un momento, por favor
+wait-line = Continúa por sí solo.
 replay-line = Hasta dónde se ha reproducido
 replay-differs = distinto de lo registrado

@@ -15,6 +15,7 @@ desk-reason-test = prova
 desk-reason-other = altro
 desk-not-now = Non adesso
 desk-not-written = Non è stato possibile annotarlo: nulla è cambiato
+desk-busy = Un momento: un altro programma occupa la base di dati
 desk-done = Fatto
 desk-next-avatar = Poi: avatar
 desk-next-robot = Poi: robot

@@ -143,5 +143,7 @@ still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui
 pause-title = Una breve pausa
 pause-line = Chiedi aiuto alle persone a questo tavolo.
+wait-title = Un momento, per favore
+wait-line = Continua da solo.
 replay-line = Fin dove è arrivata la riproduzione
 replay-differs = diverso dalla registrazione

@@ -34,6 +34,7 @@ from kiosk.ui.rehearsing.hand import Stuck
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.rehearsing.shots import Shots, make_folder
 from kiosk.ui.rehearsing.visitor import Character, Manner
+from kiosk.ui.waiting import LONGEST_MS
 from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 LARGEST_SEED = 2**63 - 1
@@ -116,7 +117,7 @@ def rehearse(
     character = Character(Manner(visitor), Stage(leaves_in), language or prepared.languages[0])
     fixed = Condition.named(condition or prepared.settings.assistance.condition)
     origin = Origin(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
-    with Recorder(data) as recorder, App(mode, recorder, Desk(prepared, recorder, origin)) as app:
+    with _recorder(data, mode) as recorder, App(mode, recorder, Desk(prepared, recorder, origin)) as app:
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
         rehearsal = Rehearsal(app, seed, pictures, character)
         with _stuck_in_words():
@@ -148,6 +149,11 @@ def _mode(speed: float | None, *, headless: bool) -> Mode:
     return Mode(display, Pace.WALL, speed or 1.0)
 
 
+def _recorder(data: Path, mode: Mode) -> Recorder:
+    """Open the recorder; where time is virtual it stands still while another program holds the database."""
+    return Recorder(data, wait_ms=LONGEST_MS if mode.pace is Pace.VIRTUAL else 0)
+
+
 @contextmanager
 def _stuck_in_words() -> Iterator[None]:
     try:
@@ -163,7 +169,7 @@ def _rehearse_day(study: Study, mode: Mode, data: Path, seed: int, sittings: int
     origin = Origin(code_commit(), simulated=True, seed=lambda: next(seeds))
     robot = None if _has_robot(study) else FlappingRobot(seed)
     begun = monotonic()
-    with Recorder(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
+    with _recorder(data, mode) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
         holdings: list[Holding] = []
         with _stuck_in_words(), progress_bar("sittings", sittings, hidden=as_json) as tell:
             for holding in sit_down(app, seed, visitors, data):

@@ -50,8 +50,8 @@ class Experimenter:
         self._began_ms, self._run_from_ms = now_ms(), booth.clock.now_ms()
         self._written_ms = last_written_ms(folder)
         self._simulated = booth.desk.simulated
-        self._write = Writing(booth.recorder)
-        self._lock = Lock(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write)
+        self._write = Writing(booth.recorder, booth.clock)
+        self._lock = Lock(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write.keep)
         self._asking = Asking(card, self._lock, booth.clock, catalogue)
         self.upkeep = Upkeep(
             Care.of(folder, settings.experimenter.backups),
@@ -59,7 +59,7 @@ class Experimenter:
             booth.clock,
             now_ms,
             slow,
-            self._write,
+            self._write.keep,
             lambda: self.deeds.resting,
             booth.conductor.shut,
         )
@@ -82,8 +82,9 @@ class Experimenter:
         screen.pressed.connect(self.deeds.press)
 
     def close(self) -> None:
-        """Listen no more."""
+        """Listen no more, and write down what is left to be."""
         self._keyboard.stand(False)  # noqa: FBT003 - it is what is set
+        self._write.close()
 
     def _stand_by(self) -> None:
         self._keyboard.stand(self._asking.asks or self.panel.is_open)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import time
+from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -13,7 +15,7 @@ from kiosk.assistant.wording import Catalogue
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.body import Health
 from kiosk.store.cut_off import CutOff, Unreadable
-from kiosk.store.recorder import Recorder, StoreFailed
+from kiosk.store.recorder import Recorder, StoreBusy, StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.booth.deeds import Deed, Effect, Reason, in_turn, rule
 from kiosk.study.booth.notes import Note
@@ -28,9 +30,16 @@ from kiosk.ui.panel.card import NoteScreen
 from kiosk.ui.panel.upkeep import Upkeep
 from kiosk.ui.screens.every import Screens
 from kiosk.ui.voice import Voice
+from kiosk.ui.waiting import BusyWait
 
 NOTE_MS = 2_000
 """How long a note stays; as long the condition's chord goes on without asking anew."""
+
+KEPT_RETRY_MS = 100
+"""How long until a note of what has happened is tried again."""
+CLOSING_WAIT_MS = 500
+"""How long closing waits for the last notes, after it has waited for the session."""
+NS_PER_MS = 1_000_000
 
 _log = logging.getLogger(__name__)
 
@@ -55,15 +64,55 @@ class Booth:
 class Writing:
     """Writes down what happens at the booth, and remembers in words what the disk did not take."""
 
-    def __init__(self, recorder: Recorder) -> None:
+    def __init__(self, recorder: Recorder, clock: Clock) -> None:
+        """What another program keeps from being written is tried again on this clock."""
         self.trouble = ""
         """Why the last thing could not be written; empty if it could."""
         self._recorder = recorder
+        self._clock = clock
+        self._kept: deque[tuple[Note, Mapping[str, Any], int]] = deque()
+        self._again: Wait | None = None
 
     def __call__(self, note: Note, body: Mapping[str, Any]) -> bool:
-        """Write it down; whether the disk took it."""
+        """Write it down before it is done; whether the disk took it. Raises StoreBusy, and can be called again."""
+        while self._kept:
+            self._write(*self._kept[0])
+            self._kept.popleft()
+        return self._write(note, body, None)
+
+    def keep(self, note: Note, body: Mapping[str, Any]) -> None:
+        """Write down what has happened already: now, or as soon as another program lets go of the database."""
+        self._kept.append((note, body, time.time_ns() // NS_PER_MS))
+        if self._again is None:
+            self._write_kept()
+
+    def close(self) -> None:
+        """Write down what is left, or tell the log that it cannot be."""
+        if self._again is not None:
+            self._again.cancel()
+            self._again = None
+        with self._recorder.waiting(CLOSING_WAIT_MS):
+            self._write_kept()
+        if self._again is not None:
+            _log.error("the last notes could not be written: another program holds the database")
+            self._again.cancel()
+
+    def _write_kept(self) -> None:
+        self._again = None
+        while self._kept:
+            try:
+                self._write(*self._kept[0])
+            except StoreBusy:
+                self._again = self._clock.after(KEPT_RETRY_MS, self._write_kept)
+                return
+            self._kept.popleft()
+
+    def _write(self, note: Note, body: Mapping[str, Any], wall_ms: int | None) -> bool:
         try:
-            self._recorder.note(note.value, body)
+            self._recorder.note(note.value, body, wall_ms)
+        except StoreBusy as busy:
+            self.trouble = str(busy)
+            raise
         except StoreFailed as failure:
             _log.error("%s", failure)
             self.trouble = str(failure)
@@ -92,6 +141,9 @@ class Deeds:
         self._upkeep = upkeep
         self._text = catalogue.text
         self._turn = in_turn(booth.desk.study.settings.allocation.quotas)
+        self._acts: deque[Callable[[], None]] = deque()
+        self._acting = False
+        self._busy = BusyWait(booth.clock, self._tell_busy)
         self._turning_for: str | None = None
         self._note_away: Wait | None = None
         booth.conductor.begun = self._begun
@@ -133,6 +185,45 @@ class Deeds:
         self._keep_note()
 
     def _do(self, deed: Deed, choice: str, reason: str) -> None:
+        self._in_turn(partial(self._do_now, deed, choice, reason))
+
+    def _in_turn(self, act: Callable[[], None]) -> None:
+        """Do something that is written down first, after what still waits for the database."""
+        self._acts.append(act)
+        if not self._acting and not self._busy.under_way:
+            self._act()
+
+    def _act(self) -> None:
+        self._acting = True
+        try:
+            while self._acts:
+                act = self._acts.popleft()
+                try:
+                    act()
+                except StoreBusy as busy:
+                    # It was to be written down before it is done, so nothing is done yet.
+                    if self._try_again(act, busy):
+                        return
+                else:
+                    self._busy.end()
+        finally:
+            self._acting = False
+
+    def _try_again(self, act: Callable[[], None], busy: StoreBusy) -> bool:
+        """Whether there is still patience."""
+        try:
+            self._busy.try_again(self._act, busy)
+        except StoreFailed as failure:
+            self._not_written(failure)
+            return False
+        self._acts.appendleft(act)
+        return True
+
+    def _tell_busy(self, waits: bool) -> None:  # noqa: FBT001 - it is what is shown
+        if waits:
+            self.tell("desk-busy")
+
+    def _do_now(self, deed: Deed, choice: str, reason: str) -> None:
         # Since it was asked for, the sitting has gone on.
         if rule(deed, self.stage).effect is Effect.REFUSED:
             self.tell("desk-not-now")
@@ -169,6 +260,8 @@ class Deeds:
     def _choose(self, condition: Condition | None, reason: str) -> None:
         try:
             self._booth.desk.choose(condition, reason)
+        except StoreBusy:
+            raise
         except StoreFailed as failure:
             self._not_written(failure)
             return
@@ -250,6 +343,9 @@ class Deeds:
         self._booth.read_cut_off(int(choice), partial(self._go_on_with, reason))
 
     def _go_on_with(self, reason: str, found: CutOff | Unreadable) -> None:
+        self._in_turn(partial(self._go_on_now, reason, found))
+
+    def _go_on_now(self, reason: str, found: CutOff | Unreadable) -> None:
         if isinstance(found, Unreadable):
             self.tell("desk-cannot-resume", why=found.why)
             return
@@ -259,6 +355,8 @@ class Deeds:
         noted = partial(self._written, Note.SITTING_RESUMED, {"sitting": found.number, "reason": reason})
         try:
             self._booth.conductor.resume(found.sitting, found.number, found.past, noted)
+        except StoreBusy:
+            raise
         except (BadInput, UnexpectedEvent, StoreFailed) as failure:
             self.tell("desk-cannot-resume", why=str(failure))
         else:
@@ -270,7 +368,7 @@ class Deeds:
 
     def _leave(self, _choice: str, reason: str) -> None:
         # A disk that takes nothing keeps nobody here.
-        self._write(Note.KIOSK_LEFT, {"stage": self.stage.value, "reason": reason})
+        self._write.keep(Note.KIOSK_LEFT, {"stage": self.stage.value, "reason": reason})
         self._booth.leave()
 
     # The panel

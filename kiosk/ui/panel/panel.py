@@ -96,7 +96,7 @@ class Panel:
         self._stirred_at = self._booth.clock.now_ms()
 
     def _open(self) -> None:
-        self._write(Note.PANEL_OPENED, {"stage": self._deeds.stage.value})
+        self._write.keep(Note.PANEL_OPENED, {"stage": self._deeds.stage.value})
         self._asking.unlocked = True
         self._deeds.panel_opened()
         self.stir()

@@ -161,6 +161,13 @@ Window {
         title: root.kiosk.words["pause-title"]
         line: root.kiosk.words["pause-line"]
     }
+    CalmCard {
+        objectName: "wait"
+        anchors.fill: parent
+        visible: root.kiosk.waits && root.kiosk.screen !== "pause"
+        title: root.kiosk.words["wait-title"]
+        line: root.kiosk.words["wait-line"]
+    }
     PanelLayer {
         anchors.fill: parent
         experimenter: root.experimenter

@@ -49,6 +49,8 @@ class FormScreen(QObject):
         self._items: tuple[Item, ...] = ()
         self._number = self._of = 0
         self._answers: dict[str, Answer] = {}
+        self._given: dict[str, Answer | None] = {}
+        """What the visitor has answered, although it may not be shown yet."""
         self._drafts: dict[str, str] = {}
         self._missing: tuple[str, ...] = ()
         self._keystrokes = 0
@@ -61,13 +63,14 @@ class FormScreen(QObject):
     def show(self, items: tuple[Item, ...], number: int, of: int) -> None:
         """Show a page, ``number`` ``of`` so many; nothing is answered."""
         self._items, self._number, self._of = items, number, of
-        self._answers, self._drafts, self._missing = {}, {}, ()
+        self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
         self._keystrokes = 0
         self.changed.emit()
         self.marked.emit()
 
     def show_answer(self, item: str, value: Answer | None) -> None:
         """Show which answer is chosen."""
+        self._given[item] = value
         if value is None:
             self._answers.pop(item, None)
         else:
@@ -132,20 +135,20 @@ class FormScreen(QObject):
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
         """The visitor chooses a point of a scale."""
-        self.answered.emit(item, value)
+        self._answer(item, value)
 
     @Slot(str, str)
     def choose(self, item: str, option: str) -> None:
         """The visitor chooses one of several options."""
-        self.answered.emit(item, option)
+        self._answer(item, option)
 
     @Slot(str, str)
     def toggle(self, item: str, option: str) -> None:
         """The visitor adds one of several options, or takes it away."""
-        before = self._answers.get(item, ())
+        before = self._given.get(item, ())
         chosen = before if isinstance(before, tuple) else ()
         after = set(chosen) ^ {option}
-        self.answered.emit(item, tuple(known for known in self._options(item) if known in after) or None)
+        self._answer(item, tuple(known for known in self._options(item) if known in after) or None)
 
     @Slot(str, str)
     def draft(self, item: str, text: str) -> None:
@@ -163,7 +166,7 @@ class FormScreen(QObject):
             return
         typed = self._typed(item)
         if typed != self._answers.get(item):
-            self.answered.emit(item, typed)
+            self._answer(item, typed)
 
     @Slot()
     def proceed(self) -> None:
@@ -175,6 +178,10 @@ class FormScreen(QObject):
             self.show_missing(wrong)
         else:
             self.continued.emit()
+
+    def _answer(self, item: str, value: Answer | None) -> None:
+        self._given[item] = value
+        self.answered.emit(item, value)
 
     def _typed(self, name: str) -> Answer | None:
         """What stands in a field, as an answer; None for nothing, and for what is no number where one is asked for."""

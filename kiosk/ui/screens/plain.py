@@ -33,7 +33,7 @@ class KioskScreen(QObject):
         self._words = words(catalogue)
         self._screen = "attract"
         self._asks_still_there = False
-        self._paused = self._behind_panel = False
+        self._paused = self._behind_panel = self._waits = False
         self._leaving = False
         self._settled = True
 
@@ -64,6 +64,12 @@ class KioskScreen(QObject):
             self._paused = paused
             self._unsettle()
 
+    def wait(self, *, waits: bool) -> None:
+        """Ask the visitor for a moment, over whatever is shown, or let them go on."""
+        if waits != self._waits:
+            self._waits = waits
+            self._unsettle()
+
     def step_back(self, steps_back: bool) -> None:  # noqa: FBT001 - it is what is set
         """Leave input to the experimenter's panel, or take it again."""
         self._behind_panel = steps_back
@@ -73,6 +79,7 @@ class KioskScreen(QObject):
         """Nothing of a sitting lies over the screen."""
         self.ask_still_there(asks=False)
         self.pause(paused=False)
+        self.wait(waits=False)
 
     @property
     def shown(self) -> str:
@@ -87,7 +94,7 @@ class KioskScreen(QObject):
     @property
     def covered(self) -> bool:
         """Whether a question, a calm word or the experimenter's panel lies over the screen."""
-        return self._asks_still_there or self._paused or self._behind_panel
+        return self._asks_still_there or self._paused or self._waits or self._behind_panel
 
     @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def words(self) -> dict[str, str]:
@@ -102,7 +109,12 @@ class KioskScreen(QObject):
     @Property(bool, notify=changed)
     def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention
         """Whether the visitor is asked if they are still there."""
-        return self._asks_still_there and not self._paused
+        return self._asks_still_there and not (self._paused or self._waits)
+
+    @Property(bool, notify=changed)
+    def waits(self) -> bool:
+        """Whether the visitor is asked for a moment."""
+        return self._waits and not self._paused
 
     @Property(bool, notify=changed)
     def paused(self) -> bool:

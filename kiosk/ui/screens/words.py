@@ -49,6 +49,8 @@ FIXED = (
     "still-there-yes",
     "pause-title",
     "pause-line",
+    "wait-title",
+    "wait-line",
     "replay-line",
     "replay-differs",
 )
