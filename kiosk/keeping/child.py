@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from kiosk.keeping.guard import memory_mib
 from kiosk.keeping.notice import Notice, listener
 
 _POSIX = sys.platform != "win32"
@@ -47,6 +48,10 @@ class Child:
             # Left unreaped until ``close``, so that nobody else can be given the number of its group.
             return os.waitid(os.P_PID, self.process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
         return self.process.poll() is not None
+
+    def memory_mib(self) -> int:
+        """How much memory it takes, without what it started in turn; 0 once it is gone."""
+        return memory_mib(self.process.pid)
 
     def ask_to_end(self) -> None:
         """Ask it to end by itself."""

@@ -1,9 +1,9 @@
 """The keeper: one kiosk after another, and underneath them a calm window that is seen while none is up.
 
-A kiosk that dies, that shows nothing in time, or that falls silent is ended with all that belongs to it and started
-again: at once, or after a pause that grows while one after another dies young. The keeper ends with the kiosk when
-somebody left it, and when the first one refuses what it was given; a refusal later on, of a disk that is gone say, is
-met with patience, for a visitor may stand there.
+A kiosk that dies, that shows nothing in time, that falls silent or that takes too much memory is ended with all that
+belongs to it and started again: at once, or after a pause that grows while one after another dies young. The keeper
+ends with the kiosk when somebody left it, and when the first one refuses what it was given; a refusal later on, of a
+disk that is gone say, is met with patience, for a visitor may stand there.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ class What(Enum):
     SHOWS = "shows"
     DIED = "died"
     HUNG = "hung"
+    SWELLED = "swelled"
     PAUSE = "pause"
     LEFT = "left"
     REFUSED = "refused"
@@ -110,21 +111,31 @@ class Keeper:
             self._lose(What.DIED, f"it could not be started: {error.strerror}", young=True)
             return None
         watch = Watch(kiosk, self._patience)
+        taken = 0
         try:
-            self._see_to_its_end(kiosk, watch)
+            taken = self._see_to_its_end(kiosk, watch)
         finally:
             hung = not (kiosk.dead() or self._asked_to_end)
             code = kiosk.close()
-        return LEFT if self._asked_to_end else self._judge(code, watch, hung=hung)
+        if self._asked_to_end:
+            return LEFT
+        if hung and taken > self._patience.memory_mib:
+            self._lose(What.SWELLED, f"{taken} MiB of memory", young=watch.up_s() < self._patience.young)
+            return None
+        return self._judge(code, watch, hung=hung)
 
-    def _see_to_its_end(self, kiosk: Child, watch: Watch) -> None:
-        while not (self._asked_to_end or watch.over()):
+    def _see_to_its_end(self, kiosk: Child, watch: Watch) -> int:
+        """Returns how much memory it took when it was looked at last, in MiB."""
+        taken = 0
+        while not (self._asked_to_end or watch.over() or taken > self._patience.memory_mib):
             self._pass_on(watch.hear())
+            taken = kiosk.memory_mib()
         while last_words := watch.hear(0):
             self._pass_on(last_words)
         if self._asked_to_end:
             self._happened(What.TOLD_TO_END)
             _await_end(kiosk, self._patience.end)
+        return taken
 
     def _pass_on(self, notice: Notice) -> None:
         """Tell what the kiosk told, and that the keeper itself is alive."""

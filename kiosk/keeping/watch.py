@@ -25,6 +25,8 @@ class Patience:
     young: float = 10.0
     """A kiosk that dies sooner after its first frame died at once."""
     longest_pause: float = 30.0
+    memory_mib: int = 1024
+    """What a kiosk may take; it usually takes 160."""
     tick: float = 0.1
     """How often it is seen whether the kiosk is still there."""
 

@@ -73,7 +73,8 @@ class Recorder:
         except BaseException:
             self._lock.release()
             raise
-        self._wait_ms = wait_ms
+        self.wait_ms = wait_ms
+        """How long each method that writes waits for another program."""
         try:
             with self.waiting(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
@@ -92,11 +93,11 @@ class Recorder:
     @contextmanager
     def waiting(self, wait_ms: int) -> Iterator[None]:
         """Wait so long for another program that holds the database, in place of the usual time."""
-        self._set_wait(max(wait_ms, self._wait_ms))
+        self._set_wait(max(wait_ms, self.wait_ms))
         try:
             yield
         finally:
-            self._set_wait(self._wait_ms)
+            self._set_wait(self.wait_ms)
 
     # The list of places
 
@@ -170,7 +171,11 @@ class Recorder:
 
         ``wall_ms`` is when that was, in ms since 1970; by default now.
         """
-        row = {"wall_ms": now_ms() if wall_ms is None else wall_ms, "type": kind, "body": json_text(body)}
+        row: dict[str, str | int | None] = {
+            "wall_ms": now_ms() if wall_ms is None else wall_ms,
+            "type": kind,
+            "body": json_text(body),
+        }
         with self._transaction():
             insert(self._connection, "booth_event", row)
 

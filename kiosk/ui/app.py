@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from functools import partial
 from random import Random
 from types import TracebackType
@@ -41,11 +42,20 @@ _BEGAN_MS = wall_ms()
 class App:
     """The kiosk, ready to run. Only one can be in a process."""
 
-    def __init__(self, mode: Mode, recorder: Recorder, desk: Desk, robot: Robot | None = None) -> None:
+    def __init__(
+        self,
+        mode: Mode,
+        recorder: Recorder,
+        desk: Desk,
+        robot: Robot | None = None,
+        beat: Callable[[], None] = lambda: None,
+    ) -> None:
         """Build everything for the desk's study and show the window; the desk is asked once for each sitting.
 
-        ``robot`` helps in place of the one that the study file asks for.
+        ``robot`` helps in place of the one that the study file asks for; ``beat`` is called out of the event loop.
         """
+        self.on_fault: Callable[[BaseException], None] = lambda _: None
+        """Is told of a fault of ours once the calm screen is up."""
         self.desk = desk
         settings = desk.study.settings
         self._window = Window(desk.study, mode)
@@ -67,7 +77,7 @@ class App:
             # Kept, for Qt alone does not keep alive whom it calls back.
             shown = self.screens
             self._life = IdleLife(shown.kiosk, shown.avatar, shown.attract, self.clock, Random())
-        self._loop = Loop(self.clock, owner, self.fault)
+        self._loop = Loop(self.clock, owner, self.fault, beat)
         virtual = mode.pace is Pace.VIRTUAL
         self._work, self._slow = (AtOnce() if virtual else Worker(self._landing) for _ in range(2))
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
@@ -125,6 +135,7 @@ class App:
         """A fault of ours: into the log with it, and a calm screen for the visitor."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.conductor.pause()
+        self.on_fault(fault)
 
     def _show(self, settings: Settings, display: Display) -> BoothWindow | None:
         """Show the window; over the full screen it is one that nobody leaves."""

@@ -69,7 +69,7 @@ class Conductor:
         self._queue: deque[_Queued] = deque()
         self._unwritten: tuple[WorldEvent, tuple[Command, ...]] | None = None
         """What the session has concluded, and the database has not taken yet."""
-        self._busy = BusyWait(clock, lambda waits: screens.kiosk.wait(waits=waits))
+        self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
         self._working = self._screen_changed = False
         self._begun_at = 0
         self._session: Session | None = None

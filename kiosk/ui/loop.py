@@ -21,17 +21,21 @@ Fault = Callable[[type[BaseException], BaseException, TracebackType | None], Non
 class Loop:
     """Runs the interface; on virtual time it lets time jump whenever the interface has nothing else to do."""
 
-    def __init__(self, clock: Clock, owner: QObject, fault: Fault) -> None:
-        """``fault`` is told of what nobody caught."""
+    def __init__(self, clock: Clock, owner: QObject, fault: Fault, beat: Callable[[], None] = lambda: None) -> None:
+        """``fault`` is told of what nobody caught.
+
+        ``beat`` is called out of the loop several times a second, and when the system asks for the end.
+        """
         self.told_to_end = False
         """Whether the system asked the program to end; from then on nothing runs."""
         # A loop of our own: the application's asks every window first, and the window refuses everybody.
         self._loop = QEventLoop()
         self._clock = clock
         self._fault = fault
+        self._beat = beat
         # Python runs now and then, or it would never see that the system asks it to end.
         self._heart = QTimer(owner)
-        self._heart.timeout.connect(lambda: None)
+        self._heart.timeout.connect(beat)
         self._heart.start(HEARTBEAT_MS)
         self._signals_before = {
             ending: signal.signal(ending, lambda *_: self._end()) for ending in (signal.SIGINT, signal.SIGTERM)
@@ -67,4 +71,5 @@ class Loop:
 
     def _end(self) -> None:
         self.told_to_end = True
+        self._beat()
         self.quit()

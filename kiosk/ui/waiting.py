@@ -22,13 +22,17 @@ LONGEST_MS = 120_000
 class BusyWait:
     """One wait for the database, from the first attempt that found it held to the one that did not."""
 
-    def __init__(self, clock: Clock, show: Callable[[bool], None]) -> None:
-        """``show`` is told when the wait has become long, and again when a long wait is over."""
+    def __init__(self, clock: Clock, recorder_waits_ms: int, show: Callable[[bool], None]) -> None:
+        """``show`` is told when the wait has become long, and again when a long wait is over.
+
+        A recorder that waits by itself at each attempt is tried again at once, so that virtual time stands still.
+        """
         self._clock = clock
+        self._retry_ms = 0 if recorder_waits_ms else RETRY_MS
+        self._step_ms = recorder_waits_ms or RETRY_MS
         self._show = show
         self._wait: Wait | None = None
-        self._since: int | None = None
-        self._long = False
+        self._waited_ms = 0
 
     @property
     def under_way(self) -> bool:
@@ -37,25 +41,22 @@ class BusyWait:
 
     def try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
         """Call back soon; raises StoreFailed, and ends the wait, once it has taken too long."""
-        now = self._clock.now_ms()
-        self._since = now if self._since is None else self._since
-        waited = now - self._since
-        if waited >= LONGEST_MS:
+        self._waited_ms += self._step_ms
+        if self._waited_ms > LONGEST_MS:
             self.end()
-            raise StoreFailed(f"{busy}; it was tried for {waited // MS_PER_SECOND} s") from busy
-        if waited >= TOLD_AFTER_MS and not self._long:
-            self._long = True
+            raise StoreFailed(f"{busy}; it was tried for {LONGEST_MS // MS_PER_SECOND} s") from busy
+        if self._waited_ms >= TOLD_AFTER_MS:
             self._show(True)  # noqa: FBT003 - it is what is shown
-        self._wait = self._clock.after(RETRY_MS, lambda: self._call(call))
+        self._wait = self._clock.after(self._retry_ms, lambda: self._call(call))
 
     def end(self) -> None:
         """Wait no more: the database took it, or nothing is to be tried again."""
         if self._wait is not None:
             self._wait.cancel()
-        self._wait = self._since = None
-        if self._long:
-            self._long = False
+            self._wait = None
+        if self._waited_ms >= TOLD_AFTER_MS:
             self._show(False)  # noqa: FBT003 - as above
+        self._waited_ms = 0
 
     def _call(self, call: Callable[[], None]) -> None:
         self._wait = None

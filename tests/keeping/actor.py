@@ -6,6 +6,7 @@ the folder, by the names of its processes.
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import subprocess
@@ -40,6 +41,8 @@ def main(folder: Path, acts: list[str]) -> None:
         "hang with company": lambda: hang_with_company(folder),
         "stay": lambda: stay(notifier),
         "stay deaf": lambda: stay(notifier, deaf=True),
+        "burn": burn,
+        "swell": lambda: swell(notifier),
         "leave": lambda: None,
     }
     seen[act]()
@@ -51,6 +54,19 @@ def hang_with_company(folder: Path) -> None:
     (folder / "company").write_text(str(company.pid))
     (folder / "left").write_text(tempfile.mkdtemp())
     signal.pause()
+
+
+def burn() -> None:
+    """Use the processor for ever, with Python's lock: no handler of Python's answers a signal any more."""
+    signal.signal(signal.SIGTERM, lambda *_: None)
+    sum(itertools.repeat(0))
+
+
+def swell(notifier: Notifier) -> None:
+    """Take 300 MiB, and go on beating."""
+    taken = b"x" * (300 << 20)
+    stay(notifier)
+    del taken
 
 
 def stay(notifier: Notifier, *, deaf: bool = False) -> None:

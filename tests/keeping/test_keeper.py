@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
@@ -129,6 +129,15 @@ def test_between_kiosks_that_die_young_there_is_a_pause_from_the_second_on(tmp_p
     assert [one.away_s for one in night.told if one.what is What.PAUSE] == [LONGEST_PAUSE] * 2
 
 
+def test_a_kiosk_that_takes_too_much_memory_is_started_again_although_it_beats(tmp_path: Path) -> None:
+    patience = replace(PATIENCE, memory_mib=200)
+    night = keep(tmp_path, "swell", "leave", patience=patience)
+    assert night.what() == ["started", "ready", "swelled", "started", "ready", "left"]
+    [detail] = night.details(What.SWELLED)
+    assert detail.endswith(" MiB of memory")
+    assert not any(map(runs, night.starts("kiosk")))
+
+
 def test_whatever_a_kiosk_started_ends_with_it_and_its_temporary_files_go(tmp_path: Path) -> None:
     night = keep(tmp_path, "hang with company", "leave")
     assert night.code == LEFT
@@ -137,7 +146,7 @@ def test_whatever_a_kiosk_started_ends_with_it_and_its_temporary_files_go(tmp_pa
     assert not any(map(runs, night.starts("kiosk")))
 
 
-@pytest.mark.parametrize("act", ["stay", "stay deaf"])
+@pytest.mark.parametrize("act", ["stay", "stay deaf", "burn"])
 def test_a_keeper_that_is_told_to_end_takes_the_kiosk_with_it_deaf_or_not(tmp_path: Path, act: str) -> None:
     def end_when_ready(keeper: Keeper, happening: Happening) -> None:
         if happening.what is What.READY:

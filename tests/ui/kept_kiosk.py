@@ -30,6 +30,9 @@ class Guest(Rehearsal):
         if self._app.conductor.stage.value != STAGE and self._app.screens.kiosk.shown != "pause":
             self._app.clock.after(HASTE_MS, self._act)
 
+    def _fail(self, fault: BaseException) -> None:
+        """Stay: this kiosk is to mend itself."""
+
 
 def fault() -> None:
     """A fault of ours."""

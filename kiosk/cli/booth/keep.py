@@ -17,7 +17,7 @@ from kiosk.cli.wiring import log_into
 from kiosk.keeping.keeper import REFUSED, Happening, Keeper, What
 from kiosk.keeping.watch import Patience
 
-_TROUBLE = {What.DIED, What.HUNG, What.PAUSE, What.REFUSED, What.NO_MEANWHILE}
+_TROUBLE = {What.DIED, What.HUNG, What.SWELLED, What.PAUSE, What.REFUSED, What.NO_MEANWHILE}
 
 _log = logging.getLogger(__name__)
 

@@ -19,6 +19,7 @@ from kiosk import BadInput
 from kiosk.cli.options import json_option, rehearsal_data_option, robot_host_option, robot_port_option, study_option
 from kiosk.cli.progress import progress_bar
 from kiosk.cli.wiring import code_commit, read_settings
+from kiosk.keeping.guard import guarded
 from kiosk.robot.flapping import FlappingRobot
 from kiosk.settings import STAGES
 from kiosk.store.recorder import Recorder
@@ -34,12 +35,14 @@ from kiosk.ui.rehearsing.hand import Stuck
 from kiosk.ui.rehearsing.rehearsal import Rehearsal
 from kiosk.ui.rehearsing.shots import Shots, make_folder
 from kiosk.ui.rehearsing.visitor import Character, Manner
-from kiosk.ui.waiting import LONGEST_MS
 from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 LARGEST_SEED = 2**63 - 1
 SETTLE_MS = 450
 """When a picture is taken after its moment, so that nothing moves any more."""
+
+WAIT_MS = 1_000
+"""How long virtual time stands still, at each attempt to write, for another program that holds the database."""
 
 manner_option = click.option(
     "--visitor",
@@ -117,11 +120,17 @@ def rehearse(
     character = Character(Manner(visitor), Stage(leaves_in), language or prepared.languages[0])
     fixed = Condition.named(condition or prepared.settings.assistance.condition)
     origin = Origin(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
-    with _recorder(data, mode) as recorder, App(mode, recorder, Desk(prepared, recorder, origin)) as app:
+    with (
+        guarded() as beat,
+        _recorder(data, mode) as recorder,
+        App(mode, recorder, Desk(prepared, recorder, origin), beat=beat) as app,
+    ):
         pictures = Shots(app.window, shots, app.clock, 0 if mode.pace is Pace.VIRTUAL else SETTLE_MS) if shots else None
         rehearsal = Rehearsal(app, seed, pictures, character)
         with _stuck_in_words():
             rehearsal.run()
+        if app.told_to_end:
+            raise click.Abort
         begun = recorder.begun
     told = _last_sitting(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
@@ -151,7 +160,7 @@ def _mode(speed: float | None, *, headless: bool) -> Mode:
 
 def _recorder(data: Path, mode: Mode) -> Recorder:
     """Open the recorder; where time is virtual it stands still while another program holds the database."""
-    return Recorder(data, wait_ms=LONGEST_MS if mode.pace is Pace.VIRTUAL else 0)
+    return Recorder(data, wait_ms=WAIT_MS if mode.pace is Pace.VIRTUAL else 0)
 
 
 @contextmanager
@@ -169,7 +178,11 @@ def _rehearse_day(study: Study, mode: Mode, data: Path, seed: int, sittings: int
     origin = Origin(code_commit(), simulated=True, seed=lambda: next(seeds))
     robot = None if _has_robot(study) else FlappingRobot(seed)
     begun = monotonic()
-    with _recorder(data, mode) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
+    with (
+        guarded() as beat,
+        _recorder(data, mode) as recorder,
+        App(mode, recorder, Desk(study, recorder, origin), robot, beat) as app,
+    ):
         holdings: list[Holding] = []
         with _stuck_in_words(), progress_bar("sittings", sittings, hidden=as_json) as tell:
             for holding in sit_down(app, seed, visitors, data):

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from random import SystemRandom
+from typing import Any
 
 import click
 
 from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, site_option, study_option
 from kiosk.cli.wiring import code_commit, log_into, read_settings
+from kiosk.keeping.guard import guarded
 from kiosk.store.recorder import Recorder
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.ui.app import App
@@ -39,6 +42,22 @@ def open_kiosk(
     as_json: bool,
 ) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
+    with guarded() as beat:
+        told = _open(data, study, site, robot_host, robot_port, beat, window=window)
+    click.echo(json.dumps(told) if as_json else f"{told['sittings']} sittings were recorded in {data}.")
+
+
+def _open(
+    data: Path,
+    study: Path | None,
+    site: str,
+    robot_host: str | None,
+    robot_port: int | None,
+    beat: Callable[[], None],
+    *,
+    window: bool,
+) -> dict[str, Any]:
+    """Open the kiosk until it is left; returns what is told of it."""
     prepared = read_study(read_settings(study, robot_host, robot_port))
     chance = SystemRandom()
     origin = Origin(code_commit(), simulated=False, seed=lambda: chance.getrandbits(SEED_BITS))
@@ -46,7 +65,6 @@ def open_kiosk(
     check_screen(mode.display)
     with Recorder(data, site) as recorder:
         log_into(data)
-        with App(mode, recorder, Desk(prepared, recorder, origin)) as app:
+        with App(mode, recorder, Desk(prepared, recorder, origin), beat=beat) as app:
             app.run()
-    told = {"data": str(data), "sittings": recorder.begun, "interrupted_before": list(recorder.recovered)}
-    click.echo(json.dumps(told) if as_json else f"{recorder.begun} sittings were recorded in {data}.")
+    return {"data": str(data), "sittings": recorder.begun, "interrupted_before": list(recorder.recovered)}

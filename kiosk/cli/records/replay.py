@@ -10,6 +10,7 @@ import click
 from kiosk import BadInput
 from kiosk.cli.options import data_option, json_option, study_option
 from kiosk.cli.progress import progress_bar
+from kiosk.keeping.guard import guarded
 from kiosk.settings import Settings
 from kiosk.store.reading import archive
 from kiosk.study.after.replay import Step, first_difference, replayed
@@ -64,7 +65,7 @@ def replay(
         make_folder(frames)
         mode = Mode(Display.NOWHERE, Pace.VIRTUAL)
     check_screen(mode.display)
-    with Replay(mode, plan, steps, f"Sitting {sitting}") as played:
+    with guarded() as beat, Replay(mode, plan, steps, f"Sitting {sitting}", beat) as played:
         saved = _save(played, frames, hidden=as_json) if frames is not None else None
         if saved is None:
             played.run()

@@ -143,7 +143,7 @@ class Deeds:
         self._turn = in_turn(booth.desk.study.settings.allocation.quotas)
         self._acts: deque[Callable[[], None]] = deque()
         self._acting = False
-        self._busy = BusyWait(booth.clock, self._tell_busy)
+        self._busy = BusyWait(booth.clock, booth.recorder.wait_ms, self._tell_busy)
         self._turning_for: str | None = None
         self._note_away: Wait | None = None
         booth.conductor.begun = self._begun

@@ -5,8 +5,10 @@ It looks only at what the screens show and acts only with its hand, so whatever 
 
 from __future__ import annotations
 
+import traceback
 from collections import deque
 from collections.abc import Callable
+from pathlib import Path
 from random import Random
 
 from PySide6.QtQuick import QQuickWindow
@@ -73,6 +75,7 @@ class Rehearsal:
         self._begun_ms = app.clock.now_ms()
         self._stuck: Stuck | None = None
         app.conductor.witness = self._watch
+        app.on_fault = self._fail
 
     def run(self) -> None:
         """Go through the sitting to its end; raises Stuck if it has none."""
@@ -80,7 +83,8 @@ class Rehearsal:
             self._shots.take("attract")
         self._think()
         self.pulse.start()
-        self._app.run()
+        if self._stuck is None:
+            self._app.run()
         self.pulse.stop()
         if self._stuck is not None:
             raise self._stuck
@@ -96,10 +100,20 @@ class Rehearsal:
             if not self._is_gone():
                 self._do_what_comes_next()
         except Stuck as stuck:
-            self._stuck = Stuck(f"{stuck}, on the screen {self._app.screens.kiosk.shown}")
-            self._app.quit()
+            self._give_up(stuck)
             return
         self._think()
+
+    def _fail(self, fault: BaseException) -> None:
+        """A fault ends the rehearsal: whoever acts next may be the one that it came from."""
+        where = traceback.extract_tb(fault.__traceback__)[-1:]
+        at = "".join(f" ({Path(frame.filename).name}, line {frame.lineno})" for frame in where)
+        self._give_up(Stuck(f"there was a fault in Recollect, {type(fault).__name__}: {fault}{at}"))
+
+    def _give_up(self, stuck: Stuck) -> None:
+        if self._stuck is None:
+            self._stuck = Stuck(f"{stuck}, on the screen {self._app.screens.kiosk.shown}")
+        self._app.quit()
 
     def _check_time(self) -> None:
         if self._app.clock.now_ms() > self._begun_ms + LONGEST_MS:
@@ -112,7 +126,7 @@ class Rehearsal:
     def _do_what_comes_next(self) -> None:
         kiosk = self._app.screens.kiosk
         if kiosk.shown == "pause":
-            raise Stuck("there was a failure of the disk, or a fault of ours")
+            raise Stuck("the disk did not take what happened")
         if not kiosk.takes_input:
             return
         self._acts += 1

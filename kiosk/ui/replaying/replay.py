@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -58,8 +58,11 @@ class _Deaf:
 class Replay:
     """One stored sitting in the window. Only one can be in a process."""
 
-    def __init__(self, mode: Mode, plan: Plan, steps: tuple[Step, ...], title: str) -> None:
-        """Show the window as it was before the first step."""
+    def __init__(
+        self, mode: Mode, plan: Plan, steps: tuple[Step, ...], title: str, beat: Callable[[], None] = lambda: None
+    ) -> None:
+        """Show the window as it was before the first step; ``beat`` is called as long as it goes on."""
+        self._beat = beat
         self._window = Window(Study((plan,)), mode)
         owner = self._window.owner
         self._clock = WallClock(owner)
@@ -68,7 +71,7 @@ class Replay:
         self._performer.bodies = self._bodies(plan, owner)
         self.player = Player(self._performer, self._clock, plan, steps)
         self.player.change_speed(mode.speed)
-        self._loop = Loop(self._clock, owner, self._fault)
+        self._loop = Loop(self._clock, owner, self._fault, beat)
         self._bar = ReplayBar(title, self.player, owner)
         self._bar.left.connect(self._loop.quit)
         self._window.drive_by(self._bar)
@@ -104,6 +107,7 @@ class Replay:
         """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot."""
         self._window.drive_by(None)
         for index, step in enumerate(self.player.steps, 1):
+            self._beat()
             self.player.step()
             if any(not isinstance(command, _UNSEEN) for command in step.commands):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"

@@ -1,0 +1,157 @@
+"""Ends a process whose event loop stands still, that takes too much memory, or that does not end when it is asked to.
+
+For a kiosk without a supervisor, and for rehearsals. The guard is a process of its own, forked before anything else is
+started: the one it guards may be stuck in C++ with Python's lock in its hands, where no thread and no signal handler of
+Python runs. A pipe leads to it. Through it come a beat of the event loop, and, from the system's own half of Python's
+signal handling, the number of every signal. When the pipe ends, so does the guard.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import select
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from typing import NoReturn
+
+import psutil
+
+from kiosk.keeping.notice import PIPE, SOCKET
+
+BEAT = 0
+"""What the pipe carries for a beat; every other byte is the number of a signal."""
+
+MIB = 2**20
+_ENDINGS = (signal.SIGINT, signal.SIGTERM)
+_READ_BYTES = 4096
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a process may take; times are in seconds."""
+
+    start: float = 30.0
+    """Until the first beat."""
+    silence: float = 10.0
+    """From one beat to the next; closing has no beats, and takes less."""
+    end: float = 10.0
+    """From being asked to end to the end."""
+    stuck: float = 3.0
+    """The same for a process that does not even take notice."""
+    memory_mib: int = 1024
+    """Far more than the 160 MiB that a kiosk takes."""
+    tick: float = 0.25
+
+
+def memory_mib(process: int) -> int:
+    """How much memory a process takes; 0 if it is gone."""
+    try:
+        return int(psutil.Process(process).memory_info().rss) // MIB
+    except psutil.Error:
+        return 0
+
+
+@contextmanager
+def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.environ) -> Iterator[Callable[[], None]]:
+    """Guard this process for as long as this lasts; gives what the event loop calls as its beat.
+
+    Where a supervisor guards it already, and on Windows, which cannot fork, the beat does nothing.
+    """
+    if sys.platform == "win32" or {SOCKET, PIPE} & environment.keys():
+        yield lambda: None
+        return
+    reader, writer = os.pipe()
+    guarded_process = os.getpid()
+    guard = os.fork()
+    if guard == 0:
+        _guard(guarded_process, reader, writer, limits)
+    os.close(reader)
+    os.set_blocking(writer, False)
+    before = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
+    try:
+        yield lambda: _beat(writer)
+    finally:
+        signal.set_wakeup_fd(before)
+        os.close(writer)
+        with suppress(ChildProcessError):
+            os.waitpid(guard, 0)
+
+
+def _beat(writer: int) -> None:
+    # A pipe that is full, or that nobody reads any more, is no reason to stop.
+    with suppress(OSError):
+        os.write(writer, bytes([BEAT]))
+
+
+def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
+    """Be the guard; nothing of the process that it was forked from is used, or cleared away."""
+    try:
+        gc.disable()
+        os.close(writer)
+        for ending in _ENDINGS:
+            # The keys of a terminal reach this process as well.
+            signal.signal(ending, signal.SIG_IGN)
+        nothing = os.open(os.devnull, os.O_RDWR)
+        os.dup2(nothing, 0)
+        os.dup2(nothing, 1)
+        fault = _watch(process, reader, limits)
+        if fault and os.getppid() == process:
+            os.write(2, f"recollect: {fault}, so it was ended\n".encode())
+            os.kill(process, signal.SIGKILL)
+    finally:
+        os._exit(0)
+
+
+def _watch(process: int, reader: int, limits: Limits) -> str:
+    """Read the pipe to its end; returns what is wrong, or nothing if the process has ended by itself."""
+    watch = _Watch(limits)
+    last = time.monotonic()
+    while (told := _read(reader, limits.tick)) != b"":
+        now = time.monotonic()
+        # Where everything stood still for a while, the guard too, nobody is to blame for having been silent.
+        fault = watch.look(min(now - last, 2 * limits.tick), told or b"", memory_mib(process))
+        last = now
+        if fault:
+            return fault
+    return ""
+
+
+class _Watch:
+    """What the guard knows of the process."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._silent_s = self._asked_s = 0.0
+        self._beats = self._asked = self._answered = False
+
+    def look(self, passed_s: float, told: bytes, taken_mib: int) -> str:
+        """Take in what was told after so much time; returns what is wrong, if anything is."""
+        self._silent_s += passed_s
+        self._asked_s += passed_s
+        for byte in told:
+            self._hear(byte)
+        limits = self._limits
+        if self._asked and self._asked_s >= (limits.end if self._answered else limits.stuck):
+            return "it was asked to end and did not"
+        if self._silent_s >= (limits.silence if self._beats else limits.start):
+            return f"the interface stood still for {self._silent_s:.0f} s"
+        if taken_mib > limits.memory_mib:
+            return f"it took {taken_mib} MiB of memory and may take {limits.memory_mib}"
+        return ""
+
+    def _hear(self, byte: int) -> None:
+        if byte == BEAT:
+            self._beats, self._silent_s, self._answered = True, 0.0, self._asked
+        elif byte in _ENDINGS and not self._asked:
+            self._asked, self._asked_s = True, 0.0
+
+
+def _read(reader: int, within_s: float) -> bytes | None:
+    """What comes within this time; None if nothing does, and no bytes at the end."""
+    ready, _, _ = select.select([reader], [], [], within_s)
+    return os.read(reader, _READ_BYTES) if ready else None

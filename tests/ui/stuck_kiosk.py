@@ -1,0 +1,63 @@
+"""``recollect`` with something wrong at the first card: ``python -m tests.ui.stuck_kiosk WRONG`` and its arguments."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import partial
+from unittest.mock import patch
+
+from PySide6.QtCore import QMetaObject
+from PySide6.QtQml import QJSEngine, QQmlComponent, QQmlEngine
+
+from kiosk.cli.front import main
+from kiosk.keeping.guard import Limits, guarded
+
+QUICK = Limits(silence=1, stuck=0.5)
+
+ENDLESS = b"""
+import QtQml
+Timer {
+    interval: 1
+    onTriggered: { console.log("stuck"); for (;;) {} }
+}
+"""
+
+
+def fault(*_: object) -> None:
+    """A fault of ours."""
+    raise KeyError("unicorn")
+
+
+def with_pythons_lock(*_: object) -> None:
+    """A binding without an end, asked for by Python, which waits for it."""
+    engine = QJSEngine()
+    engine.installExtensions(QJSEngine.Extension.ConsoleExtension)
+    engine.evaluate("console.log('stuck'); for (;;) {}")
+
+
+def without_pythons_lock(*_: object) -> None:
+    """The same out of Qt's own event loop."""
+    kept.append(engine := QQmlEngine())
+    kept.append(component := QQmlComponent(engine))
+    component.setData(ENDLESS, "")
+    kept.append(timer := component.create())
+    QMetaObject.invokeMethod(timer, "start")
+
+
+kept: list[object] = []
+WRONG: dict[str, Callable[..., None]] = {
+    "fault": fault,
+    "with lock": with_pythons_lock,
+    "without lock": without_pythons_lock,
+}
+
+if __name__ == "__main__":
+    wrong = WRONG[sys.argv.pop(1)]
+    limits = Limits(silence=60, stuck=0.5) if "--slowly" in sys.argv else QUICK
+    sys.argv = [argument for argument in sys.argv if argument != "--slowly"]
+    with (
+        patch("kiosk.ui.screens.board.BoardScreen.turn_up", wrong),
+        patch("kiosk.cli.booth.rehearsal.guarded", partial(guarded, limits)),
+    ):
+        main()

@@ -1,0 +1,80 @@
+"""Whatever goes wrong in a rehearsal, it ends with the reason in a sentence and never hangs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from kiosk.ui.rehearsing.hand import Stuck
+from kiosk.ui.screens.board import BoardScreen
+from tests.ui.conftest import Booth
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="what guards it cannot fork")
+
+
+def rehearsal(data: Path, wrong: str, *more: str) -> subprocess.Popen[str]:
+    """A rehearsal in which this is wrong with the first card."""
+    environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
+    command = [sys.executable, "-m", "tests.ui.stuck_kiosk", wrong, *more]
+    return subprocess.Popen(
+        [*command, "rehearse", "--headless", "--data", str(data)],
+        env=environment | {"QT_QPA_PLATFORM": "offscreen"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_a_fault_ends_the_rehearsal_with_its_name_and_place(tmp_path: Path) -> None:
+    with rehearsal(tmp_path, "fault") as process:
+        told, said = process.communicate()
+    assert (process.returncode, told) == (1, "")
+    *_, last = said.splitlines()
+    assert (
+        "the rehearsal cannot go on: there was a fault in Recollect, KeyError: 'unicorn' (stuck_kiosk.py, line" in last
+    )
+
+
+@pytest.mark.parametrize("wrong", ["with lock", "without lock"])
+def test_an_interface_that_stands_still_ends_the_rehearsal_in_words(tmp_path: Path, wrong: str) -> None:
+    with rehearsal(tmp_path, wrong) as process:
+        _, said = process.communicate()
+    assert process.returncode != 0
+    assert said.splitlines()[-1] == "recollect: the interface stood still for 1 s, so it was ended"
+
+
+@pytest.mark.parametrize("wrong", ["with lock", "without lock"])
+def test_an_interface_that_stands_still_ends_when_it_is_asked_to(tmp_path: Path, wrong: str) -> None:
+    with rehearsal(tmp_path, wrong, "--slowly") as process:
+        assert process.stderr is not None
+        while "stuck" not in process.stderr.readline():
+            assert process.poll() is None
+        process.terminate()
+        _, said = process.communicate()
+    assert process.returncode != 0
+    assert "it was asked to end and did not, so it was ended" in said
+
+
+def test_a_fault_in_the_window_ends_the_rehearsal_that_is_under_way(
+    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def fail(*_: object) -> None:
+        raise KeyError("unicorn")
+
+    monkeypatch.setattr(BoardScreen, "turn_up", fail)
+    with pytest.raises(Stuck, match="a fault in Recollect, KeyError: 'unicorn'"):
+        booth.rehearse(seed=1)
+    caplog.clear()
+
+
+def test_a_fault_of_the_visitor_itself_ends_the_rehearsal(
+    booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("kiosk.ui.rehearsing.visitor.Visitor.choose", lambda *_: {}["nowhere"])
+    with pytest.raises(Stuck, match="a fault in Recollect, KeyError: 'nowhere'"):
+        booth.rehearse(seed=1)
+    caplog.clear()
