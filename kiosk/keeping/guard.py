@@ -101,7 +101,8 @@ def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
         os.dup2(nothing, 1)
         fault = _watch(process, reader, limits)
         if fault and os.getppid() == process:
-            os.write(2, f"recollect: {fault}, so it was ended\n".encode())
+            with suppress(OSError):
+                os.write(2, f"recollect: {fault}, so it was ended\n".encode())
             os.kill(process, signal.SIGKILL)
     finally:
         os._exit(0)

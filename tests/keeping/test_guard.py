@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
 
 import pytest
 
@@ -19,12 +18,12 @@ BEAT = b"\0"
 TERM = bytes([signal.SIGTERM])
 
 
-def guarded_process(act: str, memory_mib: int = 4096, more: Mapping[str, str] = {}) -> subprocess.Popen[str]:
+def guarded_process(act: str, memory_mib: int = 4096) -> subprocess.Popen[str]:
     """A guarded process that does this."""
     environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
     return subprocess.Popen(
         [sys.executable, "-m", "tests.keeping.guarded", act, str(memory_mib)],
-        env=environment | more,
+        env=environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

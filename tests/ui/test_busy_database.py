@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from kiosk.game import Position
 from kiosk.settings import ASSETS
 from kiosk.store.database import FILE
 from kiosk.store.reading import archive
+from kiosk.store.recorder import Recorder
 from kiosk.study import events as happened
 from kiosk.study.declared.questionnaire import Multiple, Questionnaire
 from kiosk.study.events import Event, Stage, Status, WorldEvent
@@ -71,14 +73,15 @@ def other(booth: Booth, other_of: Callable[[Booth], Other]) -> Other:
     return other_of(booth)
 
 
-def wait_ms(booth: Booth, ms: int) -> int:
-    """Let so much time pass, while the window is drawn; returns how often something else happened meanwhile."""
+def wait_ms(booth: Booth, ms: int, *, draws: bool = False) -> int:
+    """Let so much time pass, and draw the window meanwhile; returns in how many steps it passed."""
     over: list[bool] = []
     booth.app.clock.after(ms, lambda: over.append(True))
     turns = 0
     while not over:
         booth.jump()
-        lay_out(booth.app.window)
+        if draws:
+            lay_out(booth.app.window)
         turns += 1
     return turns
 
@@ -108,7 +111,7 @@ def test_a_database_that_is_held_for_half_a_minute_costs_no_session_and_shows_no
     other.hold()
     tapped_at = booth.app.clock.now_ms()
     booth.click("card-3")
-    assert wait_ms(booth, HELD_MS) > 100
+    assert wait_ms(booth, HELD_MS, draws=True) > 100
     assert len(booth.app.screens.board.closed) == 24
     assert flips(booth) == []
     other.let_go()
@@ -290,6 +293,27 @@ def test_options_that_are_ticked_before_the_first_is_stored_are_all_kept(booth: 
     booth.click(f"option-{item.id}-{first}")
     booth.click(f"option-{item.id}-{second}")
     assert given == [(first,), (first, second)]
+
+
+def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_is_the_same(
+    make_booth: MakeBooth, other_of: Callable[[Booth], Other]
+) -> None:
+    def holding(event: WorldEvent) -> None:
+        if isinstance(event, happened.CardTapped) and not held:
+            held.append(event)
+            other.hold()
+            QTimer.singleShot(100, other.let_go)
+
+    plain, disturbed = (make_booth(opened=partial(Recorder, wait_ms=10)) for _ in range(2))
+    plain.rehearse(seed=1)
+    other, held = other_of(disturbed), list[WorldEvent]()
+    rehearsal = Rehearsal(disturbed.app, 1)
+    watch = disturbed.app.conductor.witness
+    assert watch is not None
+    disturbed.app.conductor.witness = lambda event, commands, stage: (watch(event, commands, stage), holding(event))[0]
+    rehearsal.run()
+    assert held
+    assert events(disturbed) == events(plain)
 
 
 def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: QtBot, tmp_path: Path) -> None:

@@ -74,7 +74,8 @@ def test_a_fault_in_the_window_ends_the_rehearsal_that_is_under_way(
 def test_a_fault_of_the_visitor_itself_ends_the_rehearsal(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("kiosk.ui.rehearsing.visitor.Visitor.choose", lambda *_: {}["nowhere"])
+    nothing: dict[str, object] = {}
+    monkeypatch.setattr("kiosk.ui.rehearsing.visitor.Visitor.choose", lambda *_: nothing["nowhere"])
     with pytest.raises(Stuck, match="a fault in Recollect, KeyError: 'nowhere'"):
         booth.rehearse(seed=1)
     caplog.clear()
