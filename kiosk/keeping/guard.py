@@ -21,7 +21,7 @@ from typing import NoReturn
 
 import psutil
 
-from kiosk.keeping.notice import PIPE, SOCKET
+from kiosk.keeping.notice import BEAT_WITHIN, PIPE, SOCKET
 
 BEAT = 0
 """What the pipe carries for a beat; every other byte is the number of a signal."""
@@ -60,9 +60,10 @@ def memory_mib(process: int) -> int:
 def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.environ) -> Iterator[Callable[[], None]]:
     """Guard this process for as long as this lasts; gives what the event loop calls as its beat.
 
-    Where a supervisor guards it already, and on Windows, which cannot fork, the beat does nothing.
+    Where a supervisor waits for beats already, and on Windows, which cannot fork, the beat does nothing.
     """
-    if sys.platform == "win32" or {SOCKET, PIPE} & environment.keys():
+    supervised = BEAT_WITHIN in environment and {SOCKET, PIPE} & environment.keys()
+    if sys.platform == "win32" or supervised:
         yield lambda: None
         return
     reader, writer = os.pipe()

@@ -81,7 +81,7 @@ def test_the_guard_ends_with_the_process_and_says_nothing(act: str, code: int) -
 
 def test_what_a_supervisor_guards_has_no_other_guard(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "fork", lambda: pytest.fail("it has"))
-    with guarded(environment={"NOTIFY_SOCKET": "somewhere"}) as beat:
+    with guarded(environment={"NOTIFY_SOCKET": "somewhere", "WATCHDOG_USEC": "5000000"}) as beat:
         beat()
 
 

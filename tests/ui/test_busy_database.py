@@ -20,6 +20,7 @@ from kiosk.store.database import FILE
 from kiosk.store.reading import archive
 from kiosk.store.recorder import Recorder
 from kiosk.study import events as happened
+from kiosk.study.commands import Command
 from kiosk.study.declared.questionnaire import Multiple, Questionnaire
 from kiosk.study.events import Event, Stage, Status, WorldEvent
 from kiosk.ui.rehearsing.hand import lay_out
@@ -298,19 +299,21 @@ def test_options_that_are_ticked_before_the_first_is_stored_are_all_kept(booth: 
 def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_is_the_same(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    def holding(event: WorldEvent) -> None:
-        if isinstance(event, happened.CardTapped) and not held:
-            held.append(event)
-            other.hold()
-            QTimer.singleShot(100, other.let_go)
-
     plain, disturbed = (make_booth(opened=partial(Recorder, wait_ms=10)) for _ in range(2))
     plain.rehearse(seed=1)
     other, held = other_of(disturbed), list[WorldEvent]()
     rehearsal = Rehearsal(disturbed.app, 1)
     watch = disturbed.app.conductor.witness
     assert watch is not None
-    disturbed.app.conductor.witness = lambda event, commands, stage: (watch(event, commands, stage), holding(event))[0]
+
+    def watch_and_hold(event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+        watch(event, commands, stage)
+        if isinstance(event, happened.CardTapped) and not held:
+            held.append(event)
+            other.hold()
+            QTimer.singleShot(100, other.let_go)
+
+    disturbed.app.conductor.witness = watch_and_hold
     rehearsal.run()
     assert held
     assert events(disturbed) == events(plain)

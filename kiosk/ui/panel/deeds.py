@@ -185,7 +185,12 @@ class Deeds:
         self._keep_note()
 
     def _do(self, deed: Deed, choice: str, reason: str) -> None:
-        self._in_turn(partial(self._do_now, deed, choice, reason))
+        act = partial(self._do_now, deed, choice, reason)
+        if deed is Deed.LEAVE:
+            # Nothing that waits for the database keeps anybody here.
+            act()
+        else:
+            self._in_turn(act)
 
     def _in_turn(self, act: Callable[[], None]) -> None:
         """Do something that is written down first, after what still waits for the database."""
