@@ -40,10 +40,13 @@ class Gate:
     first_patience: int = 10
 
     def __post_init__(self) -> None:
-        """Refuse a number of flips below 0 with a ValueError."""
+        """Refuse with a ValueError what is no number of flips: a number below 0, a fraction, a text."""
         for name in self.__slots__:
-            if getattr(self, name) < 0:
-                raise ValueError(f"gate: {name} must be 0 or more flips, not {getattr(self, name)}")
+            flips = getattr(self, name)
+            if not isinstance(flips, int) or isinstance(flips, bool):
+                raise ValueError(f"gate: {name} must be a whole number of flips, not {flips!r}")
+            if flips < 0:
+                raise ValueError(f"gate: {name} must be 0 or more flips, not {flips}")
 
     def verdict(self, game: Concentration) -> Verdict:
         """Whether a hint may be considered before the next flip of ``game``."""

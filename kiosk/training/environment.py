@@ -5,15 +5,19 @@ It plays by the rules of this room's kernel and is the only module that needs ``
 
 from __future__ import annotations
 
+from operator import index
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from kiosk import BadInput
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mentaliser import TargetRule
+from kiosk.training.arguments import one_of
 from kiosk.training.kernel import (
+    ACTIONS,
     CARDS,
     COLUMNS,
     COUNT,
@@ -26,6 +30,7 @@ from kiosk.training.kernel import (
     PAIRS_FOUND,
     RANDOM,
     ROWS,
+    STATES,
     floats,
     is_open,
     new_game,
@@ -40,6 +45,7 @@ from kiosk.training.simulation import lay, playing, start, take
 ENVIRONMENT = "recollect/Assistance-v0"
 """The name under which ``gymnasium.make`` finds it once this module is imported."""
 SEEDS = 1 << 62
+NO_ACTION = -1
 
 
 class Assistance(gym.Env[int, int]):
@@ -50,7 +56,8 @@ class Assistance(gym.Env[int, int]):
     hint or not. The player is part of the environment, as is the choice of the card that a hint points to.
 
     ## Action space
-    ``Discrete(4)``: 0 no help, 1 point to the column, 2 to the row, 3 to the card.
+    ``Discrete(4)``: 0 no help, 1 point to the column, 2 to the row, 3 to the card. Any type of whole number will do.
+    Everything else raises ``gymnasium.error.InvalidAction``, whether or not the gate is open; so do booleans.
 
     ## Observation space
     ``Discrete(48)``: ``(phase * 4 + last) * 4 + outcome``, where
@@ -66,7 +73,8 @@ class Assistance(gym.Env[int, int]):
     ``reward``: ``Reward.RETRIEVAL`` (the default), ``PAPER`` or ``RELEASED``, paid for each flip; docs/learning.md.
 
     ## Episode end
-    Terminated when the twelfth pair is found; truncated when a game is given up after 5,000 flips.
+    Terminated when the twelfth pair is found; truncated when a game is given up after 5,000 flips. After that, and
+    before the first ``reset``, ``step`` raises ``gymnasium.error.ResetNeeded``.
 
     ## Information
     ``gate_open``: whether a hint may be considered at the coming flip; ``action_mask``: int8 of shape (4,), 1 for the
@@ -91,12 +99,16 @@ class Assistance(gym.Env[int, int]):
         render_mode: str | None = None,
     ) -> None:
         """Seat the player; ``reset`` deals."""
-        self.action_space = gym.spaces.Discrete(4)  # type: ignore[assignment]  # its values are numpy's whole numbers
-        self.observation_space = gym.spaces.Discrete(48)  # type: ignore[assignment]  # as above
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise BadInput(f"render_mode must be None or 'ansi', not {render_mode!r}")
+        self.action_space = gym.spaces.Discrete(ACTIONS)  # type: ignore[assignment]  # its values are numpy's numbers
+        self.observation_space = gym.spaces.Discrete(STATES)  # type: ignore[assignment]  # as above
         self.render_mode = render_mode
-        self._table = lay(player or MemoryPlayer((0.1, 0.45)), plan(gate, target), 0)
-        self._reward = REWARDS.index(reward)
+        self._table = lay(player or MemoryPlayer((0.1, 0.45)), plan(gate, one_of("target", target, TargetRule)), 0)
+        self._reward = REWARDS.index(one_of("reward", reward, Reward))
         self._purse = floats([PURSE])
+        self._dealt = False
+        self._over = False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[int, dict[str, Any]]:
         """Deal a new game; with a ``seed`` all that follows is fixed by it."""
@@ -104,24 +116,41 @@ class Assistance(gym.Env[int, int]):
         self._table.game[RANDOM] = new_game(int(self.np_random.integers(SEEDS)))[RANDOM]
         start(self._table)
         self._purse[0] = PURSE
+        self._dealt, self._over = True, False
         return self._observation(), self._facts(NO_HELP)
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
-        """Help, let the player flip a card, and pay."""
+        """Help, let the player flip a card, and pay.
+
+        Raises InvalidAction for what is not in the action space, and ResetNeeded where no game is under way.
+        """
+        asked = _action(action)
+        self._check_under_way()
         game = self._table.game
-        taken = int(action) if is_open(game, self._table.plan) else NO_HELP
+        taken = asked if is_open(game, self._table.plan) else NO_HELP
         seen = coming(game, taken)
         paid = pay(self._reward, seen, take(self._table, taken), self._purse)
         over = bool(game[PAIRS_FOUND] == PAIRS)
         given_up = not over and not playing(game)
+        self._over = over or given_up
         return self._observation(), float(paid), over, given_up, self._facts(taken)
 
     def render(self) -> str | None:
-        """The board as text, or None without a render mode."""
+        """The board as text, or None without a render mode; raises ResetNeeded before the first game."""
         if self.render_mode != "ansi":
             return None
+        self._check_dealt()
         rows = (range(row * COLUMNS, (row + 1) * COLUMNS) for row in range(ROWS))
         return "\n".join("".join(self._sign(place) for place in row) for row in rows)
+
+    def _check_dealt(self) -> None:
+        if not self._dealt:
+            raise gym.error.ResetNeeded("no game has been dealt yet: call reset() first")
+
+    def _check_under_way(self) -> None:
+        self._check_dealt()
+        if self._over:
+            raise gym.error.ResetNeeded("the game is over: call reset() to deal a new one before the next step()")
 
     def _sign(self, place: int) -> str:
         game = self._table.game
@@ -140,6 +169,18 @@ class Assistance(gym.Env[int, int]):
         mask: NDArray[np.int8] = np.array([1, opened, opened, opened], dtype=np.int8)
         counts = {"flips": int(game[FLIPS]), "pairs_found": int(game[PAIRS_FOUND])}
         return {"gate_open": opened, "action_mask": mask, "assistance": taken, **counts}
+
+
+def _action(action: object) -> int:
+    """Return the action as a plain number; raise InvalidAction for everything that is not one."""
+    try:
+        # index() takes whole numbers of every type and refuses 2.0 and "2"; a boolean is a mistake of the caller's.
+        number = NO_ACTION if isinstance(action, bool) else index(action)  # type: ignore[arg-type]
+    except TypeError:
+        number = NO_ACTION
+    if not 0 <= number < ACTIONS:
+        raise gym.error.InvalidAction(f"the action must be a whole number from 0 to {ACTIONS - 1}, not {action!r}")
+    return number
 
 
 gym.register(ENVIRONMENT, entry_point="kiosk.training.environment:Assistance")

@@ -16,6 +16,7 @@ from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import STATES as ALL_STATES
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
+from kiosk.training.arguments import check_between, one_of, whole
 from kiosk.training.kernel import (
     ACTIONS,
     NO_HELP,
@@ -105,6 +106,16 @@ DECISIONS_AN_EPISODE = 24
 """More samples of one entry than any episode gives on the average: the table of learning rates is no longer."""
 
 
+_KINDS: dict[str, type[Enum]] = {
+    "reward": Reward,
+    "epsilon": Epsilon,
+    "alpha": Alpha,
+    "averaging": Averaging,
+    "decisions": Decisions,
+    "target": TargetRule,
+}
+
+
 @dataclass(frozen=True, slots=True)
 class Recipe:
     """All that fixes a table: the same recipe and the same version of the program give the same file."""
@@ -122,13 +133,17 @@ class Recipe:
     gamma: float = 0.8
 
     def __post_init__(self) -> None:
-        """Refuse impossible numbers with BadInput."""
+        """Refuse impossible numbers, and texts in place of members, with BadInput."""
+        for name, kind in _KINDS.items():
+            one_of(name, getattr(self, name), kind)
+        # They go into a file, which takes Python's own numbers only.
+        object.__setattr__(self, "episodes", whole("the number of episodes", self.episodes))
+        object.__setattr__(self, "seed", whole("the seed", self.seed))
         if not 0 <= self.episodes <= MOST_EPISODES:
             raise BadInput(f"the number of episodes must be 0 to {MOST_EPISODES:,}, not {self.episodes}")
         if self.seed < 0:
             raise BadInput(f"the seed must be 0 or more, not {self.seed}")
-        if not 0 <= self.gamma <= 1:
-            raise BadInput(f"gamma must be a number from 0 to 1, not {self.gamma:g}")
+        check_between("gamma", self.gamma, 0, 1)
 
     def training(self, command: str) -> dict[str, Any]:
         """What a policy file says about how it was made; no dates, machines or paths."""

@@ -10,6 +10,7 @@ from enum import Enum
 from typing import Any, ClassVar, Protocol
 
 from kiosk import BadInput
+from kiosk.training.arguments import check_between, one_of
 from kiosk.training.kernel import (
     CARDS,
     COLUMNS,
@@ -82,8 +83,8 @@ class ChancePlayer:
 
     def __post_init__(self) -> None:
         """Refuse what is not a chance."""
-        _within("threshold", self.threshold, 0, 1)
-        _within("follow", self.follow, 0, 1)
+        check_between("threshold", self.threshold, 0, 1)
+        check_between("follow", self.follow, 0, 1)
 
     def parameters(self) -> dict[str, Any]:
         """What a policy file says about this player."""
@@ -117,9 +118,12 @@ class MemoryPlayer:
 
     def __post_init__(self) -> None:
         """Refuse what is not a chance, or a range from high to low."""
-        _within("forgetting", self.forgetting[0], 0, 1)
-        _within("forgetting", self.forgetting[1], self.forgetting[0], 1)
-        _within("follow", self.follow, 0, 1)
+        given: object = self.forgetting
+        if not isinstance(given, tuple) or len(given) != len(("low", "high")):
+            raise BadInput(f"forgetting must be a range of two numbers, such as (0.1, 0.45), not {given!r}")
+        check_between("forgetting", self.forgetting[0], 0, 1)
+        check_between("forgetting", self.forgetting[1], self.forgetting[0], 1)
+        check_between("follow", self.follow, 0, 1)
 
     def parameters(self) -> dict[str, Any]:
         """What a policy file says about this player."""
@@ -155,8 +159,9 @@ class TextPlayer:
 
     def __post_init__(self) -> None:
         """Refuse what is not a chance, and the reading under which games do not end."""
-        _within("forgetting", self.forgetting, 0, 1)
-        _within("follow", self.follow, 0, 1)
+        check_between("forgetting", self.forgetting, 0, 1)
+        check_between("follow", self.follow, 0, 1)
+        one_of("counting", self.counting, Counting)
         if self.counting is Counting.TOTAL and self.forgetting >= ENDLESS_FROM:
             raise BadInput(
                 f"the text player with forgetting {self.forgetting:g} and all flips counted never finishes a game: "
@@ -172,11 +177,6 @@ class TextPlayer:
         """The numbers that the rules play with."""
         total = int(self.counting is Counting.TOTAL)
         return [TEXT, total, *[NEVER] * (PAIRS + 1)], [self.follow, *[self.forgetting] * 2, *[0.0] * LONGEST]
-
-
-def _within(name: str, value: float, low: float, high: float) -> None:
-    if not low <= value <= high:
-        raise BadInput(f"{name} must be a number from {low:g} to {high:g}, not {value:g}")
 
 
 @rule

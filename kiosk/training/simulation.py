@@ -11,6 +11,7 @@ from kiosk import BadInput
 from kiosk.assistant.mdp import Action
 from kiosk.assistant.mentaliser import TargetRule
 from kiosk.assistant.qtable import QTable
+from kiosk.training.arguments import one_of, whole
 from kiosk.training.kernel import (
     ACTIONS,
     COLUMNS,
@@ -65,6 +66,7 @@ class Table(NamedTuple):
 
 def lay(player: Player, policy_plan: Ints, seed: int) -> Table:
     """A table with a player at it; the games that follow are fixed by ``seed``."""
+    seed = whole("the seed", seed)
     if seed < 0:
         raise BadInput(f"the seed must be 0 or more, not {seed}")
     numbers, odds = player.numbers()
@@ -240,9 +242,10 @@ def simulate(  # noqa: PLR0913, PLR0917 - an experiment is all of these
 
     Raises BadInput if there are too few games, or a game does not end.
     """
+    games = whole("the number of games", games)
     if games < 2:  # noqa: PLR2004 - a spread needs two
         raise BadInput(f"there must be at least 2 games, not {games}")
-    table = lay(player, plan(policy.gate, target), seed)
+    table = lay(player, plan(policy.gate, one_of("target", target, TargetRule)), seed)
     q = floats([value for row in policy.values for value in row])
     tallies: list[tuple[int, ...]] = []
     while len(tallies) < games:

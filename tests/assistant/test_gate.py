@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from kiosk.assistant.gate import NO_GATE, Gate, Verdict
@@ -109,6 +111,12 @@ def test_other_numbers_move_the_boundaries(gate: Gate, game: tuple[int, ...], ve
 def test_a_number_of_flips_below_zero_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match=f"gate: {name} must be 0 or more flips, not -1"):
         Gate(**{name: -1})
+
+
+@pytest.mark.parametrize("flips", [2.5, float("nan"), "6", None, True])
+def test_what_is_no_whole_number_of_flips_is_refused(flips: Any) -> None:
+    with pytest.raises(ValueError, match="gate: patience must be a whole number of flips, not "):
+        Gate(patience=flips)
 
 
 def test_only_an_open_gate_is_open() -> None:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import pytest
 
 gymnasium: Any = pytest.importorskip("gymnasium")
 
+import numpy as np  # noqa: E402 - after the import that may skip this file
+from gymnasium.error import InvalidAction, ResetNeeded  # noqa: E402
 from gymnasium.utils.env_checker import check_env  # noqa: E402 - after the import that may skip this file
 
+from kiosk import BadInput  # noqa: E402
 from kiosk.assistant.gate import NO_GATE  # noqa: E402
 from kiosk.assistant.mdp import STATES, Action, Outcome, Phase  # noqa: E402
 from kiosk.assistant.mentaliser import TargetRule  # noqa: E402
 from kiosk.assistant.qtable import QTable  # noqa: E402
 from kiosk.training.environment import ENVIRONMENT, Assistance  # noqa: E402
-from kiosk.training.players import MemoryPlayer  # noqa: E402
+from kiosk.training.kernel import PAIRS, Floats, Ints  # noqa: E402
+from kiosk.training.players import LONGEST, NEVER, TEXT, MemoryPlayer  # noqa: E402
 from kiosk.training.rewards import Reward  # noqa: E402
 from kiosk.training.simulation import Spread, simulate  # noqa: E402
 
@@ -23,6 +29,20 @@ from kiosk.training.simulation import Spread, simulate  # noqa: E402
 @pytest.mark.parametrize("reward", Reward)
 def test_gymnasium_s_own_check_finds_nothing(reward: Reward) -> None:
     check_env(gymnasium.make(ENVIRONMENT, reward=reward).unwrapped)
+
+
+@dataclass(frozen=True)
+class Stubborn:
+    """A player of our own whose games do not end: one of the paper's text who forgets fast, with all flips counted."""
+
+    name: ClassVar[str] = "stubborn"
+    follow: float = 1.0
+
+    def parameters(self) -> dict[str, Any]:
+        return {"name": self.name}
+
+    def numbers(self) -> tuple[Ints, Floats]:
+        return [TEXT, 1, *[NEVER] * (PAIRS + 1)], [self.follow, 0.5, 0.5, *[0.0] * LONGEST]
 
 
 def game(environment: Assistance, seed: int, action: int) -> list[tuple[int, float, bool, bool, dict[str, Any]]]:
@@ -93,3 +113,98 @@ def test_the_board_can_be_looked_at_as_text() -> None:
     assert drawn is not None
     assert drawn.count("[") == 1
     assert Assistance().render() is None
+
+
+ACTIONS_OF_ANY_TYPE = (
+    1,
+    Action.SUG_COL,
+    *(kind(1) for kind in (np.int8, np.uint8, np.int16, np.int32, np.int64, np.uint64)),
+    np.array(1),
+)
+NO_ACTIONS: tuple[Any, ...] = (
+    *(-1, 4, 7, 10**30, -(10**30), np.int64(-1), np.uint8(255), np.uint64(2**64 - 1)),
+    *(2.5, 2.0, float("nan"), np.float32(1), np.array(1.0)),
+    *(True, False, np.bool_(1), np.array([True])[0], np.array(1, dtype=bool)),
+    *("x", "2", b"2", None, (), [1], np.array([1]), np.array([1, 2]), object()),
+)
+
+
+def before_the_gate_opens() -> Assistance:
+    environment = Assistance()
+    environment.reset(seed=1)
+    return environment
+
+
+def after_the_gate_opened() -> Assistance:
+    environment = before_the_gate_opens()
+    opened = False
+    while not opened:
+        *_, facts = environment.step(0)
+        opened = facts["gate_open"]
+    return environment
+
+
+@pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
+@pytest.mark.parametrize("action", NO_ACTIONS, ids=repr)
+def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(
+    at: Callable[[], Assistance], action: Any
+) -> None:
+    environment, undisturbed = at(), at()
+    with pytest.raises(InvalidAction, match=r"^the action must be a whole number from 0 to 3, not "):
+        environment.step(action)
+    # The refusal leaves the game as it was.
+    assert repr(environment.step(0)) == repr(undisturbed.step(0))
+
+
+@pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
+@pytest.mark.parametrize("action", ACTIONS_OF_ANY_TYPE, ids=lambda action: type(action).__name__)
+def test_a_whole_number_of_any_type_is_an_action(at: Callable[[], Assistance], action: Any) -> None:
+    plain = repr(at().step(1))
+    assert repr(at().step(action)) == plain
+
+
+def test_every_action_that_the_action_space_samples_is_taken() -> None:
+    environment = before_the_gate_opens()
+    environment.action_space.seed(1)
+    for _ in range(20):
+        environment.step(environment.action_space.sample())
+
+
+def test_there_is_no_step_and_no_picture_before_the_first_reset() -> None:
+    environment = Assistance(render_mode="ansi")
+    for call in (lambda: environment.step(0), environment.render):
+        with pytest.raises(ResetNeeded, match=r"^no game has been dealt yet: call reset\(\) first$"):
+            call()
+
+
+def test_there_is_no_step_after_the_last_pair_until_the_next_reset() -> None:
+    environment = Assistance(gate=NO_GATE)
+    game(environment, 2, Action.SUG_CARD)
+    for _ in range(2):
+        with pytest.raises(ResetNeeded, match=r"^the game is over: call reset\(\) to deal a new one"):
+            environment.step(0)
+    assert game(environment, 2, Action.SUG_CARD)[-1][4]["flips"] == 24
+
+
+def test_there_is_no_step_after_a_game_that_was_given_up() -> None:
+    environment = Assistance(player=Stubborn())
+    environment.reset(seed=1)
+    truncated = False
+    while not truncated:
+        _, _, over, truncated, _ = environment.step(0)
+        assert not over
+    with pytest.raises(ResetNeeded, match="the game is over"):
+        environment.step(0)
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"render_mode": "human"}, "render_mode must be None or 'ansi', not 'human'"),
+        ({"reward": "paper"}, "reward must be one of .*, not 'paper'"),
+        ({"target": "random"}, "target must be one of .*, not 'random'"),
+    ],
+)
+def test_arguments_that_are_none_are_refused_in_words(given: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(BadInput, match=sentence):
+        Assistance(**given)

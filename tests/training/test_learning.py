@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -199,12 +201,24 @@ def test_where_every_flip_is_a_decision_the_visits_still_count_those_with_a_choi
     assert any(table.row(STATES[0]))
 
 
+def changed(**values: Any) -> Recipe:
+    """The recipe with values of any type."""
+    return replace(RETRIEVING, **values)
+
+
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
         (lambda: replace(RETRIEVING, episodes=-1), "the number of episodes must be 0 to 1,000,000,000, not -1"),
         (lambda: replace(RETRIEVING, seed=-3), "the seed must be 0 or more, not -3"),
         (lambda: replace(RETRIEVING, gamma=1.5), "gamma must be a number from 0 to 1, not 1.5"),
+        (lambda: replace(RETRIEVING, gamma=math.nan), "gamma must be a number from 0 to 1, not nan"),
+        (lambda: changed(episodes=2.5), "the number of episodes must be a whole number, not 2.5"),
+        (lambda: changed(episodes=True), "the number of episodes must be a whole number, not True"),
+        (lambda: changed(seed=1.0), "the seed must be a whole number, not 1.0"),
+        (lambda: changed(reward="paper"), "reward must be one of .*, not 'paper'"),
+        (lambda: changed(decisions="every_flip"), "decisions must be one of .*, not 'every_flip'"),
+        (lambda: changed(averaging=None), "averaging must be one of .*, not None"),
     ],
 )
 def test_an_impossible_recipe_is_refused_in_words(change: Callable[[], Recipe], sentence: str) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from random import Random
+from typing import Any, cast
 
 import pytest
 
@@ -115,6 +116,15 @@ def test_hints_are_followed_as_often_as_the_player_says() -> None:
         (lambda: MemoryPlayer((0.4, 0.2)), "forgetting must be a number from 0.4 to 1, not 0.2"),
         (lambda: MemoryPlayer(follow=2), "follow must be a number from 0 to 1, not 2"),
         (lambda: TextPlayer(2), "forgetting must be a number from 0 to 1, not 2"),
+        (lambda: TextPlayer(math.nan), "forgetting must be a number from 0 to 1, not nan"),
+        (lambda: MemoryPlayer((0.1, math.nan)), "forgetting must be a number from 0.1 to 1, not nan"),
+        (lambda: ChancePlayer(-math.inf), "threshold must be a number from 0 to 1, not -inf"),
+        (lambda: ChancePlayer(follow=cast("Any", "1")), "follow must be a number from 0 to 1, not '1'"),
+        (lambda: ChancePlayer(follow=cast("Any", None)), "follow must be a number from 0 to 1, not None"),
+        (lambda: ChancePlayer(follow=True), "follow must be a number from 0 to 1, not True"),
+        (lambda: TextPlayer(counting=cast("Any", "total")), "counting must be one of .*, not 'total'"),
+        (lambda: MemoryPlayer(cast("Any", 0.2)), "forgetting must be a range of two numbers, .*, not 0.2"),
+        (lambda: MemoryPlayer(cast("Any", (0.2,))), r"forgetting must be a range of two numbers, .*, not \(0.2,\)"),
     ],
 )
 def test_impossible_parameters_are_refused_in_words(make: Callable[[], Player], sentence: str) -> None:

@@ -10,6 +10,7 @@ import math
 import os
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -138,9 +139,19 @@ def test_progress_is_told_how_many_games_are_through() -> None:
 
 
 @pytest.mark.parametrize(
-    ("games", "seed", "sentence"), [(1, 1, "at least 2 games, not 1"), (9, -1, "0 or more, not -1")]
+    ("games", "seed", "sentence"),
+    [
+        (1, 1, "at least 2 games, not 1"),
+        (-4, 1, "at least 2 games, not -4"),
+        (2.5, 1, "the number of games must be a whole number, not 2.5"),
+        (float("nan"), 1, "the number of games must be a whole number, not nan"),
+        ("9", 1, "the number of games must be a whole number, not '9'"),
+        (9, -1, "0 or more, not -1"),
+        (9, 1.0, "the seed must be a whole number, not 1.0"),
+        (9, True, "the seed must be a whole number, not True"),
+    ],
 )
-def test_impossible_numbers_are_refused_in_words(games: int, seed: int, sentence: str) -> None:
+def test_impossible_numbers_are_refused_in_words(games: Any, seed: Any, sentence: str) -> None:
     with pytest.raises(BadInput, match=sentence):
         simulate(QTable.blank(), ChancePlayer(), NOTOM, games, seed)
 
