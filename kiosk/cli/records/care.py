@@ -100,13 +100,37 @@ def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
     click.echo(json.dumps(gone.to_json()) if as_json else f"All of participant {gone.participant} is deleted.")
 
 
+class FolderAndSite(click.ParamType[tuple[Path, str]]):
+    """A data folder and the site it gets: ``A=ROME``."""
+
+    name = "FOLDER=SITE"
+
+    def convert(
+        self, value: str | tuple[Path, str], param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Path, str]:
+        """Read both; the name of a folder may have an equals sign, that of a site has none."""
+        if isinstance(value, tuple):
+            return value
+        folder, equals, site = value.rpartition("=")
+        if not (folder and equals):
+            self.fail(f"{value!r} must be a folder and its site, such as A=ROME", param, ctx)
+        return Path(folder), site
+
+
 @click.command()
 @click.argument("folders", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="A B [C ...]")
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="The new data folder, not there or empty.")
+@click.option(
+    "--site",
+    "sites",
+    multiple=True,
+    type=FolderAndSite(),
+    help="Give all that a folder holds this site, for kiosks that recorded without one; once for each folder.",
+)
 @json_option
-def merge(folders: tuple[Path, ...], out: Path, *, as_json: bool) -> None:
+def merge(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path, str], ...], *, as_json: bool) -> None:
     """Bring the data folders A, B and so on together in a new one; they stay as they are."""
     with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
-        sittings = merging.merge(folders, out, tell)
+        sittings = merging.merge(folders, out, tell, sites)
     told = {"out": str(out), "folders": len(folders), "sittings": sittings}
     click.echo(json.dumps(told) if as_json else f"{sittings} sittings of {len(folders)} folders are in {out}.")

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import os
+import shlex
 import sqlite3
-from collections.abc import Iterator, Sequence
+import subprocess
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
+from itertools import count, permutations
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from kiosk import BadInput
 from kiosk.store.care.backup import Progress
 from kiosk.store.database import in_use, open_for_reading, open_for_writing
-from kiosk.store.people.participants import participant_name
+from kiosk.store.people.participants import checked_site, participant_name
 from kiosk.store.recorder import StoreFailed
 from kiosk.store.rows import insert
 from kiosk.store.whole_folder import whole_folder
@@ -20,19 +24,30 @@ from kiosk.store.whole_folder import whole_folder
 Row = dict[str, Any]
 
 
-def merge(folders: Sequence[Path], out: Path, tell: Progress = lambda _done, _of: None) -> int:
+def merge(
+    folders: Sequence[Path],
+    out: Path,
+    tell: Progress = lambda _done, _of: None,
+    sites: Sequence[tuple[Path, str]] = (),
+) -> int:
     """Bring data folders together in a new one, all of it or nothing; returns how many sittings it has.
 
     Sittings are numbered anew, in the order in which they began, whatever the order of the folders; a participant's
-    number, site and code stay. Raises BadInput if a folder cannot be read or is written in, if one participant or code
-    stands in two of them, or if ``out`` is not empty; StoreFailed if the disk does not take it.
+    number and code stay, and so does the site, unless ``sites`` gives all that a folder holds another one. Raises
+    BadInput if a folder cannot be read or is written in, if one participant or code stands in two of them, or if
+    ``out`` is not empty or lies in one of them; StoreFailed if the disk does not take it.
     """
-    out = out.absolute()
+    asked, out = out, out.resolve()
     _check_folders(folders, out)
+    given = _given_sites(folders, sites)
     with ExitStack() as opened:
-        parts = [_Part(folder, opened.enter_context(closing(open_for_reading(folder)))) for folder in folders]
+        parts = [
+            _Part(folder, opened.enter_context(closing(open_for_reading(folder))), given.get(folder))
+            for folder in folders
+        ]
         _check_at_rest(parts)
-        _check_apart(parts)
+        _check_sites(parts)
+        _check_apart(parts, asked)
         try:
             with whole_folder(out) as unfinished, closing(open_for_writing(unfinished)) as target:
                 target.execute("BEGIN IMMEDIATE")
@@ -43,12 +58,21 @@ def merge(folders: Sequence[Path], out: Path, tell: Progress = lambda _done, _of
     return sittings
 
 
+_Shared = TypeVar("_Shared", bound=Hashable)
+_Who = tuple[str, int, int]
+"""A person of all folders: the site, whether they are simulated, and their number."""
+
+
 @dataclass
 class _Part:
-    """One of the folders, and what its sittings and lists are numbered in the new one."""
+    """One of the folders, and what its sittings and lists are numbered in the new one.
+
+    ``site`` is the one that all of its rows get; None leaves them theirs.
+    """
 
     folder: Path
     connection: sqlite3.Connection
+    site: str | None = None
     sittings: dict[int, int] = field(default_factory=dict)
     lists: dict[int, int] = field(default_factory=dict)
 
@@ -56,14 +80,57 @@ class _Part:
         """Rows of a table by their columns' names."""
         cursor = self.connection.execute(f"SELECT * FROM {table} {where}", values)  # noqa: S608 - the names are ours
         names = [name for name, *_ in cursor.description]
-        return (dict(zip(names, row, strict=True)) for row in cursor)
+        for row in cursor:
+            told = dict(zip(names, row, strict=True))
+            yield told | {"site": self.site} if self.site is not None and "site" in told else told
+
+    @property
+    def sites(self) -> set[str]:
+        """The sites that its rows had when they were written."""
+        tables = ("sitting", "participant", "tombstone", "allocation")
+        query = " UNION ".join(f"SELECT site FROM {table}" for table in tables)  # noqa: S608 - the names are ours
+        return {site for (site,) in self.connection.execute(query)}
+
+    def people(self) -> Iterator[tuple[_Who, str]]:
+        """Everybody who has a number here, with their code; it is empty for those who withdrew."""
+        for row in (*self.rows("participant"), *self.rows("tombstone")):
+            yield (row["site"], row["simulated"], row["number"]), row.get("code", "")
 
 
 def _check_folders(folders: Sequence[Path], out: Path) -> None:
-    if len({folder.resolve() for folder in folders}) < len(folders):
-        raise BadInput("a data folder is named twice; each can be merged once")
+    for number, folder in enumerate(folders):
+        if any(_is_same(folder, other) for other in folders[:number]):
+            raise BadInput("a data folder is named twice; each can be merged once")
+        if any(_is_same(folder, above) for above in (out, *out.parents)):
+            raise BadInput(
+                f"{out} is, or lies in, the data folder {folder}, which is only read; choose a folder elsewhere for "
+                "--out. Nothing was merged"
+            )
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise BadInput(f"{out} is not an empty folder; nothing was merged")
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    """Whether two paths are one folder, also through links or by other capitals where those do not count."""
+    try:
+        return one.samefile(other)
+    except OSError:
+        return one.resolve() == other.resolve()
+
+
+def _given_sites(folders: Sequence[Path], sites: Sequence[tuple[Path, str]]) -> Mapping[Path, str]:
+    """The site that each folder gets, by the folder as it stands among ``folders``."""
+    given: dict[Path, str] = {}
+    for named, site in sites:
+        folder = next((folder for folder in folders if _is_same(folder, named)), None)
+        if folder is None:
+            raise BadInput(f"--site {named}={site}: {named} is not one of the folders to merge")
+        if folder in given:
+            raise BadInput(f"--site names the folder {folder} twice")
+        if not site:
+            raise BadInput(f"--site {named}=: the name of the site is missing, such as in {named}=ROME")
+        given[folder] = checked_site(site)
+    return given
 
 
 def _check_at_rest(parts: Sequence[_Part]) -> None:
@@ -72,23 +139,90 @@ def _check_at_rest(parts: Sequence[_Part]) -> None:
             raise BadInput(f"a kiosk is writing in {part.folder}: close it first, then merge")
 
 
-def _check_apart(parts: Sequence[_Part]) -> None:
-    """Refuse two folders that hold one participant, or one code."""
-    people: dict[tuple[str, int, int], Path] = {}
-    codes: dict[str, Path] = {}
+def _check_sites(parts: Sequence[_Part]) -> None:
+    """Refuse to give one site to a folder that holds several, in which numbers stand more than once."""
     for part in parts:
-        for row in (*part.rows("participant"), *part.rows("tombstone")):
-            who = (row["site"], row["simulated"], row["number"])
-            first = people.setdefault(who, part.folder)
-            if first != part.folder:
-                name = participant_name(row["site"], row["number"])
-                raise BadInput(
-                    f"participant {name} stands in {first} and in {part.folder}; nothing was merged "
-                    "(kiosks whose data will be merged need a --site each)"
-                )
-            first = codes.setdefault(row["code"], part.folder) if "code" in row else part.folder
-            if first != part.folder:
-                raise BadInput(f"the code {row['code']} stands in {first} and in {part.folder}; nothing was merged")
+        if part.site is not None and len(part.sites) > 1:
+            named = ", ".join(site or "one without a name" for site in sorted(part.sites))
+            raise BadInput(f"{part.folder} holds the data of several sites ({named}), so --site cannot name it anew")
+
+
+def _check_apart(parts: Sequence[_Part], out: Path) -> None:
+    """Refuse two folders that hold one participant, or one code; say how kiosks without sites can be merged."""
+    _check_nobody_comes_back(parts)
+    code = _first_shared(parts, lambda part: (code for _, code in part.people() if code))
+    person = _first_shared(parts, lambda part: (who for who, _ in part.people()))
+    copied = "Does one of them hold a copy of the other's data?"
+    if person is not None:
+        (site, _, number), one, other = person
+        raise BadInput(
+            f"participant {participant_name(site, number)} stands in {one.folder} and in {other.folder}; nothing was "
+            f"merged. {_way_out(parts, out) if code is None else copied}"
+        )
+    if code is not None:
+        shared, one, other = code
+        raise BadInput(f"the code {shared} stands in {one.folder} and in {other.folder}; nothing was merged. {copied}")
+
+
+def _first_shared(
+    parts: Sequence[_Part], of: Callable[[_Part], Iterator[_Shared]]
+) -> tuple[_Shared, _Part, _Part] | None:
+    """The first thing that two folders have, and those two."""
+    found: dict[_Shared, _Part] = {}
+    for part in parts:
+        for thing in of(part):
+            first = found.setdefault(thing, part)
+            if first is not part:
+                return thing, first, part
+    return None
+
+
+def _check_nobody_comes_back(parts: Sequence[_Part]) -> None:
+    """Refuse a copy from before a withdrawal, which a site of its own would bring back as another person."""
+    for part, other in permutations(parts, 2):
+        gone, there = (
+            set(each.connection.execute(f"SELECT site, simulated, number FROM {table}"))  # noqa: S608 - ours
+            for each, table in ((part, "tombstone"), (other, "participant"))
+        )
+        # Whoever stands in the copy stands in the original too, unless they withdrew there.
+        if there and there <= gone and _is_copy(part, other):
+            site, _, number = min(there)
+            raise BadInput(
+                f"participant {participant_name(site, number)} withdrew in {part.folder}, but still stands in "
+                f"{other.folder}, which is an older copy of it; nothing was merged"
+            )
+
+
+def _is_copy(part: _Part, other: _Part) -> bool:
+    """Whether one database was copied from the other: both were made in the same microsecond."""
+    made = "SELECT * FROM migration WHERE number = 1"
+    return bool(part.connection.execute(made).fetchone() == other.connection.execute(made).fetchone())
+
+
+def _way_out(parts: Sequence[_Part], out: Path) -> str:
+    """The command that merges kiosks whose participants have the same numbers, if there is one."""
+    named = _named_anew(parts)
+    if named is None:
+        return "Kiosks whose data will be merged need a --site each"
+    sites = [f"--site={folder}={site}" for folder, site in named.items()]
+    command = ["recollect", "merge", *(str(part.folder) for part in parts), f"--out={out}", *sites]
+    written = subprocess.list2cmdline(command) if os.name == "nt" else shlex.join(command)
+    return f"If they are different kiosks, give each a site, such as ROME for KIOSK1: {written}"
+
+
+def _named_anew(parts: Sequence[_Part]) -> dict[Path, str] | None:
+    """Sites for the folders that share a participant with another; None if those do not tell all people apart."""
+    people = {part.folder: {who for who, _ in part.people()} for part in parts}
+    clashing = [
+        part
+        for part in parts
+        if any(people[part.folder] & people[other.folder] for other in parts if other is not part)
+    ]
+    taken = {site for part in parts for site in (*part.sites, part.site)}
+    free = (name for number in count(1) if (name := f"KIOSK{number}") not in taken)
+    named = {part.folder: part.site for part in parts if part.site is not None}
+    named |= {part.folder: next(free) for part in clashing if len(part.sites) == 1}
+    return named if sum(len(part.sites) > 1 for part in clashing) <= 1 else None
 
 
 def _copy(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) -> int:

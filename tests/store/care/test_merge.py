@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
+import shlex
 import shutil
 import sqlite3
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 from kiosk import BadInput
+from kiosk.cli.front import recollect
 from kiosk.store.care import merge as merge_module
 from kiosk.store.care.merge import merge
 from kiosk.store.care.verify import verify
@@ -235,6 +240,167 @@ def test_a_folder_that_is_written_in_is_refused(milan: Path, girona: Path, out: 
     with Recorder(girona), pytest.raises(BadInput, match=r"a kiosk is writing in .*girona: close it first"):
         merge([milan, girona], out)
     assert not out.exists()
+
+
+WHERE_IT_IS_NOT_TO_BE: dict[str, Callable[[Path], Path]] = {
+    "a source itself": lambda source: source,
+    "inside a source": lambda source: source / "all",
+    "deep inside a source": lambda source: source / "new" / "all",
+    "by way of another folder": lambda source: source.parent / "elsewhere" / ".." / source.name / "all",
+    "by a relative path": lambda source: Path(os.path.relpath(source / "all")),
+    "by a link to the source": lambda source: link_to(source) / "all",
+    "by a link into the source": lambda source: link_to(source / "all", made=True),
+}
+
+
+def link_to(folder: Path, *, made: bool = False) -> Path:
+    """A link, beside all data folders, to a folder that is there or is made."""
+    if made:
+        folder.mkdir()
+    link = folder.parents[folder.parts[::-1].index("girona")] / "link"
+    link.symlink_to(folder)
+    return link
+
+
+@pytest.mark.parametrize("where", WHERE_IT_IS_NOT_TO_BE.values(), ids=WHERE_IT_IS_NOT_TO_BE)
+def test_a_folder_within_what_is_merged_is_refused(
+    milan: Path, girona: Path, where: Callable[[Path], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(milan)
+    out = where(girona)
+    before = sorted(girona.rglob("*"))
+    with pytest.raises(BadInput, match=r"is, or lies in, the data folder .*girona, which is only read"):
+        merge([milan, girona], out)
+    assert sorted(girona.rglob("*")) == before
+    assert not list(milan.parent.rglob("*.unfinished"))
+
+
+def test_where_capitals_do_not_count_a_folder_within_what_is_merged_is_refused_by_any_capitals(
+    milan: Path, girona: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows and macOS know by the folder itself whether two names are one."""
+
+    def samefile(one: Path, other: Path) -> bool:
+        return str(one).casefold() == str(other).casefold()
+
+    monkeypatch.setattr(Path, "samefile", samefile)
+    with pytest.raises(BadInput, match="is, or lies in, the data folder"):
+        merge([milan, girona], girona.with_name("Girona") / "all")
+    with pytest.raises(BadInput, match="a data folder is named twice"):
+        merge([milan, girona, girona.with_name("GIRONA")], milan.parent / "all")
+
+
+def test_a_folder_beside_what_is_merged_may_have_a_longer_name(milan: Path, girona: Path) -> None:
+    assert merge([milan, girona], girona.with_name("girona-and-milan")) == 7
+
+
+# Kiosks without a site
+
+
+@pytest.fixture
+def nameless(tmp_path: Path, provenance: Provenance) -> list[Path]:
+    """A day at each of two kiosks to which nobody gave a site; in one of them somebody withdrew."""
+    folders = [tmp_path / "the hall", tmp_path / "the=library"]
+    for seed, folder in enumerate(folders, 3):
+        somebody, *_ = a_day(folder, provenance, seed=seed)
+    withdraw(folder, somebody.code)
+    return folders
+
+
+def test_kiosks_without_a_site_get_one_in_the_merged_folder(nameless: list[Path], out: Path) -> None:
+    before = [(folder / FILE).read_bytes() for folder in nameless]
+    assert merge(nameless, out, sites=list(zip(nameless, ["HALL", "LIB"], strict=True))) == 7
+    hall, library = map(people, nameless)
+    assert people(out) == [("HALL", *row[1:]) for row in hall] + [("LIB", *row[1:]) for row in library]
+    for table in ("sitting", "participant", "allocation", "tombstone"):
+        assert {site for (site,) in rows(out, f"SELECT site FROM {table}")} <= {"HALL", "LIB"}  # noqa: S608
+    assert verify(out) == []
+    assert [(folder / FILE).read_bytes() for folder in nameless] == before
+
+
+def test_the_refusal_names_a_command_that_merges_them(nameless: list[Path], out: Path) -> None:
+    with pytest.raises(
+        BadInput, match=r"participant \d stands in .*hall and in .*library; nothing was merged"
+    ) as refusal:
+        merge(nameless, out)
+    program, *arguments = shlex.split(str(refusal.value).rpartition(": ")[2])
+    assert program == "recollect"
+    done = CliRunner().invoke(recollect, arguments, catch_exceptions=False)
+    assert (done.exit_code, done.stdout) == (0, f"7 sittings of 2 folders are in {out}.\n")
+    assert rows(out, "SELECT DISTINCT site FROM participant ORDER BY 1") == [("KIOSK1",), ("KIOSK2",)]
+
+
+def test_the_refusal_names_only_those_anew_who_clash(nameless: list[Path], girona: Path, out: Path) -> None:
+    with pytest.raises(BadInput, match="stands in") as refusal:
+        merge([girona, *nameless], out)
+    assert "girona=" not in str(refusal.value)
+    done = CliRunner().invoke(recollect, shlex.split(str(refusal.value).rpartition(": ")[2])[1:])
+    assert done.exit_code == 0
+    assert rows(out, "SELECT DISTINCT site FROM participant ORDER BY 1") == [("GI",), ("KIOSK1",), ("KIOSK2",)]
+
+
+def test_two_merged_folders_that_clash_cannot_be_named_anew(
+    milan: Path, girona: Path, out: Path, tmp_path: Path, provenance: Provenance
+) -> None:
+    merge([milan, girona], tmp_path / "first")
+    for seed, site in enumerate(("MI", "GI"), 5):
+        a_day(tmp_path / site, provenance, site, seed=seed)
+    merge([tmp_path / "MI", tmp_path / "GI"], tmp_path / "second")
+    with pytest.raises(BadInput, match="Kiosks whose data will be merged need a --site each"):
+        merge([tmp_path / "first", tmp_path / "second"], out)
+
+
+def test_a_copy_is_not_merged_under_another_site(nameless: list[Path], out: Path, tmp_path: Path) -> None:
+    library = nameless[1]
+    shutil.copytree(library, tmp_path / "copy")
+    for sites in ([], [(library, "LIB"), (tmp_path / "copy", "COPY")]):
+        with pytest.raises(BadInput, match=r"Does one of them hold a copy of the other's data\?$"):
+            merge([library, tmp_path / "copy"], out, sites=sites)
+
+
+def test_a_copy_from_before_a_withdrawal_does_not_bring_anybody_back(
+    out: Path, tmp_path: Path, provenance: Provenance
+) -> None:
+    kiosk, copy = tmp_path / "kiosk", tmp_path / "copy"
+    with Recorder(kiosk) as recorder:
+        person = recorder.begin(replace(provenance, simulated=False), COMPLETED)
+    shutil.copytree(kiosk, copy)
+    withdraw(kiosk, person.code)
+    for sites in ([], [(copy, "COPY")]):
+        with pytest.raises(BadInput, match=r"participant 1 withdrew in .*kiosk, but still stands in .*copy"):
+            merge([copy, kiosk], out, sites=sites)
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("site", "sentence"),
+    [
+        ("elsewhere=ROME", r"elsewhere is not one of the folders to merge"),
+        ("milan=", r"the name of the site is missing"),
+        ("milan=rome", r"a site is named by .*, not 'rome'"),
+    ],
+)
+def test_a_site_that_cannot_be_given_is_refused(milan: Path, out: Path, site: str, sentence: str) -> None:
+    folder, _, name = site.partition("=")
+    with pytest.raises(BadInput, match=sentence):
+        merge([milan], out, sites=[(milan.parent / folder, name)])
+    assert not out.exists()
+
+
+def test_a_folder_gets_one_site_and_one_with_several_gets_none(
+    milan: Path, girona: Path, out: Path, tmp_path: Path
+) -> None:
+    with pytest.raises(BadInput, match=r"--site names the folder .*milan twice"):
+        merge([milan, girona], out, sites=[(milan, "ROME"), (milan, "PISA")])
+    merge([milan, girona], tmp_path / "both")
+    with pytest.raises(BadInput, match=r"both holds the data of several sites \(GI, MI\)"):
+        merge([tmp_path / "both"], out, sites=[(tmp_path / "both", "ROME")])
+
+
+def test_a_site_without_a_folder_is_refused_at_the_command_line(milan: Path, out: Path) -> None:
+    done = CliRunner().invoke(recollect, ["merge", str(milan), "--out", str(out), "--site", "ROME"])
+    assert done.exit_code == 2
+    assert "'ROME' must be a folder and its site, such as A=ROME" in done.output
 
 
 # Failed
