@@ -8,6 +8,8 @@ from pathlib import Path
 
 from kiosk.settings import ASSETS, STAGES, Settings
 from kiosk.study.condition import Condition
+from kiosk.study.declared.checked.alike import ONE_NAME
+from kiosk.study.declared.labels import MISSING, NUMBER, TRUTH
 from kiosk.study.declared.questionnaire import KINDS
 
 KNOWN = {
@@ -409,5 +411,61 @@ STUDIES: dict[str, Bad] = {
         OWN,
         ("the questionnaire {here}/own.toml: likert.points must be at most 11, but it is 12",),
         asked(("[[items]]", "[likert]\npoints = 12\n[[items]]")),
+    ),
+    "items that differ by capitals": Bad(
+        OWN,
+        (f"the questionnaire {{here}}/own.toml: the items 'one' and 'ONE' {ONE_NAME}",),
+        {"own.toml": QUESTIONS + QUESTIONS[QUESTIONS.index("[[items]]") :].replace('"one"', '"ONE"')},
+    ),
+    "items of two that differ by a hyphen": Bad(
+        "questionnaires = ['own.toml', 'other.toml']",
+        (f"the items 'an-item' in {{here}}/own.toml and 'An_Item' in {{here}}/other.toml {ONE_NAME}",),
+        asked(('"one"', '"an-item"')) | {"other.toml": QUESTIONS.replace("own", "other").replace('"one"', '"An_Item"')},
+    ),
+    "questionnaires that differ by a hyphen": Bad(
+        "questionnaires = ['own.toml', 'other.toml']",
+        (f"the questionnaires 'form-a' in {{here}}/own.toml and 'form_a' in {{here}}/other.toml {ONE_NAME}",),
+        asked(('id = "own"', 'id = "form-a"'))
+        | {"other.toml": QUESTIONS.replace('id = "own"', 'id = "form_a"').replace('"one"', '"two"')},
+    ),
+    "scales that differ by capitals": Bad(
+        "questionnaires = ['own.toml', 'other.toml']",
+        (f"the scales 'S' in {{here}}/own.toml and 's' in {{here}}/other.toml {ONE_NAME}",),
+        asked(('kind = "likert"', 'kind = "likert"\nscale = "S"'))
+        | {
+            "other.toml": QUESTIONS.replace("own", "other")
+            .replace('"one"', '"two"')
+            .replace('kind = "likert"', 'kind = "likert"\nscale = "s"')
+        },
+    ),
+    "questionnaire with the name of a device": Bad(
+        OWN,
+        ("the questionnaire {here}/own.toml: id: Windows keeps the name 'Con' for a device; choose another",),
+        asked(('id = "own"', 'id = "Con"')),
+    ),
+    "options that tables turn into something else": Bad(
+        OWN,
+        (
+            f"the questionnaire {{here}}/own.toml: where: the options 'home' and 'Home' {ONE_NAME}",
+            *(
+                f"the questionnaire {{here}}/own.toml: where: the option {option!r} is taken for {misread} by programs "
+                "that read tables; choose another id"
+                for option, misread in (("NA", MISSING), ("MAR1", NUMBER), ("TRUE", TRUTH))
+            ),
+        ),
+        {
+            "own.toml": QUESTIONS
+            + '[[items]]\nid = "where"\nkind = "single"\ntext = { en = "?", it = "?", es = "?" }\noptions = [\n'
+            + "".join(
+                f'{{ id = "{option}", text = {{ en = "o", it = "o", es = "o" }} }},\n'
+                for option in ("home", "Home", "NA", "MAR1", "TRUE")
+            )
+            + "]\n"
+        },
+    ),
+    "purposes that differ by capitals": Bad(
+        TOLD,
+        (f"the information sheets in {{here}}/sheets: the purposes 'store' and 'Store' {ONE_NAME}",),
+        {name: sheet.replace('id = "share"', 'id = "Store"') for name, sheet in SHEETS.items()},
     ),
 }

@@ -20,6 +20,7 @@ from kiosk.study.allocation import places
 from kiosk.study.booth.chords import chords
 from kiosk.study.condition import Condition
 from kiosk.study.declared.checked import naming
+from kiosk.study.declared.checked.alike import unclear_cards, unclear_names, unclear_purposes
 from kiosk.study.declared.information import Information, check_alike
 from kiosk.study.declared.questionnaire import Pictures, Questionnaire
 from kiosk.study.plan import Plan, Study
@@ -71,6 +72,7 @@ class _Look:
     def __init__(self, settings: Settings) -> None:
         """Look at what these name."""
         self._settings = settings
+        self._asked: list[tuple[Path, Questionnaire]] = []
         self.faults: list[str] = []
 
     def at(self, key: str, read: Callable[[], Read]) -> Read | None:
@@ -118,6 +120,9 @@ class _Look:
         read = {each: self.into(partial(Information.of, folder, each)) for each in self._settings.languages}
         sheets = {language: sheet for language, sheet in read.items() if sheet}
         self.into(partial(check_alike, sheets, folder))
+        for sheet in [*sheets.values()][:1]:
+            names = (purpose.id for purpose in sheet.consent.purposes)
+            self.faults += (f"the information sheets in {folder}: {sentence}" for sentence in unclear_purposes(names))
         return sheets
 
     def questionnaires(self) -> tuple[Questionnaire, ...]:
@@ -131,6 +136,7 @@ class _Look:
                 self._blame("questionnaires", f"two of them have the id {one.id!r}")
             elif both:
                 self._blame("questionnaires", f"{one.id!r} and {other.id!r} both have the items {', '.join(both)}")
+        self.faults += unclear_names(self._asked)
         return asked
 
     def _questionnaire(self, key: str, name: str) -> Questionnaire | None:
@@ -141,6 +147,8 @@ class _Look:
             what = f"the questionnaire {file}"
             self.faults += (f"{what} lacks words in {language!r} for {items}" for language, items in unworded if items)
             self.faults += (f"{what}: {sentence}" for sentence in self._unseen(asked))
+        if file and asked:
+            self._asked.append((file, asked))
         return asked
 
     def _unseen(self, asked: Questionnaire) -> Iterator[str]:
@@ -173,6 +181,7 @@ class _Look:
         if folder is None:
             return ()
         cards = tuple(sorted(path.stem for path in folder.glob("*.svg")))
+        self.faults += (f"the deck {folder}: {sentence}" for sentence in unclear_cards(cards))
         pairs = places // CARDS_IN_A_PAIR
         if len(cards) < pairs:
             self._blame(f"{key}.deck", f"{shape} needs {pairs} pictures, but the deck {board.deck!r} has {len(cards)}")
