@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from random import Random
 
 from kiosk import BadInput
+from kiosk.study.declared.labels import read_as
 
 ALPHABET = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
 """Letters and digits without 0 and O, 1, I and L. 31 of them, a prime: so the check character tells every slip."""
@@ -18,6 +19,7 @@ CHANCE_CHARACTERS = 6
 people of a large study a code that is made up belongs to nobody (1 in a million), and two hardly ever fall together
 (1 in 2000 studies), which is seen and mended when it happens."""
 
+_DIGITS_OF_A_YEAR = 4
 _SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)
 
 
@@ -42,10 +44,22 @@ def participant_name(site: str, number: int) -> str:
 
 
 def checked_site(site: str) -> str:
-    """The name of a site as it may stand in numbers and codes; raises BadInput for any other."""
+    """The name of a site as it may stand in numbers, codes and tables; raises BadInput for any other."""
     if not _SITE.fullmatch(site):
         raise BadInput(f"a site is named by up to 8 capital letters and digits, not {site!r}")
+    for label in (site, *([participant_name(site, 1)] if site and not _is_long_number(site) else [])):
+        misread = read_as(label)
+        if misread:
+            raise BadInput(
+                f"{label!r} is taken for {misread} by programs that read tables, so {site!r} cannot name a site; "
+                "choose another name, such as ROME"
+            )
     return site
+
+
+def _is_long_number(site: str) -> bool:
+    """Whether a site is a number that with another one behind it is neither a date nor anything else."""
+    return site.isdigit() and len(site) > _DIGITS_OF_A_YEAR
 
 
 def checked_code(text: str) -> str:

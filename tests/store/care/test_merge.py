@@ -145,7 +145,7 @@ def test_whoever_withdraws_is_found_in_the_merged_folder(milan: Path, girona: Pa
 def test_more_than_two_are_merged_and_one_is_copied(
     milan: Path, girona: Path, out: Path, tmp_path: Path, provenance: Provenance
 ) -> None:
-    a_day(tmp_path / "naples", provenance, "NA", seed=3)
+    a_day(tmp_path / "naples", provenance, "NAP", seed=3)
     assert merge([milan, girona, tmp_path / "naples"], out) == 11
     assert merge([girona], tmp_path / "alone") == 4
     assert people(tmp_path / "alone") == people(girona)
@@ -300,11 +300,11 @@ def test_a_folder_beside_what_is_merged_may_have_a_longer_name(milan: Path, giro
 @pytest.fixture
 def nameless(tmp_path: Path, provenance: Provenance) -> list[Path]:
     """A day at each of two kiosks to which nobody gave a site; in one of them somebody withdrew."""
-    folders = [tmp_path / "the hall", tmp_path / "the=library"]
-    for seed, folder in enumerate(folders, 3):
-        somebody, *_ = a_day(folder, provenance, seed=seed)
-    withdraw(folder, somebody.code)
-    return folders
+    hall, library = tmp_path / "the hall", tmp_path / "the=library"
+    a_day(hall, provenance, seed=3)
+    somebody, *_ = a_day(library, provenance, seed=4)
+    withdraw(library, somebody.code)
+    return [hall, library]
 
 
 def test_kiosks_without_a_site_get_one_in_the_merged_folder(nameless: list[Path], out: Path) -> None:

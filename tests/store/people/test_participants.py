@@ -74,7 +74,7 @@ def test_a_sitting_and_its_person_are_written_together_or_not_at_all(folder: Pat
     assert [person.number for person in entered(folder, provenance, 1)] == [1]
 
 
-@pytest.mark.parametrize("site", ["", "A", "MI", "BCN2", "ABCDEFGH", "12345678"])
+@pytest.mark.parametrize("site", ["", "A", "MI", "BCN2", "ABCDEFGH", "12345678", "NAP", "1A", "MARS1A"])
 def test_a_site_is_named_by_capital_letters_and_digits(folder: Path, provenance: Provenance, site: str) -> None:
     (person,) = entered(folder, provenance, 1, site=site)
     assert person.site == checked_site(site) == site
@@ -86,6 +86,30 @@ def test_a_site_is_named_by_capital_letters_and_digits(folder: Path, provenance:
 @pytest.mark.parametrize("site", ["mi", "ABCDEFGHI", "A B", "A-1", " ", "\u00c9", "\u0661", "A\n"])
 def test_another_name_of_a_site_is_refused_and_nothing_is_made(folder: Path, site: str) -> None:
     with pytest.raises(BadInput, match="a site is named by up to 8 capital letters and digits, not"):
+        Recorder(folder, site)
+    assert not folder.exists()
+
+
+@pytest.mark.parametrize(
+    ("site", "label", "misread"),
+    [
+        ("1E", "1E-1", "a number or a date"),
+        ("1E5", "1E5", "a number or a date"),
+        ("007", "007", "a number or a date"),
+        ("12", "12-1", "a number or a date"),
+        ("MAR", "MAR-1", "a number or a date"),
+        ("MAR1", "MAR1", "a number or a date"),
+        ("INF", "INF", "a number or a date"),
+        ("NA", "NA", "a missing value"),
+        ("NULL", "NULL", "a missing value"),
+        ("TRUE", "TRUE", "true or false"),
+        ("T", "T", "true or false"),
+    ],
+)
+def test_a_site_that_tables_turn_into_something_else_is_refused(
+    folder: Path, site: str, label: str, misread: str
+) -> None:
+    with pytest.raises(BadInput, match=f"^{label!r} is taken for {misread} by programs that read tables, so {site!r} "):
         Recorder(folder, site)
     assert not folder.exists()
 
