@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ from kiosk.cli.options import json_option
 from kiosk.cli.pin import pin
 from kiosk.robot.kinds import robot_of
 from kiosk.settings import Settings
+from kiosk.store.dataset.stored.followed import Followed
+from kiosk.store.dataset.tables.every import renamed_items
 from kiosk.study.declared.checked.cautions import cautions, minutes
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.declared.imported.items import Heading, read_items
@@ -82,8 +85,14 @@ def summarised(read: Study) -> dict[str, Any]:
         "policy": f"{plan.policy.name} {plan.policy.sha256[:8]}",
         "items": {asked.id: _questions(asked) for asked in (plan.about_you, *plan.questionnaires)},
         "minutes": max(round(minutes(plan)) for plan in read.plans),
-        "cautions": list(cautions(read)),
+        "cautions": [*cautions(read), *_renamed(read)],
     }
+
+
+def _renamed(read: Study) -> Iterator[str]:
+    """The items whose columns in a data set are called otherwise."""
+    for item, column in renamed_items(Followed(read.plans)).items():
+        yield f"about_you: the item {item!r} will be the column {column!r}, as the data set's own has that name"
 
 
 def _questions(asked: Questionnaire) -> int:

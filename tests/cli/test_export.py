@@ -55,7 +55,7 @@ def test_every_extra_is_an_option(data: Path, tmp_path: Path) -> None:
 
 def test_names_like_those_of_bids_are_an_option(data: Path, tmp_path: Path) -> None:
     assert run("--data", data, "--out", tmp_path / "out", "--bids").exit_code == 0
-    assert (tmp_path / "out" / "sub-0001" / "beh").is_dir()
+    assert (tmp_path / "out" / "sub-P0001" / "beh").is_dir()
 
 
 def test_a_folder_that_is_not_empty_is_refused(data: Path, tmp_path: Path) -> None:

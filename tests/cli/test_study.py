@@ -252,3 +252,11 @@ def test_a_table_that_cannot_be_brought_in_leaves_everything_as_it_was(
     assert refused.code == 2
     assert said.replace("{here}", str(tmp_path)) in refused.err
     assert files(tmp_path) == before
+
+
+def test_an_item_whose_column_will_be_called_otherwise_is_told(tmp_path: Path, recollect: Recollect) -> None:
+    about = QUESTIONS.replace('"one"', '"Flips"')
+    said = recollect("study", "check", Bad("about_you = 'own'", (), {"own.toml": about}).write(tmp_path), "--json")
+    assert said.code == 0
+    told = "about_you: the item 'Flips' will be the column 'about_you_Flips', as the data set's own has that name"
+    assert told in json.loads(said.out)["cautions"]

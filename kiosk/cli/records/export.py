@@ -37,3 +37,5 @@ def export(data: Path, out: Path, *, bids: bool, as_json: bool, **also: bool) ->
         click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
     if exported.under_way:
         click.echo(f"Left out, as they are still under way: {exported.under_way}.")
+    for caution in exported.cautions:
+        click.echo(f"caution: {caution}")

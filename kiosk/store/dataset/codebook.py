@@ -9,6 +9,14 @@ from typing import Any
 from kiosk.store.dataset.column import Kind, Shape, Variable
 from kiosk.study.events import Event, SessionEvent, WorldEvent
 
+MARKED = (
+    "A text that a spreadsheet, pandas or R would take for a formula, a number, a date, true or false, or a missing "
+    "value has an apostrophe (') before it, and so has a text that itself begins with an apostrophe or a quote. To "
+    "have every text as it was, take one apostrophe away where a cell begins with one. Numbers never have it, nor do "
+    "true and false of the program's own."
+)
+"""How texts stand in cells, and how to undo it; for the readers of every layout."""
+
 CONTEXT = {"@context": "https://schema.org/", "@type": "Dataset"}
 """How schema.org is named, as Psych-DS asks for."""
 
@@ -61,7 +69,8 @@ def markdown(shapes: Iterable[Shape], file_of: dict[str, str]) -> str:
 
 _OPENING = (
     "Every table is a CSV file in UTF-8 with a line of column names. An empty cell means that there is nothing to "
-    "tell; what that says of the participant stands with each column. Where nothing is said of it, no cell is empty."
+    "tell; what that says of the participant stands with each column. Where nothing is said of it, no cell is empty. "
+    + MARKED
 )
 
 

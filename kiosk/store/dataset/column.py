@@ -10,7 +10,10 @@ import json
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum, IntEnum
+from functools import lru_cache
 from typing import Any, Generic, TypeVar
+
+from kiosk.study.declared.labels import fold_name, read_as
 
 Cell = str | int | float | bool | tuple[str, ...] | dict[str, Any] | None
 """What may stand in a cell; None is an empty one."""
@@ -20,6 +23,9 @@ Whole = TypeVar("Whole")
 
 SEPARATOR = ";"
 """Between the names of a cell that holds several."""
+
+MARK = "'"
+"""Stands before a text that a spreadsheet, pandas or R would not leave a text; who takes one away has it as it was."""
 
 
 class Kind(Enum):
@@ -107,20 +113,49 @@ class Table(Generic[Whole, Row]):
             yield [as_text(column.of(row)) for column in self.columns]
 
 
+class Label(str):
+    """A text that is to stay one even where it is a plain number, which comes out of every program as it went in."""
+
+    __slots__ = ()
+
+
 def as_text(cell: Cell) -> str:
     """A cell as it stands in a file: numbers so that they can be read back exactly."""
     match cell:
         case None:
             return ""
         case bool():
-            return "true" if cell else "false"
-        case float():
-            return repr(cell)
-        case tuple():
-            return SEPARATOR.join(cell)
+            return str(cell).lower()
         case dict():
             return json.dumps(cell, ensure_ascii=False)
-    return str(cell)
+        case tuple():
+            return marked(SEPARATOR.join(cell))
+        case str():
+            return MARK + cell if isinstance(cell, Label) and cell.isdigit() else marked(str(cell))
+    return repr(cell)
+
+
+def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
+    """Each name as it can stand beside the others and what is ``taken``: with a number behind it where two are one."""
+    used = {fold_name(name) for name in taken}
+    found: dict[str, str] = {}
+    for name in names:
+        free = (name, *(f"{name}_{number}" for number in range(2, len(used) + 3)))
+        found[name] = next(each for each in free if fold_name(each) not in used)
+        used.add(fold_name(found[name]))
+    return found
+
+
+@lru_cache(maxsize=4096)
+def marked(text: str) -> str:
+    """A text as it stands in a cell: with a mark before it if it would be misread, or begins with a mark or a quote."""
+    # A quote at the beginning makes those who read a file without quotes swallow the cells that follow.
+    return MARK + text if text.startswith((MARK, '"')) or read_as(text) else text
+
+
+def unmarked(cell: str) -> str:
+    """The text that ``marked`` made this cell of."""
+    return cell.removeprefix(MARK)
 
 
 def named(members: type[Enum] | Iterable[Enum], **meanings: str) -> tuple[Level, ...]:

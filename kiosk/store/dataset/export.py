@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from kiosk import BadInput
@@ -19,15 +19,20 @@ from kiosk.store.dataset.tables.flow import Flow, Quantity
 
 @dataclass(frozen=True)
 class Exported:
-    """What was written: how many sittings, and how many were left out for the one reason or the other."""
+    """What was written: how many sittings, and how many were left out for the one reason or the other.
+
+    ``cautions`` say what was not the same for all of them.
+    """
 
     participants: int
     not_shared: int
     under_way: int
+    cautions: tuple[str, ...] = ()
 
-    def to_json(self) -> dict[str, int]:
-        """The same as the command line prints it."""
-        return asdict(self)
+    def to_json(self) -> dict[str, int | list[str]]:
+        """The same as the command line prints it; cautions only where there are any."""
+        told = asdict(self) | {"cautions": list(self.cautions)}
+        return told if self.cautions else {key: value for key, value in told.items() if key != "cautions"}
 
 
 def export(
@@ -57,7 +62,7 @@ def export(
                 if tell is not None:
                     tell(done, wanted)
             writing.finish(tuple(flows.values()))
-        return _exported(flows, data, stored)
+        return replace(_exported(flows, data, stored), cautions=study.cautions)
 
 
 def _add(kept: Kept, writing: Layout, flow: Flow, extras: frozenset[Extra]) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from kiosk import BadInput
 from kiosk.store.whole_folder import whole_folder
+from kiosk.study.declared.labels import fold_name, is_reserved
 
 UNDATED = datetime(1980, 1, 2, tzinfo=UTC).timestamp()
 """What every file says of when it was changed: nothing. No archive format knows an earlier day than this one's eve."""
@@ -29,7 +30,8 @@ class CsvFile:
     def __init__(self, path: Path, names: Sequence[str]) -> None:
         """Begin the file with a line of names."""
         # With line ends of two characters every cell that holds either of them is put in quotes.
-        self._file = path.open("w", encoding="utf-8", errors="backslashreplace", newline="")
+        _check_columns(path, names)
+        self._file = _new(path).open("x", encoding="utf-8", errors="backslashreplace", newline="")
         self._writer = csv.writer(self._file, lineterminator="\r\n")
         self._writer.writerow(names)
 
@@ -47,7 +49,8 @@ class TsvFile:
 
     def __init__(self, path: Path, names: Sequence[str]) -> None:
         """Begin the file with a line of names."""
-        self._file = path.open("w", encoding="utf-8", errors="backslashreplace", newline="\n")
+        _check_columns(path, names)
+        self._file = _new(path).open("x", encoding="utf-8", errors="backslashreplace", newline="\n")
         self.write([names])
 
     def write(self, rows: Iterable[Sequence[str]]) -> None:
@@ -66,9 +69,32 @@ def write_json(path: Path, content: Any) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text, and the folders it lies in."""
+    """Write a text into a new file, and make the folders it lies in."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, "utf-8", errors="backslashreplace", newline="\n")
+    with _new(path).open("x", encoding="utf-8", errors="backslashreplace", newline="\n") as file:
+        file.write(text)
+
+
+def _new(path: Path) -> Path:
+    """The path, if nothing beside it has this name; raises BadInput instead of writing over what is there."""
+    name = fold_name(path.name)
+    beside = next((other.name for other in path.parent.iterdir() if fold_name(other.name) == name), None)
+    if beside is not None or is_reserved(path.name):
+        why = f"{beside!r} is one file with it" if beside else "Windows keeps this name for a device"
+        raise BadInput(f"the data set cannot have a file {path.name!r} in {path.parent.name!r}: {why} on some systems")
+    return path
+
+
+def _check_columns(path: Path, names: Sequence[str]) -> None:
+    """Raise BadInput if two columns of a table are one for programs that do not tell capitals apart."""
+    first: dict[str, str] = {}
+    for name in names:
+        if fold_name(name) in first:
+            other = first[fold_name(name)]
+            raise BadInput(
+                f"the table {path.name!r} cannot have the columns {other!r} and {name!r}, one for many programs"
+            )
+        first[fold_name(name)] = name
 
 
 @contextmanager

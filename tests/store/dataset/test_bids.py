@@ -43,8 +43,8 @@ def test_every_file_has_a_name_that_bids_knows(bids: Path) -> None:
 def test_every_column_of_every_table_is_described_beside_it(bids: Path) -> None:
     beside = {
         "participants.tsv": "participants.json",
-        "sub-0001/beh/sub-0001_task-concentration_beh.tsv": "task-concentration_beh.json",
-        "sub-0001/beh/sub-0001_task-concentration_events.tsv": "task-concentration_events.json",
+        "sub-P0001/beh/sub-P0001_task-concentration_beh.tsv": "task-concentration_beh.json",
+        "sub-P0001/beh/sub-P0001_task-concentration_events.tsv": "task-concentration_events.json",
         "phenotype/about_you.tsv": "phenotype/about_you.json",
         "phenotype/social_intelligence.tsv": "phenotype/social_intelligence.json",
     }
@@ -69,20 +69,20 @@ def test_participants_are_those_of_the_other_form_by_another_name(bids: Path, sm
 
 
 def test_a_row_of_behaviour_is_a_flip_with_its_decision_and_its_hint(bids: Path, small: Path) -> None:
-    hints = [row for row in rows_of(small, "hints") if row["participant_id"] == "0002"]
-    flips = table(bids / "sub-0002" / "beh" / "sub-0002_task-concentration_beh.tsv")
+    hints = [row for row in rows_of(small, "hints") if row["participant_id"] == "P0002"]
+    flips = table(bids / "sub-P0002" / "beh" / "sub-P0002_task-concentration_beh.tsv")
     hinted = [flip for flip in flips if flip["hinted"] == "true"]
     assert [flip["sentence"] for flip in hinted] == [hint["sentence"] for hint in hints if hint["followed"]]
     assert {flip["gate"] for flip in hinted} == {"open"}
-    decided = {row["flip"]: row for row in rows_of(small, "decisions") if row["participant_id"] == "0002"}
+    decided = {row["flip"]: row for row in rows_of(small, "decisions") if row["participant_id"] == "P0002"}
     game = [flip for flip in flips if flip["stage"] == "game"]
     assert [flip["phase"] for flip in game] == [decided[flip["flip"]]["phase"] for flip in game]
     assert all(flip["phase"] == "n/a" for flip in flips if flip["stage"] == "practice")
 
 
 def test_events_come_with_an_onset_in_seconds(bids: Path, small: Path) -> None:
-    events = table(bids / "sub-0001" / "beh" / "sub-0001_task-concentration_events.tsv")
-    others = [row for row in rows_of(small, "events") if row["participant_id"] == "0001"]
+    events = table(bids / "sub-P0001" / "beh" / "sub-P0001_task-concentration_events.tsv")
+    others = [row for row in rows_of(small, "events") if row["participant_id"] == "P0001"]
     assert list(events[0])[:2] == ["onset", "duration"]
     assert [round(1000 * float(event["onset"])) for event in events] == [int(other["at_ms"]) for other in others]
     assert [json.loads(event["fields"]) for event in events] == [json.loads(other["fields"]) for other in others]
@@ -105,7 +105,7 @@ def test_a_site_and_a_rehearsal_do_not_make_two_participants_alike(tmp_path: Pat
     for site, simulated in (("A", False), ("A", True)):
         store(tmp_path / "data", [(visitor(1), 1)], site=site, simulated=simulated)
     export(tmp_path / "data", tmp_path / "out", Bids, frozenset({Extra.REHEARSALS}))
-    assert sorted(path.name for path in (tmp_path / "out").glob("sub-*")) == ["sub-An0001", "sub-Anr0001"]
+    assert sorted(path.name for path in (tmp_path / "out").glob("sub-*")) == ["sub-AnP0001", "sub-Anr0001"]
 
 
 def test_the_validator_itself_finds_no_error(bids: Path) -> None:

@@ -116,11 +116,11 @@ def test_rehearsals_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> No
         export(data, tmp_path / "out", PsychDs)
     store(data, [(visitor(2), 2)])
     export(data, tmp_path / "people", PsychDs)
-    assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["0001"]
+    assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["P0001"]
     assert "simulated" not in rows_of(tmp_path / "people", "participants")[0]
     export(data, tmp_path / "all", PsychDs, frozenset({Extra.REHEARSALS}))
     told = [(row["participant_id"], row["simulated"]) for row in rows_of(tmp_path / "all", "participants")]
-    assert told == [("r0001", "true"), ("0001", "false")]
+    assert told == [("r0001", "true"), ("P0001", "false")]
     assert {row["simulated"] for row in rows_of(tmp_path / "all", "flow")} == {"true", "false"}
     assert issues(tmp_path / "all") == []
 
@@ -129,7 +129,7 @@ def test_a_site_stands_before_the_number(tmp_path: Path) -> None:
     store(tmp_path / "data", [(visitor(1), 1)], site="A")
     export(tmp_path / "data", tmp_path / "out", PsychDs)
     (person,) = rows_of(tmp_path / "out", "participants")
-    assert (person["participant_id"], person["site"]) == ("A-0001", "A")
+    assert (person["participant_id"], person["site"]) == ("A-P0001", "A")
 
 
 def test_a_sitting_that_is_going_on_is_left_out_and_counted(tmp_path: Path) -> None:
@@ -205,7 +205,7 @@ def test_its_files_are_closed_whatever_goes_wrong(few: Path, tmp_path: Path) -> 
             super().close()
             closed.append(self.root)
 
-    with pytest.raises(RuntimeError, match="0001"):
+    with pytest.raises(RuntimeError, match="P0001"):
         export(few, tmp_path / "out", Broken)
     assert len(closed) == 1
     assert list(tmp_path.iterdir()) == []

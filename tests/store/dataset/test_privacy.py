@@ -135,7 +135,7 @@ def test_who_did_not_agree_to_publishing_is_left_out_and_counted(tmp_path: Path)
     store(tmp_path / "data", [(unsharing(1), 1), (visitor(2), 2)])
     told = export(tmp_path / "data", tmp_path / "out", PsychDs)
     assert (told.participants, told.not_shared) == (1, 1)
-    assert [row["participant_id"] for row in rows_of(tmp_path / "out", "participants")] == ["0002"]
+    assert [row["participant_id"] for row in rows_of(tmp_path / "out", "participants")] == ["P0002"]
     flow = {row["quantity"]: row["count"] for row in rows_of(tmp_path / "out", "flow")}
     assert (flow["not_shared"], flow["exported"]) == ("1", "1")
 

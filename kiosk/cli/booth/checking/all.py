@@ -17,7 +17,7 @@ from kiosk.robot.player import player
 from kiosk.robot.probes import robot, sound, voice
 from kiosk.settings import Settings
 from kiosk.store.care.backup import FOLDER
-from kiosk.store.probes import clock, database, disk
+from kiosk.store.probes import clock, database, disk, forms
 from kiosk.study.declared.checked import found
 from kiosk.study.plan import Study
 from kiosk.ui.probes.asked import ask
@@ -100,6 +100,7 @@ def _kept(booth: Booth) -> Iterator[Probe]:
     yield Probe(database.COPY, partial(database.copy, folder, folder / FOLDER, now))
     if booth.settings is not None and booth.study is not None:
         yield Probe(database.LIST, partial(database.allocation, folder, booth.site, booth.settings.allocation))
+        yield Probe(forms.WHAT, partial(forms.forms, folder, booth.study.plans[0]))
     yield Probe(clock.WHAT, partial(clock.clock, folder, now, code_made()))
 
 

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from kiosk import __version__
+from kiosk import BadInput, __version__
 from kiosk.store.dataset import codebook, prose
-from kiosk.store.dataset.column import Kind, Shape, Table, Variable
+from kiosk.store.dataset.column import Kind, Shape, Table, Variable, distinct
 from kiosk.store.dataset.files import TsvFile, write_json, write_text
 from kiosk.store.dataset.layouts.layout import TASK, Contents, Layout
 from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.flow import Flow
 from kiosk.store.dataset.tables.personal import item_variable, told_items
 from kiosk.store.dataset.tables.shared import AT, BOARD, FLIP, PARTICIPANT
-from kiosk.study.declared.questionnaire import Questionnaire
+from kiosk.study.declared.labels import fold_name, is_reserved
 from kiosk.units import MS_PER_SECOND
 
 BIDS_VERSION = "1.10.0"
 
 _JOINED = ("flips", "decisions", "hints")
 """The tables that are one table here: of a flip, what was decided before it, and the hint for it."""
+
+_TOOL = "MeasurementToolMetadata"
+"""What BIDS calls the description of a questionnaire, beside those of its columns."""
 
 _WHEN = {"events": AT}
 """Where the time of a row is told in seconds instead."""
@@ -45,11 +48,13 @@ class Bids(Layout):
         self._joined = tuple(tables.named(name) for name in _JOINED)
         self._participants = TsvFile(root / "participants.tsv", self._people.shape.names)
         (root / "phenotype").mkdir()
-        self._tools = {name: self._tool(asked) for name, asked in contents.study.questionnaires.items()}
+        self._files = distinct_files(contents.study.forms)
+        self._tools = {name: self._tool(name) for name in contents.study.forms}
+        self._labels: set[str] = set()
 
     def add(self, kept: Kept) -> None:
         """Write a participant's own files, and their rows in the tables of all."""
-        label = label_of(kept)
+        label = self._label(kept)
         self._participants.write([label, *row[1:]] for row in self._people.cells(kept))
         folder = self.root / label / "beh"
         folder.mkdir(parents=True)
@@ -63,11 +68,12 @@ class Bids(Layout):
         write_json(root / "participants.json", _described(self._people.shape.variables))
         write_json(root / f"task-{TASK}_beh.json", task | _described(_joined(self._joined)))
         write_json(root / f"task-{TASK}_events.json", task | _described(self._event_variables()))
-        for tool in self._tools.values():
-            about = tool.questionnaire
-            told = {"Description": f"{about.id}, version {about.version}. {' '.join(about.note.split())}"}
-            described = {"MeasurementToolMetadata": told} | _described([PARTICIPANT, *tool.items])
-            write_json(root / "phenotype" / f"{_file_name(about.id)}.json", described)
+        for name, tool in self._tools.items():
+            forms = self.contents.study.forms[name]
+            versions = ", ".join(form.label for form in forms)
+            told = {"Description": f"{name}, version {versions}. {' '.join(forms[0].questionnaire.note.split())}"}
+            described = {_TOOL: told} | _described([PARTICIPANT, *tool.items.values()])
+            write_json(root / "phenotype" / f"{self._files[name]}.json", described)
         write_json(root / "dataset_description.json", self._description())
         write_text(root / "README.md", prose.bids_readme(self.contents.study, self.contents.extras))
         write_text(root / "CHANGES", prose.BIDS_CHANGES)
@@ -91,12 +97,22 @@ class Bids(Layout):
             "GeneratedBy": [{"Name": "Recollect", "Version": __version__}],
         }
 
-    def _tool(self, questionnaire: Questionnaire) -> _Tool:
-        """Begin a questionnaire's table: a row for each participant, a column for each item."""
-        language, extras = self.contents.study.language, self.contents.extras
-        items = tuple(item_variable(item.id, item, language) for item in told_items(questionnaire.items, extras))
-        path = self.root / "phenotype" / f"{_file_name(questionnaire.id)}.tsv"
-        return _Tool(questionnaire, items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items)]))
+    def _label(self, kept: Kept) -> str:
+        """What a participant's folder is called; raises BadInput if that of another is the same for some systems."""
+        label = label_of(kept)
+        if fold_name(label) in self._labels:
+            raise BadInput(f"two participants would have the folder {label!r} where capitals do not count")
+        self._labels.add(fold_name(label))
+        return label
+
+    def _tool(self, name: str) -> _Tool:
+        """Begin a questionnaire's table: a row for each participant, a column for each item of any version."""
+        study = self.contents.study
+        asked = told_items(study.items(name), self.contents.extras)
+        columns = distinct(asked, (PARTICIPANT.name, _TOOL))
+        items = {item: item_variable(columns[item], asked_as, study) for item, asked_as in asked.items()}
+        path = self.root / "phenotype" / f"{self._files[name]}.tsv"
+        return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
 
     def _flips(self, kept: Kept) -> Iterator[list[str]]:
         """The flips, each with what stands of it in the other tables that are joined."""
@@ -119,19 +135,18 @@ class Bids(Layout):
     def _fill_in(self, kept: Kept, label: str) -> None:
         """Write the answers of one participant, a row in each questionnaire that they could be asked."""
         answers: dict[str, dict[str, str]] = {}
-        for row in _named_cells(self._answers, kept):
-            answers.setdefault(row["questionnaire"], {})[row["item"]] = row["value"]
+        for row, cells in zip(self._answers.rows(kept), _named_cells(self._answers, kept), strict=True):
+            answers.setdefault(row.questionnaire.id, {})[row.item.id] = cells["value"]
         for name, given in answers.items():
             tool = self._tools[name]
-            tool.file.write([[label, *(given.get(item.name, "") for item in tool.items)]])
+            tool.file.write([[label, *(given.get(item, "") for item in tool.items)]])
 
 
 @dataclass(frozen=True)
 class _Tool:
-    """A questionnaire with its columns and its file."""
+    """A questionnaire's columns by its items, and its file."""
 
-    questionnaire: Questionnaire
-    items: tuple[Variable, ...]
+    items: Mapping[str, Variable]
     file: TsvFile
 
 
@@ -172,6 +187,12 @@ def _described(variables: Iterable[Variable]) -> dict[str, Any]:
     return told
 
 
-def _file_name(questionnaire: str) -> str:
-    """A name of letters, digits and underscores."""
-    return questionnaire.replace("-", "_")
+def distinct_files(questionnaires: Iterable[str]) -> dict[str, str]:
+    """A name for the file of each questionnaire: letters, digits and underscores, and no two alike for any system."""
+    plain = {each: each.replace("-", "_") for each in questionnaires}
+    allowed = {each: f"questionnaire_{name}" if is_reserved(name) else name for each, name in plain.items()}
+    taken: list[str] = []
+    for each, name in allowed.items():
+        allowed[each] = distinct([name], taken)[name]
+        taken.append(allowed[each])
+    return allowed

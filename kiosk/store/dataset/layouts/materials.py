@@ -42,9 +42,8 @@ _SHOWN = 12
 
 def write_materials(folder: Path, study: Followed) -> None:
     """Write everything once, however many sittings followed it."""
-    for plan in study.plans:
-        for name, content in _materials(plan):
-            write_text(folder / name, content)
+    for name, content in {material for plan in study.plans for material in _materials(plan)}:
+        write_text(folder / name, content)
 
 
 def _materials(plan: Plan) -> Iterator[tuple[str, str]]:

@@ -1,16 +1,54 @@
-"""What the sittings of a data set were asked, over all that they followed: the newest wording of each thing counts."""
+"""What the sittings of a data set were asked, over all that they followed, with everything that changed meanwhile."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeVar
 
 from kiosk.study.declared.information import Purpose
-from kiosk.study.declared.questionnaire import Item, Questionnaire, Rating
+from kiosk.study.declared.questionnaire import Integer as WholeNumber
+from kiosk.study.declared.questionnaire import Item, Multiple, Questionnaire, Rating, Single, TextPage
+from kiosk.study.declared.words import in_language
 from kiosk.study.plan import Plan
 
 _T = TypeVar("_T")
+
+_SHORT = 8
+"""Characters of a hash that tell two contents of one version apart."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A questionnaire as some sittings had it; ``label`` is its version, with a hash if another form has it too."""
+
+    questionnaire: Questionnaire
+    label: str
+
+    @property
+    def name(self) -> str:
+        """What it is called in a description."""
+        return f"version {self.label} of {self.questionnaire.id}"
+
+
+Asked = tuple[tuple[Form, Item], ...]
+"""An item in each form that has it, the newest first."""
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A scale of a questionnaire in each of its forms that has it, the newest first."""
+
+    questionnaire: str
+    name: str
+    forms: tuple[tuple[Form, tuple[Rating, ...]], ...]
+
+    @property
+    def changed(self) -> bool:
+        """Whether its sum does not mean the same in all of them."""
+        return len({_summed(items) for _, items in self.forms}) > 1
 
 
 @dataclass(frozen=True)
@@ -35,32 +73,160 @@ class Followed:
         return tuple(sorted({plan.language for plan in self.plans}, key=lambda code: (code != self.language, code)))
 
     @property
-    def purposes(self) -> dict[str, Purpose]:
-        """What was asked for in consent, by name."""
+    def purposes(self) -> dict[str, tuple[Purpose, ...]]:
+        """What was asked for in consent, by name, in every wording of the first language that has it."""
         # A sheet is in one language; that of the study goes first.
-        sheets = sorted(self.plans, key=lambda plan: plan.language != self.language)
-        return _first((purpose.id, purpose) for plan in sheets for purpose in plan.information.consent.purposes)
+        found: dict[str, tuple[Purpose, ...]] = {}
+        for language in self.languages:
+            sheets = [plan.information for plan in self.plans if plan.language == language]
+            here = _all((purpose.id, purpose) for sheet in sheets for purpose in sheet.consent.purposes)
+            found = here | found
+        return found
+
+    @cached_property
+    def forms(self) -> dict[str, tuple[Form, ...]]:
+        """The questionnaires by name, each in all its forms, the newest first."""
+        asked = _all((each.id, each) for plan in self.plans for each in (plan.about_you, *plan.questionnaires))
+        return {name: _labelled(_changed(contents)) for name, contents in asked.items()}
+
+    def label(self, questionnaire: Questionnaire) -> str:
+        """What the form of a questionnaire that a sitting had is called."""
+        forms = self.forms.get(questionnaire.id, ())
+        same = (form.label for form in forms if _is_same(form.questionnaire, questionnaire))
+        return next(same, questionnaire.version)
 
     @property
-    def about_you(self) -> dict[str, Item]:
-        """The items about the visitor, by name."""
-        return _first((item.id, item) for plan in self.plans for item in plan.about_you.items)
+    def about_you(self) -> dict[str, Asked]:
+        """The items about the visitor, by name, each in all forms of the questionnaires that have it."""
+        names = dict.fromkeys(plan.about_you.id for plan in self.plans)
+        return _all((item.id, (form, item)) for name in names for form, item in self._items(name))
+
+    def without(self, asked: Asked) -> tuple[Form, ...]:
+        """The forms of the same questionnaires in which an item is not asked."""
+        questionnaires = dict.fromkeys(form.questionnaire.id for form, _ in asked)
+        having = [form for form, _ in asked]
+        return tuple(form for name in questionnaires for form in self.forms[name] if form not in having)
+
+    def items(self, questionnaire: str) -> dict[str, Asked]:
+        """The items of a questionnaire, by name, each in all forms that have it; those of the newest come first."""
+        return _all((item.id, (form, item)) for form, item in self._items(questionnaire))
+
+    def _items(self, questionnaire: str) -> Iterator[tuple[Form, Item]]:
+        for form in self.forms[questionnaire]:
+            for item in form.questionnaire.items:
+                yield form, item
 
     @property
-    def questionnaires(self) -> dict[str, Questionnaire]:
-        """The questionnaires, by name."""
-        return _first((each.id, each) for plan in self.plans for each in (plan.about_you, *plan.questionnaires))
-
-    @property
-    def scales(self) -> Iterator[tuple[Questionnaire, str, tuple[Rating, ...]]]:
+    def scales(self) -> Iterator[Scale]:
         """Every scale with its items."""
-        for questionnaire in self.questionnaires.values():
-            for scale, items in questionnaire.scales.items():
-                yield questionnaire, scale, items
+        for name, forms in self.forms.items():
+            found = _all((scale, (form, items)) for form in forms for scale, items in form.questionnaire.scales.items())
+            yield from (Scale(name, scale, of) for scale, of in found.items())
+
+    @property
+    def cautions(self) -> tuple[str, ...]:
+        """A sentence for everything that was not the same for all, so that it is not compared unawares."""
+        return (*self._changed_forms(), *self._changed_sheets())
+
+    def _changed_forms(self) -> Iterator[str]:
+        for name, (newest, *older) in self.forms.items():
+            differ = dict.fromkeys(
+                each for form in older for each in differences(newest.questionnaire, form.questionnaire)
+            )
+            if differ:
+                labels = ", ".join(form.label for form in (newest, *older))
+                yield (
+                    f"the questionnaire {name!r} was asked in {1 + len(older)} versions ({labels}), which differ in "
+                    f"{', '.join(differ)}; the descriptions of the columns say how, and questionnaire_versions says "
+                    "who was asked which"
+                )
+
+    def _changed_sheets(self) -> Iterator[str]:
+        contents = {(plan.language, plan.information.version): set[str]() for plan in self.plans}
+        for plan in self.plans:
+            contents[plan.language, plan.information.version].add(plan.information.sha256)
+        for (language, version), hashes in contents.items():
+            if len(hashes) > 1:
+                yield (
+                    f"the information sheet in {language!r} has {len(hashes)} contents under the version {version!r}, "
+                    "so consent_version does not say which of them a visitor agreed to"
+                )
 
 
-def _first(named: Iterable[tuple[str, _T]]) -> dict[str, _T]:
-    found: dict[str, _T] = {}
+def _all(named: Iterable[tuple[str, _T]]) -> dict[str, tuple[_T, ...]]:
+    """Different things by their names, in their order."""
+    found: dict[str, list[_T]] = {}
     for name, thing in named:
-        found.setdefault(name, thing)
+        things = found.setdefault(name, [])
+        if thing not in things:
+            things.append(thing)
+    return {name: tuple(things) for name, things in found.items()}
+
+
+def _changed(contents: Iterable[Questionnaire]) -> tuple[Questionnaire, ...]:
+    """Those of them that differ in more than a translation."""
+    kept: list[Questionnaire] = []
+    for content in contents:
+        if not any(_is_same(other, content) for other in kept):
+            kept.append(content)
+    return tuple(kept)
+
+
+def _labelled(contents: tuple[Questionnaire, ...]) -> tuple[Form, ...]:
+    versions = Counter(content.version for content in contents)
+
+    def label(content: Questionnaire) -> str:
+        alone = versions[content.version] == 1
+        return content.version if alone else f"{content.version} ({content.sha256[:_SHORT]})"
+
+    return tuple(Form(content, label(content)) for content in contents)
+
+
+def _is_same(one: Questionnaire, other: Questionnaire) -> bool:
+    """Whether two contents are one version, and differ in a translation at most."""
+    return one is other or (one.version == other.version and not differences(one, other))
+
+
+def differences(one: Questionnaire, other: Questionnaire) -> list[str]:
+    """The items and scales in which two contents of a questionnaire differ, in the languages that both have."""
+    both = [{item.id: item for item in each.items} for each in (one, other)]
+    languages = set.intersection(*({code for item in each.items for code in item.text} for each in (one, other)))
+    names = dict.fromkeys((*both[0], *both[1]))
+    found = [name for name in names if _differs(both[0].get(name), both[1].get(name), languages)]
+    scales = [{name: _summed(items) for name, items in each.scales.items()} for each in (one, other)]
+    found += [name for name in dict.fromkeys((*scales[0], *scales[1])) if scales[0].get(name) != scales[1].get(name)]
     return found
+
+
+def _differs(one: Item | None, other: Item | None, languages: Iterable[str]) -> bool:
+    if one is None or other is None:
+        return True
+    return one.kind != other.kind or any(facts(one, code) != facts(other, code) for code in (*languages, ""))
+
+
+def _summed(items: Iterable[Rating]) -> tuple[object, ...]:
+    """What a scale is the sum of."""
+    return tuple((item.id, item.ends, item.reverse) for item in items)
+
+
+def facts(item: Item, language: str) -> str:
+    """What an item asks and what can be answered, in a language; in none of them, what can be answered."""
+    match item:
+        case Single() | Multiple():
+            kind = "one of" if isinstance(item, Single) else "any of"
+            told = (
+                option.id + (f" ({in_language(option.text, language)})" if language else "") for option in item.options
+            )
+            answer = f"{kind} {', '.join(told)}"
+        case WholeNumber():
+            answer = f"a whole number from {item.lowest} to {item.highest}"
+        case _ if isinstance(item, Rating):
+            least, most = item.ends
+            answer = f"{least} to {most}" + (", turned round" if item.reverse else "")
+            _, *ends = (f'"{in_language(words, language)}"' for words in item.texts())
+            answer += f", from {' to '.join(ends)}" if language else ""
+        case TextPage():
+            answer = "a page to read"
+        case _:
+            answer = "a text"
+    return f'"{in_language(item.text, language).strip()}" {answer}' if language else answer

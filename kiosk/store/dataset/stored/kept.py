@@ -62,10 +62,13 @@ class Kept:
 
     @cached_property
     def name(self) -> str:
-        """What the person is called: site and number. Small letters, which no site has, tell rehearsals apart."""
+        """What the person is called: site and number, with a letter that keeps it from being read as a number.
+
+        P stands for participants and r for rehearsals; as small letters are in no site, no two are alike.
+        """
         if self.row["number"] is None:
             return f"sitting-{self.id:0{PADDED}}"
-        number = f"{'r' if self.simulated else ''}{self.row['number']:0{PADDED}}"
+        number = f"{'r' if self.simulated else 'P'}{self.row['number']:0{PADDED}}"
         return f"{self.row['site']}-{number}" if self.row["site"] else number
 
     @cached_property

@@ -13,7 +13,7 @@ from kiosk.store.dataset.tables.asked import SCORES, answers
 from kiosk.store.dataset.tables.flow import Flow, flow
 from kiosk.store.dataset.tables.hints import HINTS
 from kiosk.store.dataset.tables.log import SENTENCES, events
-from kiosk.store.dataset.tables.participants import participants
+from kiosk.store.dataset.tables.participants import participants, renamed
 from kiosk.store.dataset.tables.play import CARDS, DECISIONS, FLIPS
 
 
@@ -36,16 +36,20 @@ class Tables:
 
 def every(study: Followed, extras: frozenset[Extra]) -> Tables:
     """The tables of a study's data set."""
-    others: tuple[Table[Kept, Any], ...] = (
-        FLIPS,
-        HINTS,
-        DECISIONS,
-        CARDS,
-        answers(extras),
-        SCORES,
-        SENTENCES,
-        events(extras),
-    )
-    whole = flow(extras)
-    elsewhere = frozenset(name for shape in (*(table.shape for table in others), whole.shape) for name in shape.names)
-    return Tables((participants(study, extras, elsewhere), *others), whole)
+    others, whole = _others(extras), flow(extras)
+    return Tables((participants(study, extras, _elsewhere(extras)), *others), whole)
+
+
+def renamed_items(study: Followed) -> dict[str, str]:
+    """The items about the visitor whose columns have another name, as it is that of a column of the program's own."""
+    return renamed(study, _elsewhere(frozenset(Extra)))
+
+
+def _others(extras: frozenset[Extra]) -> tuple[Table[Kept, Any], ...]:
+    return FLIPS, HINTS, DECISIONS, CARDS, answers(extras), SCORES, SENTENCES, events(extras)
+
+
+def _elsewhere(extras: frozenset[Extra]) -> frozenset[str]:
+    """The columns of all tables but that of participants."""
+    shapes = (*(table.shape for table in _others(extras)), flow(extras).shape)
+    return frozenset(name for shape in shapes for name in shape.names)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
+from kiosk.store.dataset.column import Cell, Column, Kind, Label, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept
@@ -12,16 +12,17 @@ from kiosk.store.dataset.tables.asked import asked
 from kiosk.store.dataset.tables.flow import last_stage
 from kiosk.store.dataset.tables.measured import MEASURES
 from kiosk.store.dataset.tables.person import Person
-from kiosk.store.dataset.tables.personal import about_you, agreed, scales
+from kiosk.store.dataset.tables.personal import about_you, agreed, scales, told_items
 from kiosk.store.dataset.tables.shared import CONDITION, PARTICIPANT, SIMULATED, columns
 from kiosk.study.allocation import Allotted
+from kiosk.study.declared.labels import fold_name
 from kiosk.study.events import BodyName, PracticeEnd, Stage, Status
 
 
 def participants(study: Followed, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
     """The table of participants for a study; ``elsewhere`` are the columns of other tables, whose names are taken."""
-    before, after = (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_WHAT_IT_FOLLOWED)
-    taken = {column.variable.name for column in (*before, *after)} | elsewhere
+    before, after = _own(study, extras)
+    taken = _taken((*before, *after), elsewhere)
     declared = (*agreed(study, taken), *about_you(study, extras, taken), *scales(study, taken))
     return Table(
         "participants",
@@ -32,13 +33,35 @@ def participants(study: Followed, extras: frozenset[Extra], elsewhere: frozenset
     )
 
 
+def renamed(study: Followed, elsewhere: frozenset[str]) -> dict[str, str]:
+    """The items about the visitor that cannot give their column its name, for it is that of another column."""
+    extras = frozenset(Extra)
+    taken = _taken(tuple(column for part in _own(study, extras) for column in part), elsewhere)
+    # The columns of the consent take their names first.
+    tuple(agreed(study, taken))
+    columns_of = zip(told_items(study.about_you, extras), about_you(study, extras, taken), strict=True)
+    return {item: column.variable.name for item, column in columns_of if item != column.variable.name}
+
+
+_Columns = tuple[Column[Person], ...]
+
+
+def _own(study: Followed, extras: frozenset[Extra]) -> tuple[_Columns, _Columns]:
+    """The columns that every study has, before and after those that it declares itself."""
+    return (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
+
+
+def _taken(own: _Columns, elsewhere: frozenset[str]) -> set[str]:
+    return {fold_name(name) for name in (*elsewhere, *(column.variable.name for column in own))}
+
+
 def _who(extras: frozenset[Extra]) -> tuple[Column[Person], ...]:
     started = Variable("started_at", "When the sitting began, in UTC.", unit="ISO 8601")
     who: list[tuple[Variable, Callable[[Person], Cell]]] = [
         (PARTICIPANT, lambda row: row.kept.name),
         (
             Variable("site", "Where the sitting was, by a short name.", empty="the study has one site"),
-            lambda row: row.kept.row["site"] or None,
+            lambda row: Label(row.kept.row["site"]) or None,
         ),
     ]
     if Extra.REHEARSALS in extras:
@@ -153,27 +176,33 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(
     ),
 )
 
-_WHAT_IT_FOLLOWED: tuple[Column[Person], ...] = columns(
-    (Variable("program_version", "The version of Recollect that recorded it."), lambda row: row.kept.row["version"]),
-    (
-        Variable("program_commit", "The commit of Recollect that recorded it; -dirty if it had been changed."),
-        lambda row: row.kept.row["code_commit"],
-    ),
-    (
-        Variable("policy_sha256", "The hash of the table that chose how much to help."),
-        lambda row: row.kept.row["policy_sha256"],
-    ),
-    (
-        Variable("settings_sha256", "The hash of all settings of the study."),
-        lambda row: row.kept.row["settings_sha256"],
-    ),
-    (
-        Variable(
-            "questionnaire_versions",
-            "Every questionnaire of the sitting with its version, as name=version.",
-            Kind.NAMES,
-            empty="they cannot be read any more",
+
+def _what_it_followed(study: Followed) -> tuple[Column[Person], ...]:
+    return columns(
+        (
+            Variable("program_version", "The version of Recollect that recorded it."),
+            lambda row: row.kept.row["version"],
         ),
-        lambda row: tuple(f"{each.id}={each.version}" for each in asked(row.kept)) or None,
-    ),
-)
+        (
+            Variable("program_commit", "The commit of Recollect that recorded it; -dirty if it had been changed."),
+            lambda row: row.kept.row["code_commit"],
+        ),
+        (
+            Variable("policy_sha256", "The hash of the table that chose how much to help."),
+            lambda row: row.kept.row["policy_sha256"],
+        ),
+        (
+            Variable("settings_sha256", "The hash of all settings of the study."),
+            lambda row: row.kept.row["settings_sha256"],
+        ),
+        (
+            Variable(
+                "questionnaire_versions",
+                "Every questionnaire of the sitting with its version, as name=version; where two contents have one "
+                "version, with the beginning of its hash.",
+                Kind.NAMES,
+                empty="they cannot be read any more",
+            ),
+            lambda row: tuple(f"{each.id}={study.label(each)}" for each in asked(row.kept)) or None,
+        ),
+    )
