@@ -76,12 +76,14 @@ Item {
         onMovementStarted: pane.wanted = null
         Column {
             id: column
-            width: flick.width - (pane.long ? bar.width + Theme.gap : 0)
+            // Never narrower for the bar: a page that became lower by it would need no bar, and so on without end.
+            width: flick.width
         }
         ScrollBar.vertical: ScrollBar {
             id: bar
-            // By itself it stays where it was when its width or the pane's changes.
-            anchors { top: parent?.top; bottom: parent?.bottom; right: parent?.right }
+            // In the margin beside the pane, out of the flickable, which cuts off what reaches beyond it.
+            parent: pane
+            anchors { top: flick.top; bottom: flick.bottom; left: flick.right; leftMargin: 0.5 * Theme.gap }
             policy: pane.long ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
             width: 18 * Theme.unit
             padding: 2 * Theme.unit
