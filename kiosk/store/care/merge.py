@@ -149,7 +149,7 @@ def _check_sites(parts: Sequence[_Part]) -> None:
 
 def _check_apart(parts: Sequence[_Part], out: Path) -> None:
     """Refuse two folders that hold one participant, or one code; say how kiosks without sites can be merged."""
-    _check_nobody_comes_back(parts)
+    _check_no_older_copies(parts)
     code = _first_shared(parts, lambda part: (code for _, code in part.people() if code))
     person = _first_shared(parts, lambda part: (who for who, _ in part.people()))
     copied = "Does one of them hold a copy of the other's data?"
@@ -177,14 +177,14 @@ def _first_shared(
     return None
 
 
-def _check_nobody_comes_back(parts: Sequence[_Part]) -> None:
+def _check_no_older_copies(parts: Sequence[_Part]) -> None:
     """Refuse a copy from before a withdrawal, which a site of its own would bring back as another person."""
     for part, other in permutations(parts, 2):
         gone, there = (
             set(each.connection.execute(f"SELECT site, simulated, number FROM {table}"))  # noqa: S608 - ours
             for each, table in ((part, "tombstone"), (other, "participant"))
         )
-        # Whoever stands in the copy stands in the original too, unless they withdrew there.
+        # All people of an older copy stand in the original too, unless they withdrew there.
         if there and there <= gone and _is_copy(part, other):
             site, _, number = min(there)
             raise BadInput(

@@ -25,7 +25,7 @@ SEPARATOR = ";"
 """Between the names of a cell that holds several."""
 
 MARK = "'"
-"""Stands before a text that a spreadsheet, pandas or R would not leave a text; who takes one away has it as it was."""
+"""Stands before a text that a spreadsheet, pandas or R would not read as text; removing one restores the text."""
 
 
 class Kind(Enum):
@@ -132,7 +132,7 @@ def as_text(cell: Cell) -> str:
             return marked(SEPARATOR.join(cell))
         case str():
             return MARK + cell if isinstance(cell, Label) and cell.isdigit() else marked(str(cell))
-    return repr(cell)
+    return str(cell)
 
 
 def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:

@@ -299,11 +299,11 @@ def test_a_folder_beside_what_is_merged_may_have_a_longer_name(milan: Path, giro
 
 @pytest.fixture
 def nameless(tmp_path: Path, provenance: Provenance) -> list[Path]:
-    """A day at each of two kiosks to which nobody gave a site; in one of them somebody withdrew."""
+    """A day at each of two kiosks without a site; at one of them a participant withdrew."""
     hall, library = tmp_path / "the hall", tmp_path / "the=library"
     a_day(hall, provenance, seed=3)
-    somebody, *_ = a_day(library, provenance, seed=4)
-    withdraw(library, somebody.code)
+    participant, *_ = a_day(library, provenance, seed=4)
+    withdraw(library, participant.code)
     return [hall, library]
 
 

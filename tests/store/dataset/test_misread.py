@@ -1,4 +1,4 @@
-"""What people type and labs choose is a text for whoever opens the tables, and can be had back as it was."""
+"""What people type and labs choose is read as text from the tables and can be restored."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ ANSWERS |= {"Q1": 1, "q1": 2, "T-1": 3, "T_1": 4}
 
 
 def answered(about_you: Questionnaire, *after: Questionnaire, seed: int = 1, given: dict[str, int] = ANSWERS) -> Driver:
-    """Somebody who answered all of it, as a kiosk before these names were refused would have recorded it."""
+    """A participant who answered all of it, as a kiosk before these names were refused would have recorded it."""
     driver = Driver(replace(study_plan(), about_you=about_you, questionnaires=after), seed)
     for stage in (Stage.ABOUT_YOU, Stage.QUESTIONS):
         driver.to(stage)
@@ -58,7 +58,7 @@ def answered(about_you: Questionnaire, *after: Questionnaire, seed: int = 1, giv
 
 @pytest.fixture(scope="module")
 def clashing(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of somebody who was asked under names that clash in every way."""
+    """The data folder of a participant who was asked under names that clash in every way."""
     folder = tmp_path_factory.mktemp("clashing") / "data"
     about = questionnaire("con", number("x1"))
     store(folder, [(answered(ABOUT, AFTER, questionnaire("about-you-2", number("x2")), about), 1)])

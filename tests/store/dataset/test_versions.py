@@ -1,4 +1,4 @@
-"""A form that changed while a study ran is described in all its versions, and whoever exports hears of it."""
+"""A form that changed while a study ran is described in all its versions, and the export says so."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def test_the_layout_of_bids_has_the_items_of_all_versions(changed: Path, tmp_pat
     assert about.keys() - {"MeasurementToolMetadata"} == set(head)
 
 
-def test_whoever_exports_hears_of_it(changed: Path, tmp_path: Path) -> None:
+def test_the_export_says_that_a_form_changed(changed: Path, tmp_path: Path) -> None:
     done = CliRunner().invoke(recollect, ["export", "--data", str(changed), "--out", str(tmp_path / "out")])
     (caution,) = [line for line in done.output.splitlines() if line.startswith("caution: ")]
     assert "'about-you' was asked in 2 versions (2, 1), which differ in coffee, first, second, gone, L;" in caution

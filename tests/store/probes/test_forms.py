@@ -18,8 +18,8 @@ PLAN = replace(study_plan(), about_you=questionnaire("about-you", likert("first"
 CHANGED = questionnaire("about-you", likert("first", scale="L", points=7), likert("second"))
 
 
-def somebody(folder: Path, *, simulated: bool = False) -> None:
-    """Store what somebody answered."""
+def store_answers(folder: Path, *, simulated: bool = False) -> None:
+    """Store the answers of one participant."""
     driver = Driver(PLAN, 1)
     driver.to(Stage.ABOUT_YOU)
     answer_all(driver, Random(1))
@@ -28,12 +28,12 @@ def somebody(folder: Path, *, simulated: bool = False) -> None:
 
 
 def test_a_study_that_is_as_it_was_is_well(tmp_path: Path) -> None:
-    somebody(tmp_path)
+    store_answers(tmp_path)
     assert [finding.state for finding in forms(tmp_path, PLAN)] == [State.GOOD]
 
 
 def test_a_form_that_changed_under_its_version_is_told(tmp_path: Path) -> None:
-    somebody(tmp_path)
+    store_answers(tmp_path)
     (finding,) = forms(tmp_path, replace(PLAN, about_you=CHANGED))
     assert finding.state is State.WARNING
     assert (
@@ -44,7 +44,7 @@ def test_a_form_that_changed_under_its_version_is_told(tmp_path: Path) -> None:
 
 
 def test_what_was_only_rehearsed_may_change(tmp_path: Path) -> None:
-    somebody(tmp_path, simulated=True)
+    store_answers(tmp_path, simulated=True)
     assert [finding.state for finding in forms(tmp_path, replace(PLAN, about_you=CHANGED))] == [State.GOOD]
 
 
