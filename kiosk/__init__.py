@@ -5,7 +5,10 @@ analysis (which never meet), and cli, the front door; keeping stands beside them
 ``tests/test_walls.py`` holds the walls.
 """
 
+import errno
+import shutil
 import sys
+from pathlib import Path
 
 __version__ = "0.1.0"
 
@@ -25,6 +28,33 @@ class BadInput(Exception):
     def __str__(self) -> str:
         """The sentences, one per line."""
         return "\n".join(self.sentences)
+
+
+class StoreFailed(Exception):
+    """The disk did not take what happened; nothing of it was written. The message is for the experimenter.
+
+    At the command line it becomes one line and exit code 1, as the same command may succeed later.
+    """
+
+
+DISK_FULL = "disk full"
+
+NEARLY_NOTHING = 1024 * 1024
+"""Bytes; where less is left, programs fail in ways that do not name the full disk as their reason."""
+
+
+def is_nearly_full(folder: Path) -> bool:
+    """Return whether the disk of a folder, which need not be there yet, has almost no room left."""
+    there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
+    try:
+        return shutil.disk_usage(there).free < NEARLY_NOTHING
+    except OSError:
+        return False
+
+
+def why(error: OSError) -> str:
+    """Say in words why the system refused; a full disk has one name, whatever the system calls it."""
+    return DISK_FULL if error.errno in {errno.ENOSPC, errno.EDQUOT} else error.strerror or str(error)
 
 
 def program(*arguments: str) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from kiosk import why
 from kiosk.keeping.child import Child
 from kiosk.keeping.notice import BEAT_WITHIN, Notice, Notifier
 from kiosk.keeping.watch import Patience, Watch
@@ -108,7 +109,7 @@ class Keeper:
         try:
             kiosk = Child(self._kiosk, {BEAT_WITHIN: str(int(self._patience.silence * US_PER_S))})
         except OSError as error:
-            self._lose(What.DIED, f"it could not be started: {error.strerror}", young=True)
+            self._lose(What.DIED, f"it could not be started: {why(error)}", young=True)
             return None
         watch = Watch(kiosk, self._patience)
         taken = 0

@@ -10,6 +10,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from kiosk import BadInput
+from kiosk.store.connecting import Connection, failure, for_reading, for_writing, in_memory, primary_code, reason
 from kiosk.store.migrations import MIGRATIONS, SCHEMA
 
 FILE = "recollect.db"
@@ -29,7 +30,8 @@ PRIMARY_CODE = 0xFF
 def lock(folder: Path) -> FileLock:
     """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
 
-    It comes before the database is opened: a newer program must not migrate it under a kiosk that runs.
+    It comes before the database is opened: a newer program must not migrate it under a kiosk that runs. Raises
+    StoreFailed on a full disk.
     """
     held = FileLock(folder / LOCK)
     try:
@@ -39,7 +41,7 @@ def lock(folder: Path) -> FileLock:
     except Timeout as error:
         raise BadInput(f"another Recollect is writing in {folder}") from error
     except OSError as error:
-        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+        raise failure(f"the data folder {folder} cannot be used", error, folder) from error
     return held
 
 
@@ -57,39 +59,41 @@ def in_use(folder: Path) -> bool:
         return False
 
 
-def open_for_writing(folder: Path) -> sqlite3.Connection:
+def open_for_writing(folder: Path) -> Connection:
     """Open the database of a data folder, made or migrated as needed.
 
     Every transaction is on the disk when it is committed (WAL, synchronous FULL). Raises BadInput, and leaves the
-    file as it is, if it is foreign, newer or unreadable.
+    file as it is, if it is foreign, newer or unreadable; StoreFailed if the disk does not take it, as when it is full.
     """
     path = folder / FILE
     try:
         _make(folder)
-        _refuse_foreign_or_newer(path)
-        connection = sqlite3.connect(path, isolation_level=None)
+        if path.exists():
+            if not path.is_file():
+                raise BadInput(f"the database {path} cannot be used: it is not a file")
+            _ours(path).close()
+        connection = for_writing(path)
         try:
             _prepare(connection)
         except BaseException:
             connection.close()
             raise
     except OSError as error:
-        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+        raise failure(f"the data folder {folder} cannot be used", error, folder) from error
     except sqlite3.Error as error:
-        raise BadInput(f"the database {path} cannot be used: {error}") from error
+        raise failure(f"the database {path} cannot be used", error, folder) from error
     return connection
 
 
-def open_for_reading(folder: Path, *, briefly: bool = False) -> sqlite3.Connection:
+def open_for_reading(folder: Path) -> Connection:
     """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done.
 
-    Of an older one a copy in memory is opened, which has taken the steps that it lacks. Whoever looks only ``briefly``
-    leaves no file beside one that nobody writes, but does not see a writer who comes meanwhile.
+    Of an older one a copy in memory is opened, which has taken the steps that it lacks.
     """
-    connection = open_as_it_is(folder, briefly=briefly)
+    connection = open_as_it_is(folder)
     if connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA:
         return connection
-    copy = sqlite3.connect(":memory:", isolation_level=None)
+    copy = in_memory()
     try:
         with closing(connection):
             connection.backup(copy)
@@ -97,28 +101,30 @@ def open_for_reading(folder: Path, *, briefly: bool = False) -> sqlite3.Connecti
         copy.execute("PRAGMA query_only = ON")
     except sqlite3.Error as error:
         copy.close()
-        raise BadInput(f"the database {folder / FILE} cannot be read: {error}") from error
+        raise unreadable(error, folder) from error
     return copy
 
 
-def open_as_it_is(folder: Path, *, briefly: bool = False) -> sqlite3.Connection:
+def open_as_it_is(folder: Path) -> Connection:
     """The same, but an older one is opened as it was written."""
     path = folder / FILE
     if not path.is_file():
         raise BadInput(f"there is no database in {folder}")
     try:
-        _refuse_foreign_or_newer(path)
-        connection = _read_only(path, briefly=briefly)
+        connection = _ours(path)
         try:
             connection.execute("SELECT 1 FROM migration")
-        except sqlite3.Error:
+        except BaseException:
             connection.close()
             raise
-    except OSError as error:
-        raise BadInput(f"the database {path} cannot be read: {error.strerror}") from error
-    except sqlite3.Error as error:
-        raise BadInput(f"the database {path} cannot be read: {error}") from error
+    except (OSError, sqlite3.Error) as error:
+        raise unreadable(error, folder) from error
     return connection
+
+
+def unreadable(error: OSError | sqlite3.Error, folder: Path) -> BadInput:
+    """Return what to raise when the database of a folder cannot be read."""
+    return BadInput(f"the database {folder / FILE} cannot be read: {reason(error, folder)}")
 
 
 def _make(folder: Path) -> None:
@@ -126,14 +132,6 @@ def _make(folder: Path) -> None:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except FileExistsError as error:
         raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
-
-
-def _read_only(path: Path, *, briefly: bool) -> sqlite3.Connection:
-    # Where no log lies beside it nobody writes, and SQLite would make one and leave it: as a file of whoever looks,
-    # which another user's kiosk could not open.
-    logged = any(path.with_name(f"{path.name}-{log}").exists() for log in ("wal", "journal"))
-    how = "mode=ro&immutable=1" if briefly and not logged else "mode=ro"
-    return sqlite3.connect(f"{path.resolve().as_uri()}?{how}", uri=True, isolation_level=None)
 
 
 def _prepare(connection: sqlite3.Connection) -> None:
@@ -150,27 +148,33 @@ def durable(connection: sqlite3.Connection) -> None:
     connection.execute("PRAGMA synchronous = FULL")
 
 
-def _refuse_foreign_or_newer(path: Path) -> None:
-    """Look at the header alone: even opening a database can change it, or the files beside it."""
-    if not path.exists() or path.stat().st_size == 0:
-        return
-    # Never read it as a file: whoever closes one loses all locks that this process has on it, also those of SQLite,
-    # and the next program that looks into the database takes away the log under the kiosk's hands.
+def _ours(path: Path) -> Connection:
+    """Connect to a database for reading; raises BadInput, and leaves it as it is, if it is foreign or newer."""
     try:
-        with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)) as connection:
-            application = connection.execute("PRAGMA application_id").fetchone()[0]
-            schema = connection.execute("PRAGMA user_version").fetchone()[0]
-    except sqlite3.DatabaseError as error:
-        if error.sqlite_errorcode != sqlite3.SQLITE_NOTADB:
+        connection = for_reading(path)
+        try:
+            _refuse_foreign_or_newer(connection, path)
+        except BaseException:
+            connection.close()
             raise
-        application, schema = 0, 0
-    if application != APPLICATION_ID:
-        raise BadInput(f"{path} is not a Recollect database; it was left as it is")
-    _refuse_newer(schema, path)
-    if path.with_name(f"{path.name}-wal").exists():
-        # A newer number may still stand in the write-ahead log alone; only a connection that may write would move it.
-        with closing(_read_only(path, briefly=True)) as connection:
-            _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
+    except sqlite3.DatabaseError as error:
+        if primary_code(error) != sqlite3.SQLITE_NOTADB:
+            raise
+        raise _foreign(path) from error
+    return connection
+
+
+def _refuse_foreign_or_newer(connection: Connection, path: Path) -> None:
+    # One without a page is neither: its making was cut off, or has not begun.
+    if connection.execute("PRAGMA page_count").fetchone()[0] == 0:
+        return
+    if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION_ID:
+        raise _foreign(path)
+    _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
+
+
+def _foreign(path: Path) -> BadInput:
+    return BadInput(f"{path} is not a Recollect database; it was left as it is")
 
 
 def _refuse_newer(schema: int, path: Path) -> None:

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from kiosk import BadInput
-from kiosk.store.database import open_for_reading
+from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.people.counting import Counts, counts
 from kiosk.store.people.lists import Lists
 from kiosk.store.people.participants import participant_name
@@ -99,11 +98,11 @@ def wrong_pins(folder: Path) -> Wrong:
 
 @contextmanager
 def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
-    with closing(open_for_reading(folder, briefly=True)) as connection:
+    with closing(open_for_reading(folder)) as connection:
         try:
             yield connection
         except sqlite3.Error as error:
-            raise BadInput(f"the database in {folder} cannot be read: {error}") from error
+            raise unreadable(error, folder) from error
 
 
 def _seen(connection: sqlite3.Connection, *, simulated: bool) -> Iterator[Seen]:

@@ -224,6 +224,20 @@ MIGRATIONS: tuple[Migration, ...] = (
             """,
         ),
     ),
+    Migration(
+        3,
+        "withdrawals that are not finished",
+        (
+            # A row comes with its tombstone, and goes when no file of the folder holds the participant any more.
+            # The hash tells whether the code that is given again is theirs; the code itself has gone.
+            """
+            CREATE TABLE unfinished_withdrawal (
+                sitting INTEGER PRIMARY KEY REFERENCES tombstone (sitting),
+                code_sha256 TEXT NOT NULL
+            ) STRICT
+            """,
+        ),
+    ),
 )
 
 SCHEMA = MIGRATIONS[-1].number

@@ -16,7 +16,7 @@ from kiosk import BadInput
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
 from kiosk.settings import Settings
-from kiosk.store.database import in_use, open_for_reading
+from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.people.counting import Counts, counts
 from kiosk.store.people.participants import participant_of
 from kiosk.study.after.measures import Measures, measure
@@ -182,7 +182,7 @@ def archive(folder: Path) -> Iterator[Archive]:
         try:
             yield Archive(sqlite_utils.Database(connection), in_use=in_use(folder))
         except sqlite3.DatabaseError as error:
-            raise BadInput(f"the database in {folder} cannot be read: {error}") from error
+            raise unreadable(error, folder) from error
 
 
 def _stage(events: list[Event]) -> Stage | None:

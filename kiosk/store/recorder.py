@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -13,7 +14,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from kiosk import BadInput, __version__
+from kiosk import BadInput, StoreFailed, __version__
+from kiosk.store.care.withdraw import finish_cut_off
+from kiosk.store.connecting import failure, reason
 from kiosk.store.database import BUSY, PRIMARY_CODE, lock, open_for_writing
 from kiosk.store.people.lists import Lists, check_not_given_out_again
 from kiosk.store.people.participants import Participant, checked_site, enrol, participant_of
@@ -25,8 +28,7 @@ from kiosk.study.events import Event, Unstored
 from kiosk.study.plan import Plan
 
 
-class StoreFailed(Exception):
-    """The disk did not take what happened; nothing of it was written. The message is for the experimenter."""
+_log = logging.getLogger(__name__)
 
 
 class StoreBusy(StoreFailed):
@@ -55,8 +57,9 @@ class Recorder:
     """Writes one data folder; a second one on the same folder is refused in words."""
 
     def __init__(self, folder: Path, site: str = "", *, wait_ms: int = 0) -> None:
-        """Open the folder's database, and mark the sittings that a crash cut off; raises BadInput if it cannot.
+        """Open the folder's database, and mark the sittings and finish the withdrawals that a crash cut off.
 
+        Raises BadInput if the folder cannot be used, StoreFailed if the disk does not take it, as when it is full.
         ``site`` stands before the participants' numbers and codes, where data of several places will be merged. Once
         it is open, every method that writes waits ``wait_ms`` for another program that holds the database, and then
         raises StoreBusy. With 0 the caller never waits and can try again.
@@ -69,6 +72,7 @@ class Recorder:
         self.begun = 0
         """How many sittings were begun with this recorder."""
         try:
+            self._finish_withdrawals()
             self._connection = open_for_writing(folder)
         except BaseException:
             self._lock.release()
@@ -80,7 +84,10 @@ class Recorder:
                 self.recovered = mark_interrupted(self._connection)
         except StoreFailed as error:
             self._close()
-            raise BadInput(f"the data folder {folder} cannot be written: {error.__cause__}") from error
+            cause = error.__cause__
+            if not isinstance(cause, sqlite3.Error):
+                raise
+            raise failure(f"the data folder {folder} cannot be written", cause, folder) from cause
 
     def __enter__(self) -> Self:
         """The recorder itself."""
@@ -179,6 +186,13 @@ class Recorder:
         with self._transaction():
             insert(self._connection, "booth_event", row)
 
+    def _finish_withdrawals(self) -> None:
+        try:
+            finish_cut_off(self.folder)
+        except StoreFailed as failure:
+            # Visitors can come all the same; it is tried again at the next start, and ``verify`` tells of it.
+            _log.error("%s", failure)
+
     def _lists(self, *, simulated: bool) -> Lists:
         return Lists(self._connection, self._site, simulated=simulated)
 
@@ -198,7 +212,7 @@ class Recorder:
         except sqlite3.Error as error:
             if getattr(error, "sqlite_errorcode", 0) & PRIMARY_CODE in BUSY:
                 raise StoreBusy(f"another program holds the database: {error}") from error
-            raise StoreFailed(f"what happened could not be written: {error}") from error
+            raise StoreFailed(f"what happened could not be written: {reason(error, self.folder)}") from error
         finally:
             # Whatever went wrong, nothing of it stays; a full disk has already ended the transaction by itself.
             if self._connection.in_transaction:

@@ -12,8 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
+from kiosk import StoreFailed
 from kiosk.robot.bodies import Bodies
-from kiosk.store.recorder import Provenance, Recorder, StoreBusy, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.study import commands as do
 from kiosk.study import events as happened
 from kiosk.study.commands import Command

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from kiosk import BadInput
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk import BadInput, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.allocation import Allotted, Place
 from kiosk.study.booth.notes import Note
 from kiosk.study.condition import Condition

@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.cli.front import recollect
 from kiosk.store.care import withdraw as withdrawing
 from kiosk.store.care.backup import FOLDER, backups
 from kiosk.store.database import FILE
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 from tests.store.visitors import BEGUN, a_day, rows
 

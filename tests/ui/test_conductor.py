@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import pytest
 from PySide6.QtCore import Qt
 
+from kiosk import StoreFailed
 from kiosk.game import Position
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study import events as happened
 from kiosk.study.events import Event, Status
 from kiosk.ui.conductor import PAUSE_MS

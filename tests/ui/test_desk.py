@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.settings import Settings
-from kiosk.store.recorder import Recorder, StoreFailed
+from kiosk.store.recorder import Recorder
 from kiosk.study.allocation import Allotted, Place
 from kiosk.study.condition import Condition
 from kiosk.study.declared.checked.whole import read_study

@@ -13,6 +13,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
+from kiosk import StoreFailed
 from kiosk.cli.options import data_option, json_option
 from kiosk.cli.progress import progress_bar
 from kiosk.store.care import backup as copies
@@ -20,7 +21,6 @@ from kiosk.store.care import merge as merging
 from kiosk.store.care import verify as checking
 from kiosk.store.care import withdraw as withdrawing
 from kiosk.store.care.verify import Check, Flaw
-from kiosk.store.recorder import StoreFailed
 
 SOMETHING_WRONG = 1
 """The exit code when something is found, or the disk fails."""

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
+from kiosk.store.connecting import failure, for_writing, reason
 from kiosk.store.database import open_as_it_is
-from kiosk.store.recorder import StoreFailed
 
 FOLDER = "backups"
 """Where copies are kept in a data folder, unless told otherwise."""
@@ -30,11 +30,17 @@ Progress = Callable[[int, int], None]
 """Is told how much is done, of how much."""
 
 
-def back_up(folder: Path, into: Path, keep: int = KEPT, tell: Progress = lambda _done, _of: None) -> Path:
+def back_up(
+    folder: Path,
+    into: Path,
+    keep: int = KEPT,
+    tell: Progress = lambda _done, _of: None,
+    amend: Callable[[sqlite3.Connection], None] = lambda _copy: None,
+) -> Path:
     """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
-    Raises BadInput if there is nothing to copy or no place for it, StoreFailed if the copy could not be written whole;
+    ``amend`` may change the copy before it is checked. Raises BadInput if there is nothing to copy or no place for it, StoreFailed if the copy could not be written whole;
     older copies are then as they were.
     """
     if keep < 1:
@@ -42,12 +48,12 @@ def back_up(folder: Path, into: Path, keep: int = KEPT, tell: Progress = lambda 
     with closing(open_as_it_is(folder)) as source, _alone(into):
         unfinished = into / f"{_name()}{_UNFINISHED}"
         try:
-            _copy(source, unfinished, tell)
+            _copy(source, unfinished, tell, amend)
             copy = unfinished.replace(unfinished.with_suffix(""))
             _sync(into)
             _remove_older(into, copy, keep)
         except (OSError, sqlite3.Error) as error:
-            raise StoreFailed(f"the copy in {into} could not be written: {error}") from error
+            raise StoreFailed(f"the copy in {into} could not be written: {reason(error, into)}") from error
         finally:
             unfinished.unlink(missing_ok=True)
     return copy
@@ -56,6 +62,13 @@ def back_up(folder: Path, into: Path, keep: int = KEPT, tell: Progress = lambda 
 def backups(into: Path) -> list[Path]:
     """The copies that a folder holds, oldest first."""
     return sorted(into.glob(_PATTERN))
+
+
+def remove_all_but(kept: Path | None, into: Path) -> None:
+    """Remove every copy but one, finished or not, with what SQLite may have left beside it; raises OSError."""
+    for file in into.glob(f"{_PATTERN}*"):
+        if kept is None or not file.name.startswith(kept.name):
+            file.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -70,7 +83,7 @@ def _alone(into: Path) -> Iterator[None]:
     except Timeout as error:
         raise BadInput(f"another copy is just being made in {into}") from error
     except OSError as error:
-        raise BadInput(f"copies cannot be kept in {into}: {error.strerror}") from error
+        raise failure(f"copies cannot be kept in {into}", error, into) from error
 
 
 def _remove_older(into: Path, copy: Path, keep: int) -> None:
@@ -84,15 +97,17 @@ def _name() -> str:
     return f"recollect-{datetime.now(UTC):%Y%m%dT%H%M%S.%f}Z.db"
 
 
-def _copy(source: sqlite3.Connection, path: Path, tell: Progress) -> None:
-    path.touch(mode=0o600)
+def _copy(
+    source: sqlite3.Connection, path: Path, tell: Progress, amend: Callable[[sqlite3.Connection], None]
+) -> None:
     # One look at the database for all steps: otherwise every write of the kiosk would make the copy start anew.
     source.execute("BEGIN")
     source.execute("SELECT count(*) FROM sqlite_master").fetchone()
-    with closing(sqlite3.connect(path, isolation_level=None)) as target:
+    with closing(for_writing(path)) as target:
         source.backup(target, pages=STEP_PAGES, progress=lambda _, left, of: tell(of - left, of))
         # One file that can be carried away, with no log beside it.
         target.execute("PRAGMA journal_mode = DELETE")
+        amend(target)
         answers = [answer for (answer,) in target.execute("PRAGMA integrity_check")]
     source.execute("ROLLBACK")
     if answers != ["ok"]:

@@ -13,11 +13,11 @@ from itertools import count, permutations
 from pathlib import Path
 from typing import Any, TypeVar
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.care.backup import Progress
+from kiosk.store.connecting import reason
 from kiosk.store.database import in_use, open_for_reading, open_for_writing
 from kiosk.store.people.participants import checked_site, participant_name
-from kiosk.store.recorder import StoreFailed
 from kiosk.store.rows import insert
 from kiosk.store.whole_folder import whole_folder
 
@@ -54,7 +54,7 @@ def merge(
                 sittings = _copy(parts, target, tell)
                 target.execute("COMMIT")
         except (OSError, sqlite3.Error) as error:
-            raise StoreFailed(f"{out} could not be written: {error}") from error
+            raise StoreFailed(f"{out} could not be written: {reason(error, out.parent)}") from error
     return sittings
 
 

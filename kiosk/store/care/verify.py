@@ -13,6 +13,7 @@ from pathlib import Path
 
 from kiosk import BadInput
 from kiosk.store.care.backup import Progress
+from kiosk.store.connecting import reason
 from kiosk.store.database import open_as_it_is
 from kiosk.store.migrations import MIGRATIONS
 from kiosk.store.people.lists import places_from_json, quotas_from_json
@@ -35,6 +36,7 @@ class Check(Enum):
     PARTICIPANTS = "numbers and codes are sound, and no two alike"
     PLACES = "lists meet their quotas, and sittings their places"
     WITHDRAWN = "nothing is left of what was withdrawn"
+    FINISHED = "every withdrawal is finished"
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,8 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
             try:
                 flaws += [Flaw(check, where, what) for where, what in look(connection)]
             except (sqlite3.Error, ValueError) as error:
-                flaws.append(Flaw(check, "the database", f"cannot be looked at: {error}"))
+                words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
+                flaws.append(Flaw(check, "the database", f"cannot be looked at: {words}"))
     return flaws
 
 
@@ -210,6 +213,15 @@ def _withdrawn(connection: sqlite3.Connection) -> _Found:
             yield f"sitting {sitting}", f"was withdrawn, and {rows} rows of it are left in {table}"
 
 
+def _finished(connection: sqlite3.Connection) -> _Found:
+    for (sitting,) in connection.execute("SELECT sitting FROM unfinished_withdrawal ORDER BY sitting"):
+        yield (
+            f"sitting {sitting}",
+            "was withdrawn, and bytes of it or copies with it may be left: run 'recollect withdraw' again with the "
+            "same code, or open the kiosk",
+        )
+
+
 _LOOKS: dict[Check, tuple[int, Callable[[sqlite3.Connection], _Found]]] = {
     Check.FILE: (1, _file),
     Check.REFERENCES: (1, _references),
@@ -222,5 +234,6 @@ _LOOKS: dict[Check, tuple[int, Callable[[sqlite3.Connection], _Found]]] = {
     Check.PARTICIPANTS: (2, _participants),
     Check.PLACES: (2, _places),
     Check.WITHDRAWN: (2, _withdrawn),
+    Check.FINISHED: (3, _finished),
 }
 """Every check, with the schema since which there is something to look at."""

@@ -1,7 +1,13 @@
-"""Taking out one participant: every row goes, and every byte, and a tombstone stays so that counts still add up."""
+"""Taking out one participant: every row goes, and every byte, and a tombstone stays so that counts still add up.
+
+The rows go in one transaction, which also notes that bytes of them are still to be cleared away: from the log, from
+free pages and from the copies. The note goes last. Where the program is cut off in between, the next start of the
+kiosk, or the same command again, finds the note and does the rest.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
@@ -10,11 +16,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from kiosk import BadInput
-from kiosk.store.care.backup import FOLDER, back_up, backups
-from kiosk.store.database import in_use, lock, open_for_reading, open_for_writing
+from kiosk import BadInput, StoreFailed
+from kiosk.store.care.backup import FOLDER, back_up, backups, remove_all_but
+from kiosk.store.connecting import primary_code, reason
+from kiosk.store.database import FILE, in_use, lock, open_for_reading, open_for_writing
 from kiosk.store.people.participants import checked_code, participant_name
-from kiosk.store.recorder import StoreFailed
 
 READER_WAIT_MS = 1000
 
@@ -25,10 +31,13 @@ class Withdrawal:
 
     sitting: int
     participant: str
-    started_at: str
+    started_at: str | None
+    """None if the rows have gone already."""
     events: int
     backups: int
     """How many copies in the folder's own place for copies are replaced by a fresh one."""
+    cut_off: bool = False
+    """Whether it was begun before, and only the rest is to be done."""
 
     def to_json(self) -> dict[str, Any]:
         """The withdrawal as the command line prints it."""
@@ -38,6 +47,7 @@ class Withdrawal:
             "started_at": self.started_at,
             "events": self.events,
             "backups": self.backups,
+            "cut_off_before": self.cut_off,
         }
 
 
@@ -52,56 +62,91 @@ def find(folder: Path, code: str) -> Withdrawal:
 def withdraw(folder: Path, code: str) -> Withdrawal:
     """Take out whoever has this code, and replace the copies of the database by a fresh one; returns what went.
 
-    Raises BadInput if nobody has the code, or if anybody else is at the data; nothing has gone then. Raises StoreFailed
-    if the disk did not do all of it; the message says how far it came.
+    One that was cut off before is finished. Raises BadInput if nobody has the code, or if anybody else is at the data;
+    nothing has gone then. Raises StoreFailed if the disk did not do all of it; the message says how far it came.
     """
     found = find(folder, code)
     held = lock(folder)
     try:
         with closing(open_for_writing(folder)) as connection:
-            with _alone(connection, folder):
-                _bury(connection, found.sitting)
-            _clean(connection)
+            _keep_to_oneself(connection)
+            if not found.cut_off:
+                with _alone(connection, folder):
+                    _bury(connection, found.sitting, code)
+            _clean(connection, folder)
         _replace_backups(folder)
+        _forget(folder)
     finally:
         held.release()
     return found
 
 
+def finish_cut_off(folder: Path) -> None:
+    """Finish the withdrawals of a data folder that were cut off, if there are any; whoever asks holds its lock.
+
+    Raises BadInput if there is a database that cannot be used, StoreFailed if it cannot be done now.
+    """
+    if not (folder / FILE).exists():
+        return
+    with closing(open_for_writing(folder)) as connection:
+        if not connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0]:
+            return
+        _keep_to_oneself(connection)
+        _clean(connection, folder)
+    _replace_backups(folder)
+    _forget(folder)
+
+
 def _found(connection: sqlite3.Connection, folder: Path, code: str) -> Withdrawal:
+    code, copies = checked_code(code), len(backups(folder / FOLDER))
     row = connection.execute(
         """
         SELECT sitting.id, sitting.site, number, started_at, (SELECT count(*) FROM event WHERE sitting = sitting.id)
         FROM participant JOIN sitting ON sitting.id = participant.sitting WHERE code = ?
         """,
-        (checked_code(code),),
+        (code,),
     ).fetchone()
-    if row is None:
-        raise BadInput(f"nobody in {folder} has the code {code}")
-    sitting, site, number, started_at, events = row
-    return Withdrawal(sitting, participant_name(site, number), started_at, events, len(backups(folder / FOLDER)))
+    if row is not None:
+        sitting, site, number, started_at, events = row
+        return Withdrawal(sitting, participant_name(site, number), started_at, events, copies)
+    row = connection.execute(
+        "SELECT sitting, site, number FROM unfinished_withdrawal JOIN tombstone USING (sitting) WHERE code_sha256 = ?",
+        (_sha256(code),),
+    ).fetchone()
+    if row is not None:
+        sitting, site, number = row
+        return Withdrawal(sitting, participant_name(site, number), None, 0, copies, cut_off=True)
+    raise BadInput(f"nobody in {folder} has the code {code}")
+
+
+def _sha256(code: str) -> str:
+    return hashlib.sha256(code.encode()).hexdigest()
+
+
+def _keep_to_oneself(connection: sqlite3.Connection) -> None:
+    """Let nobody else even look from the next transaction on, and write zeros over everything that is deleted."""
+    connection.execute(f"PRAGMA busy_timeout = {READER_WAIT_MS}")
+    connection.execute("PRAGMA locking_mode = EXCLUSIVE")
+    connection.execute("PRAGMA secure_delete = ON")
 
 
 @contextmanager
 def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
     """One transaction in which nobody else even looks: a reader could keep what is to go in the write-ahead log."""
-    connection.execute(f"PRAGMA busy_timeout = {READER_WAIT_MS}")
-    connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-    connection.execute("PRAGMA secure_delete = ON")
     try:
         connection.execute("BEGIN EXCLUSIVE")
         yield
         connection.execute("COMMIT")
     except sqlite3.Error as error:
-        if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_BUSY:
+        if primary_code(error) == sqlite3.SQLITE_BUSY:
             raise BadInput(f"another program is looking at the data in {folder}: close it, then withdraw") from error
-        raise StoreFailed(f"nothing was withdrawn: {error}") from error
+        raise StoreFailed(f"nothing was withdrawn: {reason(error, folder)}") from error
     finally:
         if connection.in_transaction:
             connection.execute("ROLLBACK")
 
 
-def _bury(connection: sqlite3.Connection, sitting: int) -> None:
+def _bury(connection: sqlite3.Connection, sitting: int, code: str) -> None:
     connection.execute(
         """
         INSERT INTO tombstone
@@ -117,31 +162,59 @@ def _bury(connection: sqlite3.Connection, sitting: int) -> None:
         """,
         (sitting, datetime.now(UTC).date().isoformat()),
     )
+    connection.execute("INSERT INTO unfinished_withdrawal VALUES (?, ?)", (sitting, _sha256(checked_code(code))))
     connection.execute("DELETE FROM event WHERE sitting = ?", (sitting,))
     connection.execute("DELETE FROM participant WHERE sitting = ?", (sitting,))
     connection.execute("DELETE FROM sitting WHERE id = ?", (sitting,))
 
 
-def _clean(connection: sqlite3.Connection) -> None:
+def _clean(connection: sqlite3.Connection, folder: Path) -> None:
     """Leave no page with what has gone: not in the log, and not among the pages that are free."""
     try:
-        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        # Not every statement that follows takes the lock that keeps everybody else away.
+        connection.execute("BEGIN EXCLUSIVE")
+        connection.execute("COMMIT")
+        _empty_log(connection)
         connection.execute("VACUUM")
-        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        _empty_log(connection)
     except sqlite3.Error as error:
-        raise StoreFailed(f"the participant was withdrawn, but the file could not be cleaned up: {error}") from error
+        raise _unfinished("the file could not be cleaned up", reason(error, folder)) from error
+
+
+def _empty_log(connection: sqlite3.Connection) -> None:
+    busy, *_ = connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
+    if busy:
+        raise sqlite3.OperationalError("another program is looking at the data")
 
 
 def _replace_backups(folder: Path) -> None:
     into = folder / FOLDER
     older = backups(into)
-    if not older:
-        return
     try:
-        back_up(folder, into, keep=1)
-        for copy in older:
-            copy.unlink(missing_ok=True)
+        fresh = back_up(folder, into, keep=1, amend=_delete_notes) if older else None
+        remove_all_but(fresh, into)
     except (StoreFailed, BadInput, OSError) as error:
-        raise StoreFailed(
-            f"the participant was withdrawn, but the {len(older)} copies in {into} still hold them: {error}"
-        ) from error
+        words = reason(error, into) if isinstance(error, OSError) else str(error)
+        raise _unfinished(f"the {len(older)} copies in {into} still hold them", words) from error
+
+
+def _forget(folder: Path) -> None:
+    """Note that nothing is left to be done."""
+    try:
+        with closing(open_for_writing(folder)) as connection:
+            _delete_notes(connection)
+    except (sqlite3.Error, StoreFailed, BadInput) as error:
+        words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
+        raise _unfinished("that it is finished could not be noted", words) from error
+
+
+def _delete_notes(connection: sqlite3.Connection) -> None:
+    connection.execute("PRAGMA secure_delete = ON")
+    connection.execute("DELETE FROM unfinished_withdrawal")
+
+
+def _unfinished(what: str, words: str) -> StoreFailed:
+    return StoreFailed(
+        f"the participant was withdrawn, but {what}: {words}; "
+        "give the same command again, or open the kiosk, to finish it"
+    )

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.assistant.wording import Catalogue
 from kiosk.robot.bodies import Bodies
 from kiosk.robot.body import Health
 from kiosk.store.cut_off import CutOff, Unreadable
-from kiosk.store.recorder import Recorder, StoreBusy, StoreFailed
+from kiosk.store.recorder import Recorder, StoreBusy
 from kiosk.study import events as happened
 from kiosk.study.booth.deeds import Deed, Effect, Reason, in_turn, rule
 from kiosk.study.booth.notes import Note

@@ -12,10 +12,9 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.care.backup import FOLDER, back_up, backups
 from kiosk.store.care.disk import Level, Room, room
-from kiosk.store.recorder import StoreFailed
 from kiosk.study.booth.notes import Note
 from kiosk.ui.clock import Clock
 from kiosk.ui.panel.lock import Write

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import BadInput
+from kiosk import DISK_FULL, BadInput, is_nearly_full, why
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
 from kiosk.study.events import Stage
@@ -19,7 +19,7 @@ def make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {error.strerror}") from error
+        raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {why(error)}") from error
 
 
 class Shots:
@@ -54,7 +54,12 @@ class Shots:
     def _save(self, name: str) -> None:
         file = self._folder / name
         if not self._window.grabWindow().save(str(file)):
-            raise BadInput(f"the picture {file} cannot be written")
+            raise BadInput(unwritten(file))
+
+
+def unwritten(picture: Path) -> str:
+    """Say that a picture could not be written, and that the disk is full if it is."""
+    return f"the picture {picture} cannot be written" + (f": {DISK_FULL}" if is_nearly_full(picture.parent) else "")
 
 
 _NAMES: dict[type[Command], str] = {

@@ -20,6 +20,7 @@ from kiosk.ui.clock import WallClock
 from kiosk.ui.loop import Loop
 from kiosk.ui.performer import Performer
 from kiosk.ui.replaying.bar import ReplayBar
+from kiosk.ui.rehearsing.shots import unwritten
 from kiosk.ui.replaying.player import Player
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.every import Screens
@@ -112,7 +113,7 @@ class Replay:
             if any(not isinstance(command, _UNSEEN) for command in step.commands):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
                 if not self._window.shown.grabWindow().save(str(file)):
-                    raise BadInput(f"the picture {file} cannot be written")
+                    raise BadInput(unwritten(file))
                 yield file
 
     def _bodies(self, plan: Plan, owner: QObject) -> Bodies:

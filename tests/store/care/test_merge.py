@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.cli.front import recollect
 from kiosk.store.care import merge as merge_module
 from kiosk.store.care.merge import merge
@@ -23,7 +23,7 @@ from kiosk.store.care.verify import verify
 from kiosk.store.care.withdraw import withdraw
 from kiosk.store.database import FILE
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.condition import Condition
 from kiosk.study.events import Unstored
 from tests.store.visitors import BEGUN, COMPLETED, a_day, rows

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.care import withdraw as withdraw_module
 from kiosk.store.care.backup import FOLDER, back_up, backups
 from kiosk.store.care.verify import verify
 from kiosk.store.care.withdraw import find, withdraw
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Provenance, Recorder, StoreFailed
+from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.allocation import Allotted
 from tests.store.visitors import BEGUN, COMPLETED, FOUR, LEFT, a_day, rows, saying
 

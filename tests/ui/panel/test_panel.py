@@ -9,10 +9,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickItem
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.care.disk import Room
 from kiosk.store.reading import archive
-from kiosk.store.recorder import Recorder, StoreFailed
+from kiosk.store.recorder import Recorder
 from kiosk.study import events as happened
 from kiosk.study.booth.deeds import Deed
 from kiosk.study.condition import Condition

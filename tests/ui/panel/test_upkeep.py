@@ -11,10 +11,9 @@ from typing import Any, TypeVar
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.care.backup import FOLDER
 from kiosk.store.care.disk import Room
-from kiosk.store.recorder import StoreFailed
 from kiosk.study import events as happened
 from kiosk.study.booth.notes import Note
 from kiosk.study.events import Stage

@@ -16,7 +16,7 @@ from typing import Any
 import sqlite_utils
 
 from kiosk import BadInput
-from kiosk.store.database import in_use, open_for_reading
+from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.reading import Archive
 from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.events import ConsentGiven, Event, SittingEnded, Stage, StageEntered, Status, from_record
@@ -172,7 +172,7 @@ def source(folder: Path, *, rehearsals: bool) -> Iterator[Source]:
         try:
             yield Source(connection, archive, rehearsals, None if writing else Status.INTERRUPTED)
         except sqlite3.DatabaseError as error:
-            raise BadInput(f"the database in {folder} cannot be read: {error}") from error
+            raise unreadable(error, folder) from error
 
 
 def _told(records: list[dict[str, Any]]) -> Iterator[Record]:

@@ -9,7 +9,7 @@ from typing import Any
 import tomlkit
 from tomlkit.items import Array, InlineTable, Table
 
-from kiosk import BadInput
+from kiosk import BadInput, why
 from kiosk.study.declared.questionnaire import Questionnaire
 
 
@@ -24,7 +24,7 @@ def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
         part.replace(out)
     except OSError as error:
         part.unlink(missing_ok=True)
-        raise BadInput(f"{out} cannot be written: {error.strerror}") from error
+        raise BadInput(f"{out} cannot be written: {why(error)}") from error
 
 
 def as_toml(questionnaire: Questionnaire) -> str:
