@@ -11,10 +11,10 @@ from typing import Never
 
 import click
 
-from kiosk import BadInput, __version__
+from kiosk import DISK_FULL, BadInput, StoreFailed, __version__, why
 
-BAD_INPUT = 2
-"""The exit code for input that cannot be used."""
+DISK_FAILED, BAD_INPUT = 1, 2
+"""Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
 
 _COMMANDS = {
     "open": "kiosk.cli.booth.sitting:open_kiosk",
@@ -74,10 +74,22 @@ def recollect(context: click.Context) -> None:
 
 
 def main() -> Never:
-    """Run the command line; input that cannot be used gets its sentences, one a line, and exit code 2."""
+    """Run the command line; input that cannot be used, and a disk that fails, get their sentences, one a line."""
     try:
         recollect()
     except BadInput as refusal:
-        for sentence in refusal.sentences:
-            click.echo(f"recollect: {sentence}", err=True)
+        _say(*refusal.sentences)
+    except StoreFailed as failure:
+        _say(str(failure))
+        sys.exit(DISK_FAILED)
+    except OSError as error:
+        if why(error) != DISK_FULL:
+            raise
+        _say(f"{error.filename} cannot be written: {DISK_FULL}" if error.filename else DISK_FULL)
+        sys.exit(DISK_FAILED)
     sys.exit(BAD_INPUT)
+
+
+def _say(*sentences: str) -> None:
+    for sentence in sentences:
+        click.echo(f"recollect: {sentence}", err=True)

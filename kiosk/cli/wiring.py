@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import logging
+import os
 import subprocess
+import sys
 import traceback
 from copy import copy
 from datetime import UTC, datetime
+from functools import partial
+from io import TextIOWrapper
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
 
 from platformdirs import user_data_path
 
-from kiosk import BadInput
+from kiosk import DISK_FULL, BadInput, why
 from kiosk.settings import Settings
 
 DATA = user_data_path("recollect", appauthor=False)
@@ -39,12 +43,32 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
     return settings.model_copy(update={"robot": robot.model_copy(update=found | given)})
 
 
-class _SharedFile(logging.FileHandler):
+class _Private(logging.FileHandler):
+    """A log for its owner alone, which a full disk does not stop: the line is lost and the program goes on."""
+
+    def _open(self) -> TextIOWrapper:
+        return open(self.baseFilename, "a", encoding="utf-8", opener=partial(os.open, mode=0o600))
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802 - logging's name
+        """Say on the standard error what could not be written, and why."""
+        failed = sys.exc_info()[1]
+        words = why(failed) if isinstance(failed, OSError) else type(failed).__name__
+        sys.stderr.write(f"recollect: the log {self.baseFilename} could not be written: {words}: {record.levelname}\n")
+
+
+class _OwnFile(_Private, RotatingFileHandler):
+    """The log of the process that keeps it: a new file is begun before one grows large."""
+
+
+class _SharedFile(_Private):
     """A log that another process keeps: it is opened for each line, so that the other may begin a new file."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        super().emit(record)
-        self.close()
+        try:
+            super().emit(record)
+            self.close()
+        except OSError:
+            self.handleError(record)
 
 
 class _WithoutWords(logging.Formatter):
@@ -83,17 +107,22 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
 
 def log_file(folder: Path, *, shared: bool = False) -> logging.FileHandler:
     """The log of a data folder, as ``log_into`` keeps it; raises BadInput if it cannot be written there."""
-    handler: logging.FileHandler
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if shared:
-            handler = _SharedFile(folder / LOG, encoding="utf-8")
-        else:
-            handler = RotatingFileHandler(folder / LOG, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8")
+        handler = _handler(folder / LOG, shared=shared, later=False)
     except OSError as error:
-        raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+        if why(error) != DISK_FULL:
+            raise BadInput(f"the data folder {folder} cannot be used: {error.strerror}") from error
+        # No kiosk and no keeper stays away for want of a log: it begins once there is room.
+        handler = _handler(folder / LOG, shared=shared, later=True)
     handler.setFormatter(_WithoutWords("%(asctime)s %(levelname)s %(name)s: %(message)s"))
     return handler
+
+
+def _handler(file: Path, *, shared: bool, later: bool) -> logging.FileHandler:
+    if shared:
+        return _SharedFile(file, encoding="utf-8", delay=later)
+    return _OwnFile(file, maxBytes=LOG_BYTES, backupCount=LOGS_KEPT, encoding="utf-8", delay=later)
 
 
 def code_commit() -> str:

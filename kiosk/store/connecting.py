@@ -56,7 +56,9 @@ class Connection(sqlite3.Connection):
             return super().execute(sql, parameters)
         except UnicodeDecodeError as error:
             # SQLite quotes the schema in its message, and damaged bytes are no text.
-            raise sqlite3.DatabaseError(_DAMAGED) from error
+            damaged = sqlite3.DatabaseError(_DAMAGED)
+            damaged.sqlite_errorcode = sqlite3.SQLITE_CORRUPT
+            raise damaged from error
 
     def close(self) -> None:
         """Close it, and clear up after it once."""

@@ -27,6 +27,14 @@ PRIMARY_CODE = 0xFF
 """The bits of one of SQLite's answers that tell its kind; the others tell more of it."""
 
 
+class Foreign(BadInput):
+    """A file in the place of the database that no Recollect made."""
+
+
+class Newer(BadInput):
+    """A database that a newer Recollect wrote."""
+
+
 def lock(folder: Path) -> FileLock:
     """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
 
@@ -173,13 +181,13 @@ def _refuse_foreign_or_newer(connection: Connection, path: Path) -> None:
     _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
 
 
-def _foreign(path: Path) -> BadInput:
-    return BadInput(f"{path} is not a Recollect database; it was left as it is")
+def _foreign(path: Path) -> Foreign:
+    return Foreign(f"{path} is not a Recollect database; it was left as it is")
 
 
 def _refuse_newer(schema: int, path: Path) -> None:
     if schema > SCHEMA:
-        raise BadInput(
+        raise Newer(
             f"{path} was written by a newer Recollect (schema {schema}, this one knows {SCHEMA}); it was left as it is"
         )
 

@@ -27,7 +27,6 @@ from kiosk.study.declared.questionnaire import QUESTIONNAIRES
 from kiosk.study.events import Event, Unstored
 from kiosk.study.plan import Plan
 
-
 _log = logging.getLogger(__name__)
 
 

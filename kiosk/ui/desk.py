@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from kiosk import BadInput, StoreFailed
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.allocation import Allotted, Place
 from kiosk.study.booth.notes import Note
@@ -40,7 +39,7 @@ class Desk:
     """Chooses the next sitting's condition: the experimenter's, else the list's next, else the study file's."""
 
     def __init__(self, study: Study, recorder: Recorder, origin: Origin) -> None:
-        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed, or it cannot be."""
+        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed, or StoreFailed."""
         self.study = study
         self._recorder = recorder
         self._origin = origin
@@ -51,10 +50,7 @@ class Desk:
         quotas = {Condition.named(name): quota for name, quota in allocation.quotas.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
-            try:
-                recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
-            except StoreFailed as failure:
-                raise BadInput(f"the list of places cannot be fixed: {failure}") from failure
+            recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
 
     @property
     def simulated(self) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput, StoreFailed
+from kiosk import StoreFailed
 from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
 from kiosk.study.allocation import Allotted, Place
@@ -56,10 +56,10 @@ def test_what_is_chosen_while_somebody_decides_holds_for_the_sitting_after_their
     assert desk.chosen is later
 
 
-def test_a_list_that_the_disk_does_not_take_is_refused_in_words(tmp_path: Path) -> None:
+def test_a_list_that_the_disk_does_not_take_is_the_disk_s_failure_and_not_the_study_s(tmp_path: Path) -> None:
     class Full(Recorder):
         def fix_list(self, *_: object, **__: object) -> tuple[Place, ...]:
             raise StoreFailed("the disk is full")
 
-    with Full(tmp_path) as recorder, pytest.raises(BadInput, match="the list of places cannot be fixed"):
+    with Full(tmp_path) as recorder, pytest.raises(StoreFailed, match="the disk is full"):
         Desk(read_study(LISTED), recorder, ORIGIN)

@@ -91,7 +91,7 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
         told = log.read_text("utf-8")
     for failure in (
         "the robot broke off",
-        "disk is full",
+        "disk full",
         "the voice",
         "a fault in Recollect",
         "raise_with",

@@ -84,10 +84,13 @@ def _table(flaws: list[Flaw]) -> Table:
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @json_option
 def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
-    """Delete all that is stored of the participant who has this CODE; only a count stays."""
+    """Delete all that is stored of the participant who has this CODE; only a count stays.
+
+    If a withdrawal was cut off, the same command finishes it.
+    """
     going = withdrawing.find(data, code)
-    if not yes:
-        begun = going.started_at[:16].replace("T", " ")
+    if not yes and not going.cut_off:
+        begun = (going.started_at or "")[:16].replace("T", " ")
         click.echo(
             f"Participant {going.participant}, sitting {going.sitting}, begun {begun} (UTC): {going.events} events "
             f"will be deleted for ever, and the copies in the data folder ({going.backups}) replaced by a fresh one. "
@@ -97,7 +100,10 @@ def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
         click.confirm("Delete them?", abort=True, err=True)
     with _disk_in_words():
         gone = withdrawing.withdraw(data, code)
-    click.echo(json.dumps(gone.to_json()) if as_json else f"All of participant {gone.participant} is deleted.")
+    told = f"All of participant {gone.participant} is deleted."
+    if gone.cut_off:
+        told = f"The withdrawal of participant {gone.participant}, which had been cut off, is finished."
+    click.echo(json.dumps(gone.to_json()) if as_json else told)
 
 
 class FolderAndSite(click.ParamType[tuple[Path, str]]):

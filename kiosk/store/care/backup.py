@@ -40,8 +40,8 @@ def back_up(
     """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
-    ``amend`` may change the copy before it is checked. Raises BadInput if there is nothing to copy or no place for it, StoreFailed if the copy could not be written whole;
-    older copies are then as they were.
+    ``amend`` may change the copy before it is checked. Raises BadInput if there is nothing to copy or no place for it,
+    StoreFailed if the copy could not be written whole; older copies are then as they were.
     """
     if keep < 1:
         raise BadInput(f"at least 1 copy must be kept, not {keep}")
@@ -97,9 +97,7 @@ def _name() -> str:
     return f"recollect-{datetime.now(UTC):%Y%m%dT%H%M%S.%f}Z.db"
 
 
-def _copy(
-    source: sqlite3.Connection, path: Path, tell: Progress, amend: Callable[[sqlite3.Connection], None]
-) -> None:
+def _copy(source: sqlite3.Connection, path: Path, tell: Progress, amend: Callable[[sqlite3.Connection], None]) -> None:
     # One look at the database for all steps: otherwise every write of the kiosk would make the copy start anew.
     source.execute("BEGIN")
     source.execute("SELECT count(*) FROM sqlite_master").fetchone()

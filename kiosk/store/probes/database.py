@@ -9,11 +9,12 @@ from contextlib import closing
 from datetime import datetime, timedelta
 from pathlib import Path
 
-from kiosk import BadInput
+from kiosk import DISK_FULL, BadInput
 from kiosk.findings import Finding
 from kiosk.settings import Allocation
 from kiosk.store.care.backup import backups
-from kiosk.store.database import FILE, open_as_it_is, open_for_reading
+from kiosk.store.connecting import primary_code, reason
+from kiosk.store.database import FILE, Foreign, Newer, open_as_it_is, open_for_reading
 from kiosk.store.migrations import SCHEMA
 from kiosk.store.people.lists import Lists, PlaceList
 from kiosk.store.people.participants import checked_site
@@ -33,21 +34,46 @@ def database(folder: Path, *, busy: bool) -> Iterator[Finding]:
         yield Finding.good(DATABASE, "none yet; it is made when the kiosk opens")
         return
     try:
-        with closing(open_as_it_is(folder, briefly=True)) as connection:
+        with closing(open_as_it_is(folder)) as connection:
             schema = connection.execute("PRAGMA user_version").fetchone()[0]
             answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
-    except (BadInput, sqlite3.Error) as failure:
-        remedy = "use another folder with --data, or put a copy of 'backups' in its place"
-        yield Finding.bad(DATABASE, str(failure), remedy)
+            unfinished = schema == SCHEMA and connection.execute(_UNFINISHED).fetchone()[0]
+    except BadInput as refusal:
+        yield Finding.bad(DATABASE, str(refusal), _remedy(refusal, folder))
+        return
+    except sqlite3.Error as error:
+        yield Finding.bad(DATABASE, reason(error, folder), _remedy(error, folder))
         return
     if answer != "ok":
-        yield Finding.bad(DATABASE, f"it is damaged: {answer}", "put the newest copy of 'backups' in its place")
+        yield Finding.bad(DATABASE, f"it is damaged: {answer}", _REPLACE)
     elif busy:
         remedy = "nothing, if that is this booth's kiosk; else leave it, for a second one is refused"
         yield Finding.warning(DATABASE, "it is whole; a Recollect is open on it", remedy)
+    elif unfinished:
+        remedy = "open the kiosk, or give 'recollect withdraw' with the same code again"
+        yield Finding.warning(DATABASE, "it is whole; a withdrawal was cut off and is not finished", remedy)
     else:
         newer = "" if schema == SCHEMA else f"; it is brought from schema {schema} to {SCHEMA} when the kiosk opens"
         yield Finding.good(DATABASE, f"it is whole{newer}")
+
+
+_UNFINISHED = "SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)"
+
+_REPLACE = "copy the whole folder elsewhere first, then put the newest copy of 'backups' in its place"
+
+
+def _remedy(failure: BadInput | sqlite3.Error, folder: Path) -> str:
+    """Say what helps; only a file that is damaged, or no Recollect's, is ever to be replaced or left."""
+    if isinstance(failure, Foreign):
+        return "no Recollect made this file: give the kiosk a folder of its own with --data"
+    if isinstance(failure, Newer):
+        return "use the Recollect that wrote it; what is stored is intact"
+    cause = failure.__cause__ if isinstance(failure, BadInput) else failure
+    if isinstance(cause, sqlite3.Error | OSError) and reason(cause, folder) == DISK_FULL:
+        return "make room on the disk; what is stored is intact"
+    if cause is not None and primary_code(cause) == sqlite3.SQLITE_CORRUPT:
+        return _REPLACE
+    return "see that the disk is there, that this user may read it, and that no other program holds it"
 
 
 def sittings(folder: Path, *, busy: bool) -> Iterator[Finding]:
@@ -86,6 +112,9 @@ def copy(folder: Path, into: Path, now: datetime) -> Iterator[Finding]:
         yield Finding.good(COPY, words)
 
 
+_AS_FIXED = "put quotas, block and seed back as they are fixed; another study needs a data folder of its own"
+
+
 def allocation(folder: Path, site: str, declared: Allocation) -> Iterator[Finding]:
     """Whether the list that is fixed is the study file's, and how much of it is left."""
     if not declared.quotas:
@@ -98,7 +127,11 @@ def allocation(folder: Path, site: str, declared: Allocation) -> Iterator[Findin
         try:
             lists.check(quotas, declared.block, declared.seed)
         except BadInput as refusal:
-            yield Finding.bad(LIST, str(refusal), "use another folder with --data, or the quotas that are fixed")
+            yield Finding.bad(
+                LIST,
+                str(refusal),
+                "put quotas, block and seed back as they are fixed; another study needs a data folder of its own",
+            )
             return
         yield _left(lists.latest(), lists.consumed(), quotas)
 
@@ -123,7 +156,7 @@ _Look = Callable[[sqlite3.Connection], Iterator[Finding]]
 def _reading(folder: Path, look: _Look) -> Iterator[Finding]:
     """What is found in the database; nothing where there is none, and the file's own finding says it if it is bad."""
     try:
-        with closing(open_for_reading(folder, briefly=True)) as connection:
+        with closing(open_for_reading(folder)) as connection:
             yield from look(connection)
     except (BadInput, sqlite3.Error):
         return

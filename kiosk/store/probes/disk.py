@@ -16,6 +16,7 @@ from pathlib import Path
 from kiosk import BadInput
 from kiosk.findings import Finding
 from kiosk.store.care.disk import REFUSE_MIB, WARN_MIB, Level, room
+from kiosk.store.connecting import reason
 from kiosk.store.database import durable
 
 ROOM, FOLDER, WRITING = "disk", "data folder", "writing"
@@ -58,7 +59,7 @@ def access(folder: Path) -> Iterator[Finding]:
     """Who may read the data, and whether we may write there."""
     place = standing(folder)
     if not os.access(place, os.W_OK | os.X_OK):
-        yield Finding.bad(FOLDER, f"{place} cannot be written", "give it to the user who runs the kiosk, or use --data")
+        yield Finding.bad(FOLDER, f"{place} cannot be written", "give it to the user who runs the kiosk")
     elif place != folder.absolute():
         yield Finding.good(FOLDER, f"{folder} is not there yet; it is made when the kiosk opens")
     elif sys.platform != "win32" and stat.S_IMODE(folder.stat().st_mode) & _OTHERS:
@@ -72,7 +73,11 @@ def writing(folder: Path, measure: Callable[[Path], Sequence[float]] | None = No
     try:
         times = sorted((measure or written_ms)(standing(folder)))
     except (OSError, sqlite3.Error) as failure:
-        yield Finding.bad(WRITING, f"the disk takes no records: {failure}", "see that it is neither full nor read-only")
+        yield Finding.bad(
+            WRITING,
+            f"the disk takes no records: {reason(failure, standing(folder))}",
+            "see that it is neither full nor read-only",
+        )
         return
     usual, longest = times[len(times) // 2], times[-1]
     words = f"a record is on the disk in {usual:.1f} ms, at most {longest:.0f} ms, of {len(times)}"

@@ -19,8 +19,8 @@ from kiosk.study.plan import Plan, Study
 from kiosk.ui.clock import WallClock
 from kiosk.ui.loop import Loop
 from kiosk.ui.performer import Performer
-from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.rehearsing.shots import unwritten
+from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.replaying.player import Player
 from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.every import Screens
