@@ -57,6 +57,12 @@ def why(error: OSError) -> str:
     return DISK_FULL if error.errno in {errno.ENOSPC, errno.EDQUOT} else error.strerror or str(error)
 
 
+def unwritable(what: str, error: OSError) -> BadInput | StoreFailed:
+    """Return what to raise when a file cannot be written; on a full disk the same command may succeed later."""
+    words = why(error)
+    return StoreFailed(f"{what}: {words}") if words == DISK_FULL else BadInput(f"{what}: {words}")
+
+
 def program(*arguments: str) -> tuple[str, ...]:
     """The command that runs ``recollect`` with these arguments in another process, from a checkout or a build."""
     return (sys.executable, *(() if getattr(sys, "frozen", False) else ("-m", "kiosk")), *arguments)

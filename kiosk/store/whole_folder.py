@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from kiosk import BadInput, why
+from kiosk import BadInput, unwritable
 
 UNFINISHED = ".unfinished"
 
@@ -25,7 +25,7 @@ def whole_folder(out: Path) -> Iterator[Path]:
     try:
         made.mkdir(mode=0o700, parents=True)
     except OSError as error:
-        raise BadInput(f"the folder {out} cannot be used: {why(error)}") from error
+        raise unwritable(f"the folder {out} cannot be used", error) from error
     try:
         yield made
         if out.exists():

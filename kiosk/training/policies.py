@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from kiosk import BadInput, why
+from kiosk import BadInput, unwritable
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import STATES, Action, Outcome, Phase, State
 from kiosk.assistant.qtable import QTable
@@ -40,7 +40,7 @@ def write(path: Path, content: str | bytes) -> None:
     except OSError as error:
         with suppress(OSError):
             beside.unlink()
-        raise BadInput(f"{path} cannot be written: {why(error)}") from error
+        raise unwritable(f"{path} cannot be written", error) from error
 
 
 def visits(policy: QTable) -> dict[State, int]:

@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from kiosk import BadInput, why
+from kiosk import BadInput, unwritable
 from kiosk.store.whole_folder import whole_folder
 from kiosk.study.declared.labels import fold_name, is_reserved
 
@@ -109,7 +109,7 @@ def new_folder(out: Path) -> Iterator[Path]:
             yield made
             _take_the_dates_away(made)
     except OSError as error:
-        raise BadInput(f"the data set cannot be written to {out}: {why(error)}") from error
+        raise unwritable(f"the data set cannot be written to {out}", error) from error
 
 
 def _check_free(out: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import DISK_FULL, BadInput, is_nearly_full, why
+from kiosk import DISK_FULL, BadInput, StoreFailed, is_nearly_full, unwritable
 from kiosk.study import commands as do
 from kiosk.study.commands import Command
 from kiosk.study.events import Stage
@@ -15,11 +15,11 @@ from kiosk.ui.clock import Clock
 
 
 def make_folder(folder: Path) -> None:
-    """Make the folder for the pictures, if it is not there; raises BadInput if it cannot be made."""
+    """Make the folder for the pictures, if it is not there; raises BadInput or StoreFailed."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"the folder for the pictures, {folder}, cannot be made: {why(error)}") from error
+        raise unwritable(f"the folder for the pictures, {folder}, cannot be made", error) from error
 
 
 class Shots:
@@ -54,12 +54,13 @@ class Shots:
     def _save(self, name: str) -> None:
         file = self._folder / name
         if not self._window.grabWindow().save(str(file)):
-            raise BadInput(unwritten(file))
+            raise unwritten(file)
 
 
-def unwritten(picture: Path) -> str:
-    """Say that a picture could not be written, and that the disk is full if it is."""
-    return f"the picture {picture} cannot be written" + (f": {DISK_FULL}" if is_nearly_full(picture.parent) else "")
+def unwritten(picture: Path) -> BadInput | StoreFailed:
+    """Return what to raise when a picture could not be written; Qt does not say why."""
+    what = f"the picture {picture} cannot be written"
+    return StoreFailed(f"{what}: {DISK_FULL}") if is_nearly_full(picture.parent) else BadInput(what)
 
 
 _NAMES: dict[type[Command], str] = {

@@ -11,7 +11,6 @@ from typing import Self
 from PySide6.QtCore import QObject
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import BadInput
 from kiosk.robot.bodies import Bodies
 from kiosk.study import commands as do
 from kiosk.study.after.replay import Step
@@ -105,7 +104,10 @@ class Replay:
             raise self._error
 
     def frames(self, folder: Path) -> Iterator[Path]:
-        """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot."""
+        """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot.
+
+        On a full disk it raises StoreFailed.
+        """
         self._window.drive_by(None)
         for index, step in enumerate(self.player.steps, 1):
             self._beat()
@@ -113,7 +115,7 @@ class Replay:
             if any(not isinstance(command, _UNSEEN) for command in step.commands):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
                 if not self._window.shown.grabWindow().save(str(file)):
-                    raise BadInput(unwritten(file))
+                    raise unwritten(file)
                 yield file
 
     def _bodies(self, plan: Plan, owner: QObject) -> Bodies:

@@ -9,12 +9,12 @@ from typing import Any
 import tomlkit
 from tomlkit.items import Array, InlineTable, Table
 
-from kiosk import BadInput, why
+from kiosk import BadInput, unwritable
 from kiosk.study.declared.questionnaire import Questionnaire
 
 
 def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
-    """Write a new file; raises BadInput if it is there already or cannot be written, and leaves nothing behind."""
+    """Write a new file; raises BadInput or StoreFailed if it cannot be, and leaves nothing behind."""
     text = as_toml(questionnaire)
     if out.exists():
         raise BadInput(f"{out} is there already; choose another name")
@@ -24,7 +24,7 @@ def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
         part.replace(out)
     except OSError as error:
         part.unlink(missing_ok=True)
-        raise BadInput(f"{out} cannot be written: {why(error)}") from error
+        raise unwritable(f"{out} cannot be written", error) from error
 
 
 def as_toml(questionnaire: Questionnaire) -> str:
