@@ -73,6 +73,7 @@ def for_writing(path: Path) -> Connection:
     """Connect to a database, made if need be, so that only its owner may read it and its logs."""
     with suppress(FileExistsError):
         path.touch(mode=PRIVATE, exist_ok=False)
+        give_to_owner_of_folder(path)
     for file in (path, *(_beside(path, log) for log in LOGS)):
         # Somebody else's file, or one that has just gone, stays as it is.
         with suppress(PermissionError, FileNotFoundError):
@@ -82,6 +83,16 @@ def for_writing(path: Path) -> Connection:
     connection.path = path.resolve()
     _writers.add(connection)
     return connection
+
+
+def give_to_owner_of_folder(path: Path) -> None:
+    """Let a file that root has made belong to the user whose folder it lies in: their kiosk has to open it later."""
+    if sys.platform == "win32" or os.geteuid() != 0:
+        return
+    owner = path.parent.stat()
+    # Not every file system knows owners.
+    with suppress(PermissionError):
+        os.chown(path, owner.st_uid, owner.st_gid, follow_symlinks=False)
 
 
 def in_memory() -> Connection:
@@ -217,4 +228,6 @@ def _replay_logs(name: str, content: dict[str, bytes], memory: Connection) -> No
             copy.touch(mode=PRIVATE)
             copy.write_bytes(data)
         with closing(sqlite3.connect(Path(folder, name), isolation_level=None, factory=Connection)) as together:
-            together.backup(memory)
+            # A copy of nothing would be a database with a page.
+            if together.execute("PRAGMA page_count").fetchone()[0]:
+                together.backup(memory)

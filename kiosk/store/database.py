@@ -10,7 +10,16 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from kiosk import BadInput
-from kiosk.store.connecting import Connection, failure, for_reading, for_writing, in_memory, primary_code, reason
+from kiosk.store.connecting import (
+    Connection,
+    failure,
+    for_reading,
+    for_writing,
+    give_to_owner_of_folder,
+    in_memory,
+    primary_code,
+    reason,
+)
 from kiosk.store.migrations import MIGRATIONS, SCHEMA
 
 FILE = "recollect.db"
@@ -46,6 +55,7 @@ def lock(folder: Path) -> FileLock:
         _make(folder)
         # Whoever reads looks at the lock for a moment, and is no reason to give up.
         held.acquire(timeout=LOCK_WAIT_S)
+        give_to_owner_of_folder(folder / LOCK)
     except Timeout as error:
         raise BadInput(f"another Recollect is writing in {folder}") from error
     except OSError as error:

@@ -153,6 +153,24 @@ def test_what_the_disk_did_not_do_is_said_in_one_sentence(day: Path, monkeypatch
     assert result.output == "Error: nothing was withdrawn: the disk is full\n"
 
 
+def test_the_same_command_finishes_a_withdrawal_that_was_cut_off(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    code = code_of(day, 1)
+    assert run("backup", "--data", day).exit_code == 0
+
+    def failing(*_: object, **__: object) -> None:
+        raise StoreFailed("disk full")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(withdrawing, "back_up", failing)
+        assert run("withdraw", code, "--data", day, "--yes").exit_code == 1
+    result = run("verify", "--data", day)
+    assert result.exit_code == 1
+    assert "recollect withdraw" in " ".join(result.output.split())
+    result = run("withdraw", code, "--data", day)
+    assert result.output == "The withdrawal of participant MI-1, which had been cut off, is finished.\n"
+    assert run("verify", "--data", day).exit_code == 0
+
+
 # merge
 
 

@@ -41,9 +41,9 @@ class Kept:
 
 
 @contextmanager
-def kept(data: Path, *options: str) -> Iterator[Kept]:
-    """A keeper with this data folder and these options."""
-    command = program("keep", "--json", "--data", str(data), *options)
+def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Kept]:
+    """A keeper with this data folder and these options; ``before`` is a command that starts it."""
+    command = (*before, *program("keep", "--json", "--data", str(data), *options))
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
         try:
@@ -86,3 +86,11 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
     )
     assert done.returncode == 2
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
+
+
+def test_a_disk_that_takes_nothing_does_not_end_the_keeper(tmp_path: Path) -> None:
+    # No file may grow beyond a few bytes, so the kiosk starts and cannot make its database.
+    limit = "import os, resource as r, sys; r.setrlimit(r.RLIMIT_FSIZE, (64, 64)); os.execv(sys.argv[1], sys.argv[1:])"
+    with kept(tmp_path, before=(sys.executable, "-c", limit)) as keeper:
+        assert keeper.wait_for("died")["detail"] == "exit code 1"
+        assert keeper.wait_for("died")["start"] == 2

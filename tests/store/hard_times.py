@@ -347,11 +347,13 @@ def full_disk(writers: Worker, disk: Path, seed: int, tally: Tally, *, commands:
     with Recorder(folder) as recorder:
         participant = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), COMPLETED)
     back_up(folder, folder / "backups")
-    ballast.write_bytes(bytes(chance.randrange(0, DISK_MIB << 19)))
+    # What is removed later must leave room to go on, whatever the writer has taken.
+    ballast.write_bytes(bytes(chance.randrange(1 << 19, DISK_MIB << 19)))
     writers.order("fill", folder=str(folder), seed=seed, killed=bool(seed % 2))
     reports = list(writers.hear())
     written = {report["sitting"]: report["events"] for report in reports if report["what"] == "written"}
     tally.acknowledged += sum(written.values())
+    tally.more["times that a full disk was named"] += sum(DISK_FULL in each.get("words", "") for each in reports)
     yield from (f"the writer said {each['words']}" for each in reports if DISK_FULL not in each.get("words", DISK_FULL))
     fill(disk / "the-last-bytes")
     for remedy in (each.remedy for each in database(folder, busy=False)):

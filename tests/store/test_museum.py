@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from kiosk.store.care.verify import verify
+from kiosk.store.care.withdraw import withdraw
 from kiosk.store.database import FILE
 from kiosk.store.migrations import MIGRATIONS, SCHEMA
 from kiosk.store.reading import archive
@@ -87,3 +89,37 @@ def test_it_is_read_before_it_is_brought_up_to_date(first: Path) -> None:
         assert stored.sitting(1).status is Status.COMPLETED
         assert stored.sitting(1).participant is None
     assert (first / FILE).read_bytes() == before
+
+
+@pytest.fixture
+def second(folder: Path) -> Path:
+    """A data folder as the second schema left it."""
+    folder.mkdir()
+    shutil.copy(MUSEUM / "schema-2.db", folder / FILE)
+    return folder
+
+
+def test_the_second_schema_takes_the_steps_it_lacks_and_is_sound_before_and_after(second: Path) -> None:
+    assert verify(second) == []
+    with archive(second) as stored:
+        before = stored.sittings()
+    with Recorder(second) as recorder:
+        assert recorder.recovered == ()
+    assert verify(second) == []
+    with archive(second) as stored:
+        assert stored.sittings() == before
+        assert [(sitting.id, sitting.participant, sitting.status) for sitting in before] == [
+            (1, "1", Status.COMPLETED),
+            (3, "3", Status.ABANDONED),
+        ]
+        assert stored.counts(simulated=True).cells
+    with closing(sqlite3.connect(second / FILE)) as connection:
+        assert connection.execute("PRAGMA user_version").fetchall() == [(SCHEMA,)]
+        assert connection.execute("SELECT sitting FROM tombstone").fetchall() == [(2,)]
+
+
+def test_somebody_of_the_second_schema_can_withdraw(second: Path) -> None:
+    withdraw(second, "GJ6EESU")
+    assert verify(second) == []
+    with archive(second) as stored:
+        assert [sitting.id for sitting in stored.sittings()] == [3]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import logging
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -119,4 +121,30 @@ def test_who_shares_a_log_writes_into_the_new_one_too(tmp_path: Path) -> None:
     keeper.handle(record)
     (tmp_path / LOG).rename(tmp_path / f"{LOG}.1")
     keeper.handle(record)
+    assert "start 1" in (tmp_path / LOG).read_text("utf-8")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="modes are those of POSIX")
+@pytest.mark.parametrize("shared", [True, False])
+def test_a_log_is_for_its_owner_alone(tmp_path: Path, *, shared: bool) -> None:
+    log_file(tmp_path, shared=shared).close()
+    assert (tmp_path / LOG).stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.parametrize("shared", [True, False])
+def test_a_log_that_a_full_disk_does_not_take_stops_nothing_and_goes_on_when_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *, shared: bool
+) -> None:
+    record = logging.LogRecord("a", logging.WARNING, "a.py", 1, "start 1", (), None)
+
+    def full(*_: object, **__: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "open", full)
+        log = log_file(tmp_path, shared=shared)
+        log.handle(record)
+    assert "could not be written: disk full" in capsys.readouterr().err
+    log.handle(record)
+    log.close()
     assert "start 1" in (tmp_path / LOG).read_text("utf-8")

@@ -12,7 +12,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from kiosk import BadInput, StoreFailed
-from kiosk.store.connecting import failure, for_writing, reason
+from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import open_as_it_is
 
 FOLDER = "backups"
@@ -69,14 +69,19 @@ def remove_all_but(kept: Path | None, into: Path) -> None:
     for file in into.glob(f"{_PATTERN}*"):
         if kept is None or not file.name.startswith(kept.name):
             file.unlink(missing_ok=True)
+    if into.is_dir():
+        _sync(into)
 
 
 @contextmanager
 def _alone(into: Path) -> Iterator[None]:
     """Be the only one who copies into a folder, and clear what a copy that was cut off has left."""
     try:
-        into.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not into.is_dir():
+            into.mkdir(mode=0o700, parents=True, exist_ok=True)
+            give_to_owner_of_folder(into)
         with FileLock(into / _LOCK, blocking=False):
+            give_to_owner_of_folder(into / _LOCK)
             for unfinished in into.glob(f"{_PATTERN}{_UNFINISHED}*"):
                 unfinished.unlink()
             yield

@@ -24,6 +24,8 @@ from kiosk.store.people.participants import checked_code, participant_name
 
 READER_WAIT_MS = 1000
 
+_LOOKED_AT = "another program is looking at the data"
+
 
 @dataclass(frozen=True)
 class Withdrawal:
@@ -178,13 +180,14 @@ def _clean(connection: sqlite3.Connection, folder: Path) -> None:
         connection.execute("VACUUM")
         _empty_log(connection)
     except sqlite3.Error as error:
-        raise _unfinished("the file could not be cleaned up", reason(error, folder)) from error
+        words = _LOOKED_AT if primary_code(error) == sqlite3.SQLITE_BUSY else reason(error, folder)
+        raise _unfinished("the file could not be cleaned up", words) from error
 
 
 def _empty_log(connection: sqlite3.Connection) -> None:
     busy, *_ = connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
     if busy:
-        raise sqlite3.OperationalError("another program is looking at the data")
+        raise sqlite3.OperationalError(_LOOKED_AT)
 
 
 def _replace_backups(folder: Path) -> None:
