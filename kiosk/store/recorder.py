@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from kiosk import BadInput, StoreFailed, __version__
-from kiosk.store.care.withdraw import finish_cut_off
+from kiosk.store.care.withdraw import finish_cut_off, is_unfinished
 from kiosk.store.connecting import failure, reason
 from kiosk.store.database import BUSY, PRIMARY_CODE, lock, open_for_writing
 from kiosk.store.people.lists import Lists, check_not_given_out_again
@@ -71,8 +71,7 @@ class Recorder:
         self.begun = 0
         """How many sittings were begun with this recorder."""
         try:
-            self._finish_withdrawals()
-            self._connection = open_for_writing(folder)
+            self._connection = self._open()
         except BaseException:
             self._lock.release()
             raise
@@ -185,12 +184,17 @@ class Recorder:
         with self._transaction():
             insert(self._connection, "booth_event", row)
 
-    def _finish_withdrawals(self) -> None:
+    def _open(self) -> sqlite3.Connection:
+        connection = open_for_writing(self.folder)
+        if not is_unfinished(connection):
+            return connection
+        connection.close()
         try:
             finish_cut_off(self.folder)
-        except StoreFailed as failure:
+        except StoreFailed as failed:
             # Visitors can come all the same; it is tried again at the next start, and ``verify`` tells of it.
-            _log.error("%s", failure)
+            _log.error("%s", failed)
+        return open_for_writing(self.folder)
 
     def _lists(self, *, simulated: bool) -> Lists:
         return Lists(self._connection, self._site, simulated=simulated)

@@ -347,8 +347,8 @@ def full_disk(writers: Worker, disk: Path, seed: int, tally: Tally, *, commands:
     with Recorder(folder) as recorder:
         participant = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), COMPLETED)
     back_up(folder, folder / "backups")
-    # What is removed later must leave room to go on, whatever the writer has taken.
-    ballast.write_bytes(bytes(chance.randrange(1 << 19, DISK_MIB << 19)))
+    # What is removed later must leave room for a checkpoint of all that the writer has logged.
+    ballast.write_bytes(bytes(chance.randrange(DISK_MIB << 19, (DISK_MIB + 1) << 19)))
     writers.order("fill", folder=str(folder), seed=seed, killed=bool(seed % 2))
     reports = list(writers.hear())
     written = {report["sitting"]: report["events"] for report in reports if report["what"] == "written"}

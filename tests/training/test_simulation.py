@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.assistant.gate import Gate
 from kiosk.assistant.mdp import Action, Outcome, State
 from kiosk.assistant.mentaliser import TargetRule
@@ -198,7 +198,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkey
     file = tmp_path / "policy.json"
     policies.write(file, "old")
     monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(BadInput, match=r"policy\.json cannot be written: No space left on device"):
+    with pytest.raises(StoreFailed, match=r"policy\.json cannot be written: disk full"):
         policies.write(file, "new")
     assert file.read_text("utf-8") == "old"
     assert list(tmp_path.iterdir()) == [file]

@@ -19,7 +19,7 @@ from typing import Any
 from kiosk import BadInput, StoreFailed
 from kiosk.store.care.backup import FOLDER, back_up, backups, remove_all_but
 from kiosk.store.connecting import primary_code, reason
-from kiosk.store.database import FILE, in_use, lock, open_for_reading, open_for_writing
+from kiosk.store.database import in_use, lock, open_for_reading, open_for_writing
 from kiosk.store.people.participants import checked_code, participant_name
 
 READER_WAIT_MS = 1000
@@ -83,16 +83,17 @@ def withdraw(folder: Path, code: str) -> Withdrawal:
     return found
 
 
-def finish_cut_off(folder: Path) -> None:
-    """Finish the withdrawals of a data folder that were cut off, if there are any; whoever asks holds its lock.
+def is_unfinished(connection: sqlite3.Connection) -> bool:
+    """Return whether a withdrawal was cut off, so that bytes of a participant or copies with them may be left."""
+    return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0])
 
-    Raises BadInput if there is a database that cannot be used, StoreFailed if it cannot be done now.
+
+def finish_cut_off(folder: Path) -> None:
+    """Finish the withdrawals of a data folder that were cut off; whoever asks holds its lock.
+
+    Raises StoreFailed if it cannot be done now.
     """
-    if not (folder / FILE).exists():
-        return
     with closing(open_for_writing(folder)) as connection:
-        if not connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0]:
-            return
         _keep_to_oneself(connection)
         _clean(connection, folder)
     _replace_backups(folder)

@@ -13,6 +13,7 @@ from kiosk import DISK_FULL, BadInput
 from kiosk.findings import Finding
 from kiosk.settings import Allocation
 from kiosk.store.care.backup import backups
+from kiosk.store.care.withdraw import is_unfinished
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import FILE, Foreign, Newer, open_as_it_is, open_for_reading
 from kiosk.store.migrations import SCHEMA
@@ -37,7 +38,7 @@ def database(folder: Path, *, busy: bool) -> Iterator[Finding]:
         with closing(open_as_it_is(folder)) as connection:
             schema = connection.execute("PRAGMA user_version").fetchone()[0]
             answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
-            unfinished = schema == SCHEMA and connection.execute(_UNFINISHED).fetchone()[0]
+            unfinished = schema == SCHEMA and is_unfinished(connection)
     except BadInput as refusal:
         yield Finding.bad(DATABASE, str(refusal), _remedy(refusal, folder))
         return
@@ -56,8 +57,6 @@ def database(folder: Path, *, busy: bool) -> Iterator[Finding]:
         newer = "" if schema == SCHEMA else f"; it is brought from schema {schema} to {SCHEMA} when the kiosk opens"
         yield Finding.good(DATABASE, f"it is whole{newer}")
 
-
-_UNFINISHED = "SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)"
 
 _REPLACE = "copy the whole folder elsewhere first, then put the newest copy of 'backups' in its place"
 

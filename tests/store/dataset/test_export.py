@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.store.database import FILE
 from kiosk.store.dataset.export import Exported, export
 from kiosk.store.dataset.extras import Extra
@@ -68,7 +68,7 @@ class Failing(PsychDs):
 
 
 def test_nothing_stays_of_a_data_set_that_could_not_be_finished(few: Path, tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match="disk full"):
+    with pytest.raises(StoreFailed, match="disk full"):
         export(few, tmp_path / "out", Failing)
     assert list(tmp_path.iterdir()) == []
 
