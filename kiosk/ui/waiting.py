@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from kiosk.store.recorder import StoreBusy, StoreFailed
+from kiosk import StoreFailed
+from kiosk.store.recorder import StoreBusy
 from kiosk.ui.clock import Clock, Wait
 from kiosk.units import MS_PER_SECOND
 

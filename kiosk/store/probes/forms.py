@@ -44,7 +44,7 @@ def _stored(folder: Path) -> list[Questionnaire]:
     """Every questionnaire that is stored; the finding of the database says it if they cannot be read."""
     found: list[Questionnaire] = []
     try:
-        with closing(open_for_reading(folder, briefly=True)) as connection:
+        with closing(open_for_reading(folder)) as connection:
             contents = [content for (content,) in connection.execute(_STORED)]
     except (BadInput, sqlite3.Error):
         return found
