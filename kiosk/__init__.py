@@ -6,6 +6,7 @@ analysis (which never meet), and cli, the front door; keeping stands beside them
 """
 
 import errno
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -47,6 +48,9 @@ def is_nearly_full(folder: Path) -> bool:
     """Return whether the disk of a folder, which need not be there yet, has almost no room left."""
     there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
     try:
+        if sys.platform != "win32" and os.statvfs(there).f_flag & os.ST_RDONLY:
+            # An image that is read only has no room and is not full.
+            return False
         return shutil.disk_usage(there).free < NEARLY_NOTHING
     except OSError:
         return False

@@ -75,7 +75,7 @@ def for_writing(path: Path) -> Connection:
         path.touch(mode=PRIVATE, exist_ok=False)
         give_to_owner_of_folder(path)
     for file in (path, *(_beside(path, log) for log in LOGS)):
-        # Somebody else's file, or one that has just gone, stays as it is.
+        # A file of another user, or one that has just gone, stays as it is.
         with suppress(PermissionError, FileNotFoundError):
             if file.stat().st_mode & ~PRIVATE & 0o777:
                 file.chmod(PRIVATE)
@@ -182,8 +182,8 @@ def _is_written_here(path: Path) -> bool:
 def _copy(path: Path) -> Connection:
     """Read a database and its logs as plain files, and open the copy in memory.
 
-    This is never done where this process itself writes the database: whoever closes a file loses all locks that the
-    process has on it, those of SQLite as well.
+    This is never done where this process itself writes the database: when a file is closed, the process loses all locks
+    that it has on it, those of SQLite as well.
     """
     for _ in range(_TRIES):
         seen = _state(path)

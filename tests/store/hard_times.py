@@ -107,7 +107,7 @@ def die_in_a_checkpoint(folder: str, seed: int) -> None:
             written = append(recorder, sitting, chance, written)
         # The first page comes first, so that anything later is in the middle.
         page = chance.choice(logged_pages(Path(folder, f"{FILE}-wal"))[1:])
-        # Python takes no notice of this signal, unless it is told to.
+        # Python ignores this signal by default.
         signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
         resource.setrlimit(resource.RLIMIT_FSIZE, ((page - 1) * PAGE, resource.RLIM_INFINITY))
 
@@ -286,7 +286,7 @@ def opens(times: int, seed: int, place: Path) -> Tally:
                 tally.acknowledged += "events" in report
                 heard.set()
 
-        # The writer is never to wait until somebody hears it.
+        # A pipe that is full would hold up the writer.
         listener = threading.Thread(target=hear)
         listener.start()
         heard.wait()

@@ -1,4 +1,4 @@
-"""A database is read wherever it lies and whatever was cut off; nothing is left, and damage is told in words."""
+"""A database is read wherever it lies and whatever was cut off; nothing is left, and damage is named in words."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from kiosk import BadInput, StoreFailed
+from kiosk import BadInput, StoreFailed, is_nearly_full
 from kiosk.findings import State
 from kiosk.store import connecting, database
 from kiosk.store.care.backup import FOLDER, back_up
@@ -81,7 +82,7 @@ def check_readable(folder: Path, out: Path) -> None:
 
 @contextmanager
 def read_only(folder: Path) -> Iterator[Path]:
-    """The folder where nobody may write, as on a medium that is read only."""
+    """The folder where no file can be written, as on a medium that is read only."""
     if os.geteuid() != 0:
         folder.chmod(0o500)
         try:
@@ -169,7 +170,7 @@ def test_two_readers_at_once_leave_nothing_when_both_have_gone(folder: Path, pro
     assert contents(folder).keys() == before.keys()
 
 
-def test_a_kiosk_that_opens_while_somebody_reads_keeps_its_log(folder: Path, provenance: Provenance) -> None:
+def test_a_kiosk_that_opens_beside_a_reader_keeps_its_log(folder: Path, provenance: Provenance) -> None:
     a_day(folder, provenance)
     reader = open_for_reading(folder)
     with Recorder(folder) as recorder:
@@ -205,7 +206,7 @@ def test_a_process_that_writes_a_database_never_reads_it_as_a_plain_file(
 
 
 @POSIX
-@pytest.mark.skipif(sys.platform != "win32" and os.geteuid() != 0, reason="only root can do so for somebody else")
+@pytest.mark.skipif(sys.platform != "win32" and os.geteuid() != 0, reason="only root can do so for another user")
 def test_what_root_does_for_another_user_leaves_that_user_s_files(folder: Path, provenance: Provenance) -> None:
     folder.mkdir(mode=0o700)
     os.chown(folder, 54321, 54321)
@@ -334,6 +335,14 @@ def test_no_remedy_advises_to_leave_a_folder_that_may_be_intact(
     (found,) = probe(folder, busy=False)
     assert found.state is State.BAD
     assert not [words for words in ("--data", FOLDER, "copy", "another folder") if words in found.remedy]
+
+
+@POSIX
+def test_a_medium_that_is_read_only_is_not_called_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=0))
+    assert is_nearly_full(tmp_path)
+    monkeypatch.setattr(os, "statvfs", lambda _: SimpleNamespace(f_flag=os.ST_RDONLY))
+    assert not is_nearly_full(tmp_path)
 
 
 def test_a_disk_that_fails_for_now_is_not_called_bad_input(

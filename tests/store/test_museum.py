@@ -118,7 +118,7 @@ def test_the_second_schema_takes_the_steps_it_lacks_and_is_sound_before_and_afte
         assert connection.execute("SELECT sitting FROM tombstone").fetchall() == [(2,)]
 
 
-def test_somebody_of_the_second_schema_can_withdraw(second: Path) -> None:
+def test_a_participant_of_the_second_schema_can_withdraw(second: Path) -> None:
     withdraw(second, "GJ6EESU")
     assert verify(second) == []
     with archive(second) as stored:

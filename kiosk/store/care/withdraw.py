@@ -64,8 +64,9 @@ def find(folder: Path, code: str) -> Withdrawal:
 def withdraw(folder: Path, code: str) -> Withdrawal:
     """Take out whoever has this code, and replace the copies of the database by a fresh one; returns what went.
 
-    One that was cut off before is finished. Raises BadInput if nobody has the code, or if anybody else is at the data;
-    nothing has gone then. Raises StoreFailed if the disk did not do all of it; the message says how far it came.
+    One that was cut off before is finished. Raises BadInput if no participant has the code, or if another program is
+    at the data; nothing has gone then. Raises StoreFailed if the disk did not do all of it; the message says how far it
+    came.
     """
     found = find(folder, code)
     held = lock(folder)
@@ -89,7 +90,7 @@ def is_unfinished(connection: sqlite3.Connection) -> bool:
 
 
 def finish_cut_off(folder: Path) -> None:
-    """Finish the withdrawals of a data folder that were cut off; whoever asks holds its lock.
+    """Finish the withdrawals of a data folder that were cut off; the caller holds its lock.
 
     Raises StoreFailed if it cannot be done now.
     """
@@ -127,7 +128,7 @@ def _sha256(code: str) -> str:
 
 
 def _keep_to_oneself(connection: sqlite3.Connection) -> None:
-    """Let nobody else even look from the next transaction on, and write zeros over everything that is deleted."""
+    """Keep other programs out from the next transaction on, and write zeros over everything that is deleted."""
     connection.execute(f"PRAGMA busy_timeout = {READER_WAIT_MS}")
     connection.execute("PRAGMA locking_mode = EXCLUSIVE")
     connection.execute("PRAGMA secure_delete = ON")
@@ -135,7 +136,7 @@ def _keep_to_oneself(connection: sqlite3.Connection) -> None:
 
 @contextmanager
 def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
-    """One transaction in which nobody else even looks: a reader could keep what is to go in the write-ahead log."""
+    """Open one transaction that no other program sees: a reader could keep what is to go in the write-ahead log."""
     try:
         connection.execute("BEGIN EXCLUSIVE")
         yield
@@ -174,7 +175,7 @@ def _bury(connection: sqlite3.Connection, sitting: int, code: str) -> None:
 def _clean(connection: sqlite3.Connection, folder: Path) -> None:
     """Leave no page with what has gone: not in the log, and not among the pages that are free."""
     try:
-        # Not every statement that follows takes the lock that keeps everybody else away.
+        # Not every statement that follows takes the lock that keeps other programs out.
         connection.execute("BEGIN EXCLUSIVE")
         connection.execute("COMMIT")
         _empty_log(connection)

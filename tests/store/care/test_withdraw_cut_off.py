@@ -25,14 +25,14 @@ from kiosk.store.database import FILE, open_for_reading
 from kiosk.store.probes.database import database
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
-from tests.store.care.cutting import PAGE
 from tests.store.visitors import COMPLETED, rows, saying
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it forks, and looks at modes of files")
 
 ANSWER = "a quite unmistakable answer"
-OTHERS = "somebody else's answer"
+OTHERS = "the answer of another person"
 ROOT = Path(__file__).parents[3]
+PAGE = 4096
 KILLED, CUT_AT_A_PAGE = -9, -25
 
 Cut = Callable[..., int]
@@ -226,7 +226,7 @@ def test_a_withdrawal_that_cannot_be_finished_keeps_no_kiosk_shut(
     check_finished(cut_off, code)
 
 
-def test_somebody_who_looks_does_not_let_a_withdrawal_pass_for_finished(
+def test_a_reader_does_not_let_a_withdrawal_pass_for_finished(
     cut_off: Path, code: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(withdraw_module, "READER_WAIT_MS", 1)
