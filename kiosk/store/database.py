@@ -32,8 +32,6 @@ CACHE_KIB = 256
 
 BUSY = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 """What SQLite answers where another connection holds the database."""
-PRIMARY_CODE = 0xFF
-"""The bits of one of SQLite's answers that tell its kind; the others tell more of it."""
 
 
 class Foreign(BadInput):

@@ -16,8 +16,8 @@ from typing import Any, Self
 
 from kiosk import BadInput, StoreFailed, __version__
 from kiosk.store.care.withdraw import finish_cut_off, is_unfinished
-from kiosk.store.connecting import failure, reason
-from kiosk.store.database import BUSY, PRIMARY_CODE, lock, open_for_writing
+from kiosk.store.connecting import failure, primary_code, reason
+from kiosk.store.database import BUSY, lock, open_for_writing
 from kiosk.store.people.lists import Lists, check_not_given_out_again
 from kiosk.store.people.participants import Participant, checked_site, enrol, participant_of
 from kiosk.store.rows import insert, insert_events, interrupted_at, json_text, mark_interrupted, now_ms
@@ -213,7 +213,7 @@ class Recorder:
             yield
             self._connection.execute("COMMIT")
         except sqlite3.Error as error:
-            if getattr(error, "sqlite_errorcode", 0) & PRIMARY_CODE in BUSY:
+            if primary_code(error) in BUSY:
                 raise StoreBusy(f"another program holds the database: {error}") from error
             raise StoreFailed(f"what happened could not be written: {reason(error, self.folder)}") from error
         finally:
