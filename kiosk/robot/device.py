@@ -13,6 +13,7 @@ from typing import Protocol
 
 from kiosk.robot.body import Place
 from kiosk.study.commands import Mood
+from kiosk.study.declared.typed_input import can_be_kept
 from kiosk.study.events import BodyName
 
 LONGEST_TEXT = 999
@@ -132,7 +133,7 @@ class Robot(Protocol):
 
 
 def speakable(sentence: str) -> str:
-    """A sentence as any robot takes it: below 1,000 characters, without markup and invisible characters."""
-    plain = "".join(" " if character in "<>&" else character for character in sentence if character.isprintable())
+    """A sentence as any robot takes it: below 1,000 characters, without markup and control characters."""
+    plain = "".join(" " if character in "<>&" or not can_be_kept(character) else character for character in sentence)
     text = " ".join(plain.split())
     return text if len(text) <= LONGEST_TEXT else text[:LONGEST_TEXT].rsplit(" ", 1)[0]

@@ -100,6 +100,7 @@ form-next = Next
 form-skip = Skip
 form-finish = Finish
 form-missing = Please answer this one first.
+form-refused = This holds a line break or another character that cannot be stored. Please type it again.
 form-range = from { $lowest } to { $highest }
 form-none = Nothing is chosen yet
 form-type = Tap here to type

@@ -101,6 +101,7 @@ form-next = Siguiente
 form-skip = Saltar
 form-finish = Terminar
 form-missing = Responde primero a esta pregunta, por favor.
+form-refused = Contiene un salto de línea u otro carácter que no se puede guardar. Escríbelo de nuevo, por favor.
 form-range = de { $lowest } a { $highest }
 form-none = Aún no se ha elegido nada
 form-type = Toca aquí para escribir

@@ -105,6 +105,7 @@ form-next = Avanti
 form-skip = Salta
 form-finish = Fine
 form-missing = Rispondi prima a questa domanda, per favore.
+form-refused = Contiene un a capo o un altro carattere che non si può salvare. Scrivilo di nuovo, per favore.
 form-range = da { $lowest } a { $highest }
 form-none = Non è ancora scelto nulla
 form-type = Tocca qui per scrivere

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, Field, PositiveInt, TypeAdapter, field_validator, model_validator
 
 from kiosk.settings import Declared
+from kiosk.study.declared.typed_input import NumberInput, can_be_kept
 from kiosk.study.declared.words import Text, Words
 
 Answer = int | str | tuple[str, ...]
@@ -152,6 +153,11 @@ class Integer(_Question):
     lowest: int = 0
     highest: int = 120
 
+    @property
+    def input(self) -> NumberInput:
+        """How its number is typed and stepped to."""
+        return NumberInput(self.lowest, self.highest)
+
     def accepts(self, answer: Answer) -> bool:
         """Whether it is a number between lowest and highest."""
         return isinstance(answer, int) and not isinstance(answer, bool) and self.lowest <= answer <= self.highest
@@ -217,8 +223,8 @@ class ShortText(_Question):
     longest: Annotated[PositiveInt, Field(le=500)] = 120
 
     def accepts(self, answer: Answer) -> bool:
-        """Whether it is a text that is not too long, in one line."""
-        return isinstance(answer, str) and len(answer) <= self.longest and answer.isprintable()
+        """Whether it is a text that is not too long and has no control characters, such as a line break."""
+        return isinstance(answer, str) and len(answer) <= self.longest and can_be_kept(answer)
 
 
 class TextPage(_Item):

@@ -12,6 +12,8 @@ from math import ceil
 from kiosk.assistant.wording import Catalogue
 from kiosk.study.booth.deeds import Asks, Reason
 from kiosk.study.booth.pin import MOST
+from kiosk.study.declared.typed_input import can_be_kept
+from kiosk.ui.characters import without_last
 from kiosk.ui.clock import Clock, Wait
 from kiosk.ui.panel.card import CardScreen, Step
 from kiosk.ui.panel.lock import Lock
@@ -84,23 +86,23 @@ class Asking:
                 self._show_typed(self._typed + text)
             case Step.REASON if text in _digits():
                 self._choose(list(Reason)[int(text) - 1])
-            case Step.WORDS if text.isprintable() and len(self._typed) < LONGEST_REASON:
+            case Step.WORDS if can_be_kept(text) and len(self._typed + text) <= LONGEST_REASON:
                 self._show_typed(self._typed + text)
             case _:
                 self._wait_for_answer()
 
     def erase(self) -> None:
         """The last character is taken back."""
-        self._show_typed(self._typed[:-1])
+        self._show_typed(without_last(self._typed))
 
     def enter(self) -> None:
         """What was typed is what is meant."""
-        step, typed = self._card.asks_for, self._typed.strip()
+        step, typed = self._card.asks_for, self._typed
         if step is Step.PIN and typed and not self._lock.checks:
             question = self._question
             self._show_typed("")
             self._lock.check(typed, partial(self._checked, question))
-        elif step is Step.WORDS and typed:
+        elif step is Step.WORDS and typed.strip():
             self._done(Reason.OTHER.in_own_words(typed))
 
     def _checked(self, question: int, *, right: bool) -> None:

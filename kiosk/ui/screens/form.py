@@ -14,7 +14,9 @@ from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistant.wording import Catalogue
-from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Single, TextPage
+from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, ShortText, Single, TextPage
+from kiosk.study.declared.typed_input import can_be_kept
+from kiosk.ui.characters import before, fitting
 from kiosk.ui.screens.items import described
 
 QML_IMPORT_NAME = "Recollect"
@@ -39,6 +41,8 @@ class FormScreen(QObject):
     """The visitor answered an item; None takes the answer back."""
     typed = Signal()
     """The visitor is typing; told every few letters."""
+    filled = Signal(str, str)
+    """A field is to show this text: its answer came without anybody typing here, as in a replay."""
     continued = Signal()
 
     def __init__(self, catalogue: Catalogue, scale: Callable[[str], Path], parent: QObject | None = None) -> None:
@@ -77,6 +81,8 @@ class FormScreen(QObject):
             self._answers[item] = value
         self._missing = tuple(name for name in self._missing if name != item)
         self.marked.emit()
+        if isinstance(self._item(item), Integer | ShortText) and self._typed(item) != value:
+            self.filled.emit(item, "" if value is None else str(value))
 
     def show_missing(self, items: tuple[str, ...]) -> None:
         """Show which items have to be answered before the visitor can go on."""
@@ -125,6 +131,11 @@ class FormScreen(QObject):
         """The items that have to be answered first, or have an answer that cannot be."""
         return list(self._missing)
 
+    @Property(list, notify=marked)
+    def refused(self) -> list[str]:
+        """The fields in which a character stands that cannot be kept."""
+        return [item for item, text in self._drafts.items() if not can_be_kept(text)]
+
     @Property(bool, notify=marked)
     def skips(self) -> bool:
         """Whether to go on is to leave out everything on this page, and one may."""
@@ -159,6 +170,28 @@ class FormScreen(QObject):
         if self._keystrokes % KEYSTROKES == 0:
             self.typed.emit()
 
+    @Slot(str, str, int, result=str)
+    def step(self, item: str, text: str, by: int) -> str:
+        """What stands in a number's field after one step up or down from this text."""
+        asked = self._item(item)
+        return str(asked.input.step(text, by)) if isinstance(asked, Integer) else text
+
+    @Slot(str, str, result=str)
+    def negate(self, item: str, text: str) -> str:
+        """What stands in a number's field once its minus sign came, or went."""
+        asked = self._item(item)
+        return asked.input.negate(text) if isinstance(asked, Integer) else text
+
+    @Slot(str, int, result=int)
+    def before(self, text: str, place: int) -> int:
+        """Where the character begins that ends at a place in a text, as Qt counts places."""
+        return before(text, place)
+
+    @Slot(str, int, int, result=int)
+    def fitting(self, text: str, place: int, longest: int) -> int:
+        """Where the part before a place has to end for a text to be no longer than a number of characters."""
+        return fitting(text, place, longest)
+
     @Slot(str)
     def finish(self, item: str) -> None:
         """The visitor has done with typing, for now."""
@@ -184,18 +217,21 @@ class FormScreen(QObject):
         self.answered.emit(item, value)
 
     def _typed(self, name: str) -> Answer | None:
-        """What stands in a field, as an answer; None for nothing, and for what is no number where one is asked for."""
-        text = "".join(letter for letter in self._drafts.get(name, "") if letter.isprintable()).strip()
-        item = self._item(name)
-        if not isinstance(item, Integer):
-            return text or None
-        # No more digits than the field takes: Python reads no number of thousands.
-        return int(text) if text.isdecimal() and len(text) <= len(str(item.highest)) else None
+        """What stands in a field, as an answer, spaces and all.
+
+        None for blanks alone, which say nothing, and for what is no number where one is asked for.
+        """
+        text, item = self._drafts.get(name, ""), self._item(name)
+        if isinstance(item, Integer):
+            return item.input.read(text.strip())
+        return text if text.strip() else None
 
     def _is_wrong(self, name: str) -> bool:
         """Whether something stands in a field that cannot be an answer."""
-        typed = self._typed(name)
-        return bool(self._drafts.get(name, "").strip()) and (typed is None or not self._item(name).accepts(typed))
+        text, typed = self._drafts.get(name, ""), self._typed(name)
+        if typed is None:
+            return bool(text.strip()) or not can_be_kept(text)
+        return not self._item(name).accepts(typed)
 
     def _item(self, name: str) -> Item:
         return next(item for item in self._items if item.id == name)

@@ -47,8 +47,9 @@ def _choice(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> d
         case Slider():
             return {"lowest": item.lowest, "highest": item.highest}
         case Integer():
-            limits = {"lowest": item.lowest, "highest": item.highest}
-            return limits | {"range": catalogue.text("form-range", **limits)}
+            field = item.input
+            words = catalogue.text("form-range", lowest=item.lowest, highest=item.highest)
+            return {"range": words, "minus": field.has_minus, "widest": field.longest, "pattern": field.pattern}
         case Single() | Multiple():
             language = catalogue.language
             return {"options": [{"id": each.id, "text": in_language(each.text, language)} for each in item.options]}

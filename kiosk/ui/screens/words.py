@@ -30,6 +30,7 @@ FIXED = (
     "form-skip",
     "form-finish",
     "form-missing",
+    "form-refused",
     "form-none",
     "form-type",
     "form-less",

@@ -16,7 +16,8 @@ Rectangle {
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
-    readonly property bool missed: form.missing.includes(item.id)
+    readonly property bool refused: form.refused.includes(item.id)
+    readonly property bool missed: form.missing.includes(item.id) || refused
     readonly property real margin: alone ? 0 : (dense ? 12 : 20) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
@@ -27,6 +28,14 @@ Rectangle {
     function done() {
         if (kiosk.bare)
             form.finish(item.id)
+    }
+    function fill(text: string) {
+        const field = way.item as TypedField
+        const number = way.item as NumberField
+        if (field)
+            field.text = text
+        else if (number)
+            number.text = text
     }
     function take() {
         way.forceActiveFocus(Qt.TabFocusReason)
@@ -60,7 +69,7 @@ Rectangle {
         PlainText {
             width: parent.width
             visible: box.missed
-            text: box.words["form-missing"]
+            text: box.words[box.refused ? "form-refused" : "form-missing"]
             horizontalAlignment: box.alone ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: Theme.small; bold: true }
             wrapMode: Text.WordWrap
@@ -72,6 +81,14 @@ Rectangle {
             active: box.ways[box.item.kind] !== null
             visible: active
             sourceComponent: box.ways[box.item.kind]
+        }
+    }
+
+    Connections {
+        target: box.form
+        function onFilled(item: string, text: string) {
+            if (item === box.item.id)
+                box.fill(text)
         }
     }
 
@@ -125,10 +142,12 @@ Rectangle {
         id: number
         NumberField {
             item: box.item.id
+            form: box.form
             label: box.item.text
-            lowest: box.item.lowest
-            highest: box.item.highest
             range: box.item.range
+            minus: box.item.minus
+            widest: box.item.widest
+            pattern: box.item.pattern
             less: box.words["form-less"]
             more: box.words["form-more"]
             onTyped: text => box.form.draft(box.item.id, text)
@@ -140,12 +159,13 @@ Rectangle {
         id: letters
         TypedField {
             id: field
+            form: box.form
             focus: true
             objectName: `text-${box.item.id}`
             width: Math.min(content.width, 1000 * Theme.unit)
             label: box.item.text
             placeholderText: box.words["form-type"]
-            maximumLength: box.item.longest
+            longest: box.item.longest
             onTextChanged: box.form.draft(box.item.id, text)
             onEditingFinished: box.done()
             onPointed: box.entered(field)

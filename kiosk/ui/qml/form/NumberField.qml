@@ -2,31 +2,37 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
+import Recollect
 import ".."
 
 Row {
     id: number
 
     required property string item
+    required property FormScreen form
     required property string label
-    required property int lowest
-    required property int highest
     required property string range
+    required property bool minus        // whether a negative number is allowed
+    required property string widest     // the longest number that is allowed
+    required property string pattern    // what may stand in the field
     required property string less
     required property string more
+    property alias text: field.text
     signal typed(string text)
     signal done()
     signal entered(Item field)
 
-    // From nothing, up begins at the lowest and down at the highest.
     function step(by: int) {
-        const now = parseInt(field.text)
-        const next = isNaN(now) ? (by > 0 ? lowest : highest) : Math.max(lowest, Math.min(highest, now + by))
-        field.text = next
+        field.text = form.step(item, field.text, by)
         done()
     }
 
     spacing: 0.6 * Theme.gap
+
+    FontMetrics {
+        id: metrics
+        font: field.font
+    }
 
     component Step: AbstractButton {
         id: button
@@ -63,13 +69,18 @@ Row {
         focus: true
         label: `${number.label} ${number.range}`
         digits: true
-        width: 170 * Theme.unit * Theme.textSize
+        form: number.form
+        minus: number.minus
+        // As wide as the longest number; digits of another script may be wider still.
+        width: Math.max(170 * Theme.unit * Theme.textSize,
+                        Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         horizontalAlignment: TextInput.AlignHCenter
-        maximumLength: String(number.highest).length
-        validator: RegularExpressionValidator { regularExpression: /[0-9]*/ }
+        longest: number.widest.length
+        validator: RegularExpressionValidator { regularExpression: new RegExp(number.pattern) }
         onTextChanged: number.typed(text)
         onEditingFinished: number.done()
         onPointed: number.entered(field)
+        onNegated: text = number.form.negate(number.item, text)
         Keys.onUpPressed: number.step(1)
         Keys.onDownPressed: number.step(-1)
     }

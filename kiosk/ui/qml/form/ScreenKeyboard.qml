@@ -13,8 +13,8 @@ Rectangle {
 
     property bool capitals: false
     readonly property bool numbers: field !== null && field.digits
-    readonly property var rows: numbers ? ["1234567890"] : ["1234567890", "qwertyuiop", "asdfghjklñ", "zxcvbnmç'-", "àáèéìíòóùúü", ".,?!¿¡"]
-    readonly property real keyWidth: Math.min(96 * Theme.unit, (width - 2 * Theme.gap - 12 * gap) / (numbers ? 13.4 : 11))
+    readonly property var rows: numbers ? [field?.minus ? "-1234567890" : "1234567890"] : ["1234567890", "qwertyuiop", "asdfghjklñ", "zxcvbnmç'-", "àáèéìíòóùúü", ".,?!¿¡"]
+    readonly property real keyWidth: Math.min(96 * Theme.unit, (width - 2 * Theme.gap - 12 * gap) / (numbers ? 14.4 : 11))
     readonly property real keyHeight: 60 * Theme.unit
     readonly property real gap: 8 * Theme.unit
 
@@ -77,9 +77,9 @@ Rectangle {
                         required property int index
                         readonly property string letter: row.modelData.charAt(index)
                         objectName: "key-" + letter
-                        text: keyboard.capitals ? letter.toUpperCase() : letter
+                        text: keyboard.capitals ? letter.toUpperCase() : keyboard.numbers && letter === "-" ? "−" : letter
                         onClicked: {
-                            keyboard.field.type(text)
+                            keyboard.field.type(keyboard.numbers ? letter : text)
                             keyboard.capitals = false
                         }
                     }

@@ -1,29 +1,44 @@
 // A line to type in, with keys of a keyboard or with those on the screen.
 import QtQuick
 import QtQuick.Controls.Basic
+import Recollect
 import ".."
 
 TextField {
     id: field
 
+    required property FormScreen form
     required property string label
     property bool digits: false
+    property bool minus: false          // whether a number may be negative
+    property int longest: 32767         // in characters; some take two places of Qt's own count
     // By mouse or touch: whoever comes by keyboard has one.
     signal pointed()
+    // The minus key on the screen was pressed.
+    signal negated()
 
     // What the keys on the screen do. A number grows and shrinks at its end: they have no arrows, and a finger that
     // fell before a digit could never delete it.
     function type(letters: string) {
-        insert(digits ? length : cursorPosition, letters)
+        if (digits && letters === "-")
+            negated()
+        else
+            insert(digits ? length : cursorPosition, letters)
     }
     function wipe() {
+        const at = digits ? length : cursorPosition
         if (selectedText !== "")
             remove(selectionStart, selectionEnd)
-        else if (digits)
-            remove(length - 1, length)
-        else
-            remove(cursorPosition - 1, cursorPosition)
+        else if (at > 0)
+            remove(form.before(text, at), at)
     }
+    // What is too much goes again, from where it came, and never half a character.
+    onTextChanged: {
+        const kept = form.fitting(text, cursorPosition, longest)
+        if (kept < cursorPosition)
+            remove(kept, cursorPosition)
+    }
+    maximumLength: 2 * longest
     font.pixelSize: Theme.body
     color: Theme.ink
     placeholderTextColor: Theme.faintInk
