@@ -17,6 +17,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import BadInput
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.plan import Study
+from kiosk.ui.held_keys import HeldKeys
 from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.screens.every import Screens
 
@@ -65,6 +66,7 @@ class Window:
         self._engine = QQmlApplicationEngine()
         self.shown = self._load(study.settings, mode)
         """Qt's own window."""
+        self._held_keys = HeldKeys(self.shown, self.owner)
 
     def show(self, display: Display = Display.WINDOW) -> None:
         """Show it as a window that can be left, over the full screen or not."""

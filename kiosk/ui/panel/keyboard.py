@@ -52,7 +52,9 @@ class Keyboard(QObject):
             return False
         if event.modifiers() & _CHORD:
             return False
-        if event.type() == QEvent.Type.KeyPress and not event.isAutoRepeat():
+        # A key that is held down counts once, but for the one that deletes.
+        once = not event.isAutoRepeat() or event.key() == Qt.Key.Key_Backspace
+        if event.type() == QEvent.Type.KeyPress and once:
             self._take(event)
         event.accept()
         return True

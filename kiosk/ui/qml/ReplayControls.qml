@@ -11,14 +11,14 @@ Rectangle {
 
     color: Theme.ink
 
-    Shortcut { sequence: "Space"; onActivated: bar.replay.toggle() }
+    Shortcut { sequence: "Space"; autoRepeat: false; onActivated: bar.replay.toggle() }
     Shortcut { sequence: "Right"; onActivated: bar.replay.step() }
     Shortcut { sequence: "Left"; onActivated: bar.replay.back() }
     Shortcut { sequence: "Home"; onActivated: bar.replay.seek(0) }
     Shortcut { sequence: "End"; onActivated: bar.replay.seek(bar.replay.steps) }
     Shortcut { sequences: ["Up", "+"]; onActivated: bar.replay.faster() }
     Shortcut { sequences: ["Down", "-"]; onActivated: bar.replay.slower() }
-    Shortcut { sequences: ["Escape", "Q", "Ctrl+Q"]; onActivated: bar.replay.leave() }
+    Shortcut { sequences: ["Escape", "Q", "Ctrl+Q"]; autoRepeat: false; onActivated: bar.replay.leave() }
 
     component Words: PlainText {
         anchors.verticalCenter: parent.verticalCenter
