@@ -121,7 +121,11 @@ class Timing(Declared):
 
 
 class Idle(Declared):
-    """Without a tap for so long, the visitor of a stage is asked: still there? All times in milliseconds."""
+    """Ask the visitor of a stage "still there?" after so long without a tap, a key or a scroll.
+
+    All times are in milliseconds. A text that takes longer to read, at the `reading` of `[timing]`, puts the question
+    off until then.
+    """
 
     about: Annotated[Milliseconds, Field(description="While the study is described.")] = 60_000
     consent: Annotated[Milliseconds, Field(description="While consent is asked for.")] = 90_000

@@ -183,6 +183,17 @@ class Typed(WorldEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class UserActivity(WorldEvent):
+    """The visitor scrolled, dragged or moved by keyboard, and did it last ``ago_ms`` milliseconds before.
+
+    It is told when the idle time ends, and so at most once in each.
+    """
+
+    by_visitor = True
+    ago_ms: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class StillHereTapped(WorldEvent):
     """The visitor is still there."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from kiosk.settings import Idle
 from kiosk.study import commands as do
 from kiosk.study import events as happened
@@ -12,9 +14,10 @@ from kiosk.study.events import Stage, Timer, WorldEvent
 class Presence:
     """Knows whether somebody was asked if they are still there, and whether the sitting is paused."""
 
-    def __init__(self, idle: Idle) -> None:
-        """Ask after these times."""
+    def __init__(self, idle: Idle, reading_ms: Callable[[Stage], int] = lambda _: 0) -> None:
+        """Ask after these times, or once a stage's text can have been read, if that takes longer."""
         self._idle = idle
+        self._reading_ms = reading_ms
         self._asked = self._paused = False
 
     def accepts(self, event: WorldEvent) -> bool:
@@ -22,6 +25,8 @@ class Presence:
         match event:
             case happened.StillHereTapped():
                 return self._asked
+            case happened.UserActivity(ago_ms=ago_ms) if ago_ms < 0:
+                return False
             case happened.PauseAsked():
                 return not self._paused
             case happened.PauseEnded():
@@ -45,16 +50,20 @@ class Presence:
                 self._paused = False
                 script.do(do.HidePause(), do.StopTimer(Timer.PAUSE))
                 self.wait(stage, script)
+            case happened.UserActivity(ago_ms=ago_ms):
+                self.stop_asking(script)
+                self.wait(stage, script, ago_ms)
             case _ if event.by_visitor and stage is not Stage.ATTRACT:
                 self.stop_asking(script)
                 self.wait(stage, script)
 
-    def wait(self, stage: Stage, script: Script) -> None:
-        """Start the idle time of a stage; in a pause its own, so that nobody who only begins one parks a booth."""
+    def wait(self, stage: Stage, script: Script, ago_ms: int = 0) -> None:
+        """Start the idle time of a stage, so long ago; in a pause its own, or anybody could park a booth."""
         if self._paused:
             script.do(do.StartTimer(Timer.PAUSE, self._idle.pause))
         else:
-            script.do(do.StartTimer(Timer.IDLE, self._idle.of(stage.value)))
+            idle_ms = max(self._idle.of(stage.value), self._reading_ms(stage))
+            script.do(do.StartTimer(Timer.IDLE, max(1, idle_ms - ago_ms)))
 
     def go_on(self, script: Script) -> None:
         """End a pause together with the sitting, or after the program that it was cut off with."""

@@ -37,10 +37,10 @@ class Scenery:
             Stage.ABOUT: lambda: About(plan.information.about),
             Stage.CONSENT: lambda: Consent(plan.information, plan.language),
             Stage.AGE: lambda: AgeGate(settings.consent.adult),
-            Stage.ABOUT_YOU: lambda: Asking((plan.about_you,), Random(f"{seed}/about_you")),
+            Stage.ABOUT_YOU: lambda: Asking((plan.about_you,), Random(f"{seed}/about_you"), plan.language),
             Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
             Stage.RESULT: lambda: Result(self.speaker, log),
-            Stage.QUESTIONS: lambda: Asking(plan.questionnaires, Random(f"{seed}/questions")),
+            Stage.QUESTIONS: lambda: Asking(plan.questionnaires, Random(f"{seed}/questions"), plan.language),
             Stage.DEBRIEF: lambda: Debrief(plan.information.debrief),
             Stage.THANKS: lambda: Thanks(self.speaker, settings.timing.thanks),
         }

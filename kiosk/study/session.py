@@ -40,11 +40,12 @@ class Session:
         self.stage = Stage.ATTRACT
         self.keeping = Keeping.UNDECIDED
         self._course = plan.course
+        self._timing = plan.settings.timing
         self._closed_in: Stage | None = None
         self._log: list[Event] = []
         self._waiting: set[Timer] = set()
         self._scenery = Scenery(plan, seed, lambda script: [*self._log, *script.notes])
-        self._presence = Presence(plan.settings.idle)
+        self._presence = Presence(plan.settings.idle, self._reading_ms)
         self._talk = Talk(self._scenery.speaker)
 
     def handle(self, event: WorldEvent) -> tuple[Command, ...]:
@@ -62,6 +63,10 @@ class Session:
     def measures(self) -> Measures:
         """The measures of the game so far."""
         return measure(self._log)
+
+    def _reading_ms(self, stage: Stage) -> int:
+        """How long it takes to read the longest page of a stage."""
+        return self._timing.reading * self._scenery.of(stage).characters
 
     def check(self, event: WorldEvent) -> None:
         """Raise UnexpectedEvent if this event has no place now."""

@@ -45,6 +45,7 @@ from kiosk.study.events import (
     Thanked,
     TimerEnded,
     Typed,
+    UserActivity,
     VisitorLeft,
     WorldEvent,
 )
@@ -77,6 +78,7 @@ _ANYWHERE = (
     SpeechFailed,
     RobotLost,
     StillHereTapped,
+    UserActivity,
     RepeatAsked,
     PauseAsked,
     PauseEnded,

@@ -18,6 +18,7 @@ from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
+from kiosk.ui.activity import Activity
 from kiosk.ui.booth.window import BoothWindow
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
 from kiosk.ui.conductor import Conductor
@@ -64,6 +65,8 @@ class App:
         self.clock = _clock(mode, owner)
         self.started_ms = self.clock.now_ms()
         self.conductor = Conductor(self.screens, recorder, self.clock, desk)
+        self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
+        self.conductor.last_activity_ms = self._activity.last_ms
         self.voice = _voice(settings, mode, self.clock, owner)
         self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
         board = settings.screen.board

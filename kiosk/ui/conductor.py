@@ -17,8 +17,8 @@ from kiosk.robot.bodies import Bodies
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Command
-from kiosk.study.events import Stage, WorldEvent
+from kiosk.study.commands import Command, StartTimer
+from kiosk.study.events import Stage, Timer, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
 from kiosk.ui.clock import Clock, Wait
@@ -61,12 +61,15 @@ class Conductor:
         """Is told when a visitor has begun, or a sitting goes on."""
         self.rested: Callable[[], None] = lambda: None
         """Is told when no sitting is under way any more."""
+        self.last_activity_ms: Callable[[], int | None] = lambda: None
+        """When the visitor last did anything to the screen, on the clock; None if they never did."""
+        self._idle_since = 0
         self._shut = False
         self._calm: Wait | None = None
         self._recorder = recorder
         self._clock = clock
         self._desk = desk
-        self._performer = Performer(screens, clock, lambda timer: self.tell(happened.TimerEnded, timer=timer))
+        self._performer = Performer(screens, clock, self._timer_ended)
         self._queue: deque[_Queued] = deque()
         self._unwritten: tuple[WorldEvent, tuple[Command, ...]] | None = None
         """What the session has concluded, and the database has not taken yet."""
@@ -163,6 +166,14 @@ class Conductor:
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
         if not self._working and not self._busy.under_way:
             self._work()
+
+    def _timer_ended(self, timer: Timer) -> None:
+        last = self.last_activity_ms()
+        if timer is Timer.IDLE and last is not None and last > self._idle_since:
+            # Whoever scrolls, or goes about by keyboard, is there: the idle time counts from the last of it.
+            self.tell(happened.UserActivity, ago_ms=self._clock.now_ms() - last)
+        else:
+            self.tell(happened.TimerEnded, timer=timer)
 
     def speech_started(self, utterance: int) -> None:
         """The body began to say a sentence."""
@@ -307,6 +318,8 @@ class Conductor:
     def _perform(self, commands: tuple[Command, ...], record: Record) -> None:
         self._performer.screens.debrief.give_code(record.code)
         for command in commands:
+            if isinstance(command, StartTimer) and command.timer is Timer.IDLE:
+                self._idle_since = self._clock.now_ms()
             self._performer.perform(command)
         sound = effect(commands)
         if sound is not None:

@@ -19,6 +19,7 @@ EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
         happened.CardTapped(at_ms=9, position=Position(0, 0)),
         happened.AnswerGiven(at_ms=9, item="enjoyed", value=1),
         happened.Typed(at_ms=9),
+        happened.UserActivity(at_ms=9, ago_ms=3),
         happened.StillHereTapped(at_ms=9),
         happened.TimerEnded(at_ms=9, timer=Timer.IDLE),
         happened.SpeechStarted(at_ms=9, utterance=1),

@@ -45,6 +45,7 @@ ANYTHING = st.one_of(
     st.builds(happened.AnswerGiven, at_ms=TIMES, item=st.sampled_from(ITEMS), value=ANSWERS),
     st.builds(happened.StillHereTapped, at_ms=TIMES),
     st.builds(happened.Typed, at_ms=TIMES),
+    st.builds(happened.UserActivity, at_ms=TIMES, ago_ms=st.integers()),
     st.builds(happened.TimerEnded, at_ms=TIMES, timer=st.sampled_from(Timer)),
     st.builds(happened.SpeechStarted, at_ms=TIMES, utterance=st.integers()),
     st.builds(happened.SpeechFinished, at_ms=TIMES, utterance=st.integers(-1, 40)),

@@ -70,6 +70,7 @@ def test_a_tap_shows_that_somebody_is_there_and_a_clock_does_not() -> None:
         "AnswerGiven",
         "StillHereTapped",
         "Typed",
+        "UserActivity",
     }
 
 

@@ -11,9 +11,11 @@ from kiosk.game import Position
 from kiosk.settings import Idle, Practice, Timing
 from kiosk.study import commands as do
 from kiosk.study import events as happened
+from kiosk.study.declared.information import ConsentPage, Page, Purpose
+from kiosk.study.declared.questionnaire import ShortText
 from kiosk.study.events import Stage, Status, Timer
 from kiosk.study.stages import UnexpectedEvent
-from tests.samples import always, whole
+from tests.samples import INFORMATION, always, likert, questionnaire, whole
 from tests.study.driver import SPEECH_TIME, Driver, Voice, driven_to, with_memory
 from tests.study.examples import EXAMPLES
 from tests.study.table import a_pair, playing
@@ -100,6 +102,44 @@ def test_every_tap_starts_the_idle_time_anew() -> None:
     driver.spend(1000)
     driver.tap(Position(0, 0))
     assert driver.running[Timer.IDLE] == driver.now + 120_000
+
+
+@pytest.mark.parametrize("stage", LONG_ENOUGH)
+def test_activity_puts_the_question_off_from_the_moment_when_it_was_seen(stage: Stage) -> None:
+    driver = driven_to(stage, LASTING)
+    driver.spend(LONG_ENOUGH[stage] - 1)
+    driver.send(happened.UserActivity(at_ms=driver.now, ago_ms=20_000))
+    assert driver.running[Timer.IDLE] == driver.now - 20_000 + LONG_ENOUGH[stage]
+    assert not driver.view.still_there
+
+
+def test_activity_answers_the_question_and_a_time_to_come_is_refused() -> None:
+    driver = playing()
+    while not driver.view.still_there:
+        driver.wait()
+    with pytest.raises(UnexpectedEvent):
+        driver.send(happened.UserActivity(at_ms=driver.now, ago_ms=-1))
+    driver.send(happened.UserActivity(at_ms=driver.now, ago_ms=0))
+    assert not driver.view.still_there
+    assert Timer.STILL_THERE not in driver.running
+
+
+LONG_TEXT = "word " * 1000
+
+
+@pytest.mark.parametrize("stage", [Stage.ABOUT, Stage.CONSENT, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF])
+def test_a_text_that_takes_longer_to_read_puts_the_question_off_until_then(stage: Stage) -> None:
+    page = Page(title="A page", paragraphs=(LONG_TEXT,))
+    consent = ConsentPage(title="Consent", paragraphs=("a line",), purposes=(Purpose(id="store", text=LONG_TEXT),))
+    long = replace(
+        LASTING,
+        information=INFORMATION.model_copy(update={"about": page, "consent": consent, "debrief": page}),
+        about_you=questionnaire("about-you", ShortText(id="t", kind="text", text={"en": LONG_TEXT, "it": "no"})),
+        questionnaires=(questionnaire("closing", likert("short"), likert("long", text={"en": LONG_TEXT})),),
+    )
+    driver = driven_to(stage, long)
+    least = Timing().reading * len(LONG_TEXT)
+    assert least <= driver.running[Timer.IDLE] - driver.now < 1.2 * least
 
 
 def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:

@@ -22,7 +22,7 @@ UNDERWAY = list(Stage)[1:-1]
 
 ANYWHERE = {
     *("TimerEnded", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotLost"),
-    *("PauseAsked", "SoundChanged", "EndAsked", "KioskClosed"),
+    *("UserActivity", "PauseAsked", "SoundChanged", "EndAsked", "KioskClosed"),
 }
 KEPT = {"SittingResumed"}
 """What needs a record that can be gone on with; a game is never gone on with."""

@@ -29,6 +29,11 @@ class Page(Declared):
     title: Text
     paragraphs: Paragraphs
 
+    @property
+    def characters(self) -> int:
+        """How much there is to read."""
+        return len(self.title) + sum(map(len, self.paragraphs))
+
 
 class Purpose(Declared):
     """Something that a visitor may agree to by a tick; without a required one there is no consent."""
@@ -48,6 +53,11 @@ class ConsentPage(Page):
     def _name_every_purpose_once(cls, purposes: tuple[Purpose, ...]) -> tuple[Purpose, ...]:
         refuse_twice("purpose", (purpose.id for purpose in purposes))
         return purposes
+
+    @property
+    def characters(self) -> int:
+        """How much there is to read, with the purposes."""
+        return super().characters + sum(len(purpose.text) for purpose in self.purposes)
 
     @property
     def required(self) -> frozenset[str]:

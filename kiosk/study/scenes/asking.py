@@ -11,6 +11,7 @@ from kiosk.study import events as happened
 from kiosk.study.after.answers import meant
 from kiosk.study.commands import Mood, Script
 from kiosk.study.declared.questionnaire import Answer, Item, Order, Questionnaire, TextPage
+from kiosk.study.declared.words import in_language
 from kiosk.study.events import WorldEvent
 from kiosk.study.scenes.scene import Scene
 
@@ -57,11 +58,20 @@ class Asking(Scene):
 
     mood = Mood.LISTENING
 
-    def __init__(self, questionnaires: Sequence[Questionnaire], chance: Random) -> None:
-        """Ask these; ``chance`` shuffles what is to be shuffled."""
+    def __init__(self, questionnaires: Sequence[Questionnaire], chance: Random, language: str) -> None:
+        """Ask these in a language; ``chance`` shuffles what is to be shuffled."""
+        self._language = language
         self._sheets = tuple(sheet for asked in questionnaires for sheet in sheets(asked, chance))
         self._number = 0
         self._answers: dict[str, Answer] = {}
+
+    @property
+    def characters(self) -> int:
+        """How long the longest of the pages is."""
+        return max((self._length(sheet) for sheet in self._sheets), default=0)
+
+    def _length(self, sheet: Sheet) -> int:
+        return sum(len(in_language(words, self._language)) for item in sheet.items for words in item.texts())
 
     def enter(self, script: Script) -> None:
         """Show the first page."""

@@ -19,6 +19,11 @@ class Consent(Scene):
         self._language = language
         self._ticked: frozenset[str] = frozenset()
 
+    @property
+    def characters(self) -> int:
+        """How long the page is, boxes and all."""
+        return self._information.consent.characters
+
     def enter(self, script: Script) -> None:
         """Show the boxes."""
         self._ticked = frozenset()

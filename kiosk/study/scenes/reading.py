@@ -26,6 +26,11 @@ class About(Scene):
         """Show this page."""
         self._page = page
 
+    @property
+    def characters(self) -> int:
+        """How long the page is."""
+        return self._page.characters
+
     def enter(self, script: Script) -> None:
         """Show it."""
         script.do(do.ShowAbout(self._page))
@@ -70,6 +75,11 @@ class Debrief(Scene):
     def __init__(self, page: Page) -> None:
         """Show this page."""
         self._page = page
+
+    @property
+    def characters(self) -> int:
+        """How long the page is."""
+        return self._page.characters
 
     def enter(self, script: Script) -> None:
         """Show it."""

@@ -18,6 +18,11 @@ class Scene:
     mood: ClassVar[Mood] = Mood.IDLE
     """The assistant's face as the stage begins, whatever it showed before."""
 
+    @property
+    def characters(self) -> int:
+        """How much there is to read on its longest page, in characters."""
+        return 0
+
     def enter(self, script: Script) -> None:
         """Begin, or begin anew."""
 

@@ -92,6 +92,11 @@ class KioskScreen(QObject):
         return self._settled
 
     @property
+    def waits_for_answer(self) -> bool:
+        """Whether the visitor is asked if they are still there, and nothing lies over that question."""
+        return self._asks_still_there and not self._paused and not self._behind_panel
+
+    @property
     def covered(self) -> bool:
         """Whether a question, a calm word or the experimenter's panel lies over the screen."""
         return self._asks_still_there or self._paused or self._waits or self._behind_panel

@@ -1,0 +1,211 @@
+"""Somebody who reads, scrolls or goes about by keyboard is there; any touch or key says so when they are asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QGuiApplication, QKeyEvent, QWheelEvent
+from PySide6.QtTest import QTest
+
+from kiosk.settings import Settings
+from kiosk.study import events as happened
+from kiosk.study.events import WorldEvent
+from kiosk.ui.clock import VirtualClock
+from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import SMALL
+from tests.ui.reaching import touch_screen
+from tests.ui.touring import CHORD, PIN, whole_study
+
+LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+EVERY_MS = 10_000
+PLACE = QPoint(500, 500)
+IDLE_MS = SMALL.idle.about
+
+
+def pass_time(booth: Booth, ms: int) -> None:
+    """Let so much time pass, with everything that is due in it."""
+    clock, over = booth.app.clock, list[bool]()
+    assert isinstance(clock, VirtualClock)
+    clock.after(ms, lambda: over.append(True))
+    while not over:
+        clock.jump()
+
+
+def key(code: Qt.Key, *, again: bool = False) -> Callable[[Booth], None]:
+    """Press a key and let it go, or let one repeat that was down before."""
+
+    def act(booth: Booth) -> None:
+        for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
+            QGuiApplication.sendEvent(booth.app.window, QKeyEvent(kind, code, NO_KEY, "", again))
+
+    return act
+
+
+def turn_wheel(booth: Booth) -> None:
+    """Turn the wheel of the mouse."""
+    at = QPointF(PLACE)
+    phase = Qt.ScrollPhase.NoScrollPhase
+    turned = QWheelEvent(at, at, QPoint(), QPoint(0, -120), Qt.MouseButton.NoButton, NO_KEY, phase, False)  # noqa: FBT003 - Qt's signature
+    QGuiApplication.sendEvent(booth.app.window, turned)
+
+
+def drag_mouse(booth: Booth) -> None:
+    """Drag with the mouse."""
+    window = booth.app.window
+    QTest.mousePress(window, LEFT, NO_KEY, PLACE)
+    QTest.mouseMove(window, PLACE + QPoint(0, 40))
+    QTest.mouseRelease(window, LEFT, NO_KEY, PLACE + QPoint(0, 40))
+
+
+def touch(booth: Booth) -> None:
+    """Touch the screen where there is nothing."""
+    window = booth.app.window
+    QTest.touchEvent(window, touch_screen()).press(0, PLACE, window).commit()
+    QTest.touchEvent(window, touch_screen()).release(0, PLACE, window).commit()
+
+
+SIGNS = {
+    "page down": key(Qt.Key.Key_PageDown),
+    "arrow": key(Qt.Key.Key_Down),
+    "tab": key(Qt.Key.Key_Tab),
+    "letter": key(Qt.Key.Key_A),
+    "wheel": turn_wheel,
+    "drag": drag_mouse,
+    "touch": touch,
+}
+
+
+def move_mouse(booth: Booth) -> None:
+    """Move the mouse, as a table does that is bumped."""
+    QTest.mouseMove(booth.app.window, PLACE)
+    QTest.mouseMove(booth.app.window, PLACE + QPoint(3, 1))
+
+
+NO_SIGNS = {
+    "moved mouse": move_mouse,
+    "key that lies there": key(Qt.Key.Key_PageDown, again=True),
+    "half a shortcut": key(Qt.Key.Key_Control),
+}
+
+
+@pytest.fixture
+def reading(make_booth: MakeBooth) -> Booth:
+    """A booth whose visitor reads what it is about."""
+    booth = make_booth(settings=SMALL)
+    booth.click("start-en")
+    booth.settle()
+    assert booth.screen == "about"
+    return booth
+
+
+@pytest.fixture
+def told(reading: Booth) -> list[WorldEvent]:
+    """What is recorded from now on, but for waits and voices."""
+    events: list[WorldEvent] = []
+    kinds = (happened.UserActivity, happened.StillHereTapped, happened.VisitorLeft)
+    reading.app.conductor.witness = lambda event, _commands, _stage: (
+        events.append(event) if isinstance(event, kinds) else None
+    )
+    return events
+
+
+def asked(booth: Booth) -> bool:
+    """Whether the visitor is asked if they are still there."""
+    return bool(booth.app.screens.kiosk.property("asksStillThere"))
+
+
+@pytest.mark.parametrize("sign", SIGNS.values(), ids=SIGNS.keys())
+def test_a_sign_of_life_every_ten_seconds_keeps_the_question_away(
+    reading: Booth, told: list[WorldEvent], sign: Callable[[Booth], None]
+) -> None:
+    for _ in range(3 * IDLE_MS // EVERY_MS):
+        pass_time(reading, EVERY_MS)
+        sign(reading)
+        assert not asked(reading)
+        assert reading.screen == "about"
+    # The record grows by one event for each idle time, not by one for each key.
+    assert {type(event) for event in told} == {happened.UserActivity}
+    assert len(told) <= 4
+
+
+@pytest.mark.parametrize("sign", NO_SIGNS.values(), ids=NO_SIGNS.keys())
+def test_what_nobody_does_does_not_keep_it_away(
+    reading: Booth, told: list[WorldEvent], sign: Callable[[Booth], None]
+) -> None:
+    for _ in range(IDLE_MS // EVERY_MS):
+        pass_time(reading, EVERY_MS)
+        sign(reading)
+    assert asked(reading)
+    reading.settle()
+    sign(reading)
+    assert asked(reading)
+    assert told == []
+
+
+def test_the_question_comes_one_idle_time_after_the_last_sign(reading: Booth) -> None:
+    pass_time(reading, 25_000)
+    key(Qt.Key.Key_PageDown)(reading)
+    pass_time(reading, IDLE_MS - 1)
+    assert not asked(reading)
+    pass_time(reading, 1)
+    assert asked(reading)
+
+
+def test_who_taps_all_the_time_leaves_no_other_sign_in_the_record(reading: Booth, told: list[WorldEvent]) -> None:
+    reading.click("continue")
+    for _ in range(20):
+        pass_time(reading, EVERY_MS)
+        reading.click(f"purpose-{reading.app.screens.consent.offered[0]}")
+    assert told == []
+
+
+@pytest.mark.parametrize("answer", SIGNS.values(), ids=SIGNS.keys())
+def test_any_touch_or_key_answers_the_question_and_does_nothing_else(
+    reading: Booth, told: list[WorldEvent], answer: Callable[[Booth], None]
+) -> None:
+    reading.wait_until(lambda: asked(reading))
+    reading.settle()
+    answer(reading)
+    assert not asked(reading)
+    assert reading.screen == "about"
+    assert [type(event) for event in told] == [happened.StillHereTapped]
+
+
+def test_an_answer_by_key_presses_nothing_on_the_page_below(reading: Booth, told: list[WorldEvent]) -> None:
+    reading.wait_until(lambda: asked(reading))
+    reading.settle()
+    for code in (Qt.Key.Key_Return, Qt.Key.Key_Space):
+        key(code)(reading)
+    assert reading.screen == "about"
+    assert [type(event) for event in told] == [happened.StillHereTapped]
+
+
+def test_a_touch_in_the_moment_when_the_question_comes_is_no_answer_yet(reading: Booth) -> None:
+    reading.wait_until(lambda: asked(reading))
+    touch(reading)
+    assert asked(reading)
+
+
+def test_the_digits_of_a_pin_do_not_answer_for_the_visitor(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=whole_study())
+    booth.click("start-en")
+    booth.wait_until(lambda: asked(booth))
+    booth.settle()
+    booth.press(Qt.Key.Key_P, CHORD)
+    for digit in PIN[:2]:
+        QTest.keyClick(booth.app.window, digit)  # type: ignore[call-overload]  # it takes characters
+    assert asked(booth)
+
+
+def test_a_typed_answer_of_few_letters_is_a_sign_too(make_booth: MakeBooth) -> None:
+    settings = Settings.model_validate({**SMALL.model_dump(), "stages": ("about_you", "game"), "idle": {}})
+    booth = make_booth(settings=settings)
+    booth.click("start-en")
+    booth.settle()
+    for _ in range(3 * settings.idle.about_you // EVERY_MS):
+        pass_time(booth, EVERY_MS)
+        key(Qt.Key.Key_Backspace)(booth)
+    assert not asked(booth)
+    assert booth.screen == "form"
