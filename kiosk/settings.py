@@ -17,9 +17,6 @@ from pydantic import (
     BaseModel,
     ConfigDict,
     Field,
-    NonNegativeInt,
-    PositiveFloat,
-    PositiveInt,
     PrivateAttr,
     ValidationError,
     field_validator,
@@ -27,7 +24,9 @@ from pydantic import (
 )
 
 from kiosk import BadInput
-from kiosk.refusals import not_toml, refusals
+from kiosk.language_codes import is_right, standard
+from kiosk.refusals import not_toml, refusals, shortened
+from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
 
 STAGES = (
     "about",
@@ -51,7 +50,7 @@ class Declared(BaseModel):
     It is unchangeable once read; a key that does not exist is refused, and so is a value that would have to be bent.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
     file_kind: ClassVar[str] = "file"
     """What such a file is called in a refusal."""
@@ -67,26 +66,62 @@ class Declared(BaseModel):
             raise BadInput(*(f"{name}: {sentence}" for sentence in refusals(error, given, cls))) from error
 
 
-def _toml(name: str, path: Path) -> dict[str, Any]:
+MOST_BYTES = 1024 * 1024
+"""No file that a person writes for a study is longer; a longer one is a mistake, and slow to read."""
+
+_MOST_DOTS = 1000
+"""A key with very many dots takes the reader of TOML hours."""
+
+_LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
+"""Far beyond all bounds; Python refuses to read whole numbers of more than 4,300 digits."""
+
+
+def read_text(name: str, path: Path) -> str:
+    """Read a text file of a study; raises BadInput, in which the file is called ``name``."""
     try:
-        # Some editors begin a file with a mark that is no text.
-        return tomllib.loads(path.read_text("utf-8-sig"))
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise BadInput(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
+        # Some editors begin a file with a mark that is no text, and some end lines in two characters.
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
         raise BadInput(f"{name} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise BadInput(f"{name} is not UTF-8; save it with that encoding") from error
+
+
+def _toml(name: str, path: Path) -> dict[str, Any]:
+    text = read_text(name, path)
+    dotted = next((n for n, line in enumerate(text.splitlines(), 1) if line.count(".") > _MOST_DOTS), None)
+    if dotted is not None:
+        raise BadInput(f"{name} is not for reading: line {dotted} has more than {_MOST_DOTS} dots")
+    try:
+        return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise BadInput(f"{name} is not TOML: {not_toml(error)}") from error
+    except ValueError:
+        # Cut short, the number is still too large wherever it stands, so the key that has it gets its sentence.
+        return tomllib.loads(_LONG_NUMBER.sub(shortened, text))
 
 
-@dataclass(frozen=True)
-class Unit:
-    """What a setting is measured in."""
+Milliseconds = Annotated[int, Field(ge=1, le=MS_PER_HOUR), Unit("ms")]
+Delay = Annotated[int, Field(ge=0, le=MS_PER_MINUTE), Unit("ms")]
+PerCharacter = Annotated[int, Field(ge=1, le=10_000), Unit("ms")]
+"""Times; none is so long that a visitor would take the kiosk for broken."""
 
-    name: str
+Lines = Annotated[int, Field(ge=1, le=12)]
+"""Rows or columns of a board."""
+
+Metres = Annotated[float, Field(ge=-10, le=10), Unit("m")]
+Size = Annotated[float, Field(ge=0.01, le=10), Unit("m")]
 
 
-Milliseconds = Annotated[PositiveInt, Unit("ms")]
+MOST_CHARACTERS = 500
+"""A title or an address that is longer fits on no screen."""
+
+MOST_ENTRIES = 50
+"""More languages or questionnaires than any visitor would bear."""
 
 
 class Timing(Declared):
@@ -94,17 +129,14 @@ class Timing(Declared):
 
     turn_back: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
     mark_delay: Annotated[
-        NonNegativeInt,
-        Unit("ms"),
+        Delay,
         Field(description="From the start of a spoken hint to its mark; never later than its end."),
     ] = 3500
-    mark_delay_silent: Annotated[
-        NonNegativeInt, Unit("ms"), Field(description="The same for a hint that is only shown as text.")
-    ] = 600
-    reading: Annotated[Milliseconds, Field(description="Time to read a sentence without voice, per character.")] = 55
+    mark_delay_silent: Annotated[Delay, Field(description="The same for a hint that is only shown as text.")] = 600
+    reading: Annotated[PerCharacter, Field(description="Time to read a sentence without voice, per character.")] = 55
     reading_least: Annotated[Milliseconds, Field(description="The least time to read any sentence.")] = 1500
     speech_deadline: Annotated[
-        Milliseconds, Field(description="The longest that a spoken sentence may hold up the game, per character.")
+        PerCharacter, Field(description="The longest that a spoken sentence may hold up the game, per character.")
     ] = 130
     speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
     mood: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
@@ -152,8 +184,8 @@ class Idle(Declared):
 class Practice(Declared):
     """The game before the game: nobody helps, nothing is measured, and it may be left at any time."""
 
-    rows: Annotated[PositiveInt, Field(description="Rows of its board.")] = 3
-    columns: Annotated[PositiveInt, Field(description="Columns of its board.")] = 4
+    rows: Annotated[Lines, Field(description="Rows of its board.")] = 3
+    columns: Annotated[Lines, Field(description="Columns of its board.")] = 4
     deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
     longest: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
 
@@ -162,15 +194,19 @@ class Allocation(Declared):
     """Who gets which condition: permuted blocks, from a list that is fixed before the first visitor."""
 
     quotas: Annotated[
-        dict[str, PositiveInt],
+        dict[str, Annotated[int, Field(ge=1, le=10_000)]],
         Field(description="How many completed games each condition shall have, per site; empty: no allocation."),
     ] = {"tom": 28, "notom": 28}
     block: Annotated[
-        PositiveInt, Field(description="How many visitors make a block, in which every condition has its share.")
+        int, Field(ge=1, le=1000, description="How many visitors make a block, in which every condition has its share.")
     ] = 8
     seed: Annotated[
-        NonNegativeInt | None,
-        Field(description="From which the list is drawn; by default a secret one, drawn and stored once."),
+        int | None,
+        Field(
+            ge=0,
+            le=2**63 - 1,
+            description="From which the list is drawn; by default a secret one, drawn and stored once.",
+        ),
     ] = None
 
 
@@ -179,18 +215,22 @@ class Consent(Declared):
 
     text: Annotated[str, Field(description="The folder of assets/consent, or a path: one file per language.")] = "study"
     adult: Annotated[
-        PositiveInt, Unit("years"), Field(description="From this age on a visitor's sitting may be stored.")
+        int, Unit("years"), Field(ge=1, le=120, description="From this age on a visitor's sitting may be stored.")
     ] = 18
     contact: Annotated[
-        str, Field(description="Whom to write to for withdrawing, best a mail address; shown with the code.")
+        str,
+        Field(
+            max_length=MOST_CHARACTERS,
+            description="Whom to write to for withdrawing, best a mail address; shown with the code.",
+        ),
     ] = ""
 
 
 class Game(Declared):
     """The board."""
 
-    rows: Annotated[PositiveInt, Field(description="Rows of the board.")] = 4
-    columns: Annotated[PositiveInt, Field(description="Columns of the board.")] = 6
+    rows: Annotated[Lines, Field(description="Rows of the board.")] = 4
+    columns: Annotated[Lines, Field(description="Columns of the board.")] = 6
     deck: Annotated[str, Field(description="The folder of assets/cards that holds the pictures.")] = "animals"
 
 
@@ -237,8 +277,8 @@ Side = Literal["left", "right"]
 class Screen(Declared):
     """The window."""
 
-    number: Annotated[NonNegativeInt, Field(description="Which screen it covers; 0 is the primary one.")] = 0
-    text_size: Annotated[PositiveFloat, Field(le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
+    number: Annotated[int, Field(ge=0, le=63, description="Which screen it covers; 0 is the primary one.")] = 0
+    text_size: Annotated[float, Field(ge=0.5, le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
     contrast: Annotated[
         Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
@@ -268,7 +308,7 @@ class Robot(Declared):
         1500
     )
     speech_deadline: Annotated[
-        Milliseconds, Field(description="The longest that it may take to say a sentence, per character.")
+        PerCharacter, Field(description="The longest that it may take to say a sentence, per character.")
     ] = 110
     speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 3500
     look_every: Annotated[Milliseconds, Field(description="While it speaks, how often to see if it still answers.")] = (
@@ -292,12 +332,12 @@ class Robot(Declared):
         ),
     ] = "x y z"
     board_middle: Annotated[
-        tuple[float, float, float],
+        tuple[Metres, Metres, Metres],
         Unit("m"),
         Field(strict=False, description="Where the middle of the board is, seen from its eyes."),
     ] = (0.4, -0.2, 0.5)
     board_size: Annotated[
-        tuple[PositiveFloat, PositiveFloat],
+        tuple[Size, Size],
         Unit("m"),
         Field(strict=False, description="How wide and how high the board is on the screen."),
     ] = (0.4, 0.25)
@@ -361,11 +401,13 @@ class Experimenter(Declared):
         ),
     ] = ""
     backup_every: Annotated[
-        PositiveInt,
+        int,
         Unit("minutes"),
-        Field(description="How long after the last one a backup is made, in minutes, between sittings."),
+        Field(
+            ge=1, le=10_080, description="How long after the last one a backup is made, in minutes, between sittings."
+        ),
     ] = 60
-    backups: Annotated[PositiveInt, Field(description="How many backups are kept.")] = 24
+    backups: Annotated[int, Field(ge=1, le=1000, description="How many backups are kept.")] = 24
 
     @field_validator("pin")
     @classmethod
@@ -381,12 +423,17 @@ class Settings(Declared):
 
     file_kind = "study file"
 
-    title: Annotated[str, Field(min_length=1, description="What the study is called, in the data set.")] = (
-        "A memory game with a helping robot"
-    )
+    title: Annotated[
+        str, Field(min_length=1, max_length=MOST_CHARACTERS, description="What the study is called, in the data set.")
+    ] = "A memory game with a helping robot"
     languages: Annotated[
         tuple[str, ...],
-        Field(min_length=1, strict=False, description="The languages to choose from; the first is shown at rest."),
+        Field(
+            min_length=1,
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="The languages to choose from; the first is shown at rest.",
+        ),
     ] = ("en", "it", "es")
     stages: Annotated[
         tuple[str, ...], Field(min_length=1, strict=False, description="The stages of a sitting, in their order.")
@@ -396,7 +443,12 @@ class Settings(Declared):
     ] = "about-you"
     questionnaires: Annotated[
         tuple[str, ...],
-        Field(min_length=1, strict=False, description="The questionnaires after the game: names, or paths."),
+        Field(
+            min_length=1,
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="The questionnaires after the game: names, or paths.",
+        ),
     ] = ("social-intelligence", "trust")
     game: Game = Game()
     practice: Practice = Practice()
@@ -449,14 +501,84 @@ class Settings(Declared):
         copied._file = other._file
         return copied
 
+    @property
+    def language_codes(self) -> tuple[str, ...]:
+        """List the codes of the languages; a language that is named by a path has its folder's name as its code."""
+        return tuple(code_of(name) for name in self.languages)
+
     def find(self, kind: str, name: str) -> Path:
-        """What a study file calls by name: the shipped one in this folder of assets, or else a path from the file."""
-        shipped = ASSETS / kind / name
-        return shipped if shipped.exists() else self.beside(name)
+        """Return the path of what the study file calls by this name, whether it is there or not."""
+        found = self.locate(kind, name)
+        return self.beside(name) if found is None else found.path
+
+    def locate(self, kind: str, name: str) -> Located | None:
+        """Find what the study file calls by this name; None if there is nothing.
+
+        A name with a slash or an ending is a path from the study file's own folder, and nothing else. Any other name
+        is that of something shipped or, if nothing shipped has it, of something in the study file's folder.
+        """
+        if not name:
+            return None
+        ending = _ENDINGS.get(kind, "")
+        names = (f"{name}{ending}", name) if ending else (name,)
+        own = next((path for path in map(self.beside, names) if _is_there(path, ending)), None)
+        shipped = None if is_path(name) else _shipped(kind, name)
+        if shipped is not None:
+            return Located(shipped, is_shipped=True, unused=own)
+        return None if own is None else Located(own)
 
     def beside(self, name: str) -> Path:
-        """A path as the study file means it: from its own folder."""
-        return self._file.parent / name if self._file else Path(name)
+        """Return a path as the study file means it: from its own folder; a backslash is a slash, too."""
+        path = Path(name.replace("\\", "/"))
+        return self._file.parent / path if self._file else path
+
+
+_ENDINGS = {"questionnaires": ".toml", "policies": ".json"}
+"""What goes by a name is a file with this ending; anything else is a folder."""
+
+
+@dataclass(frozen=True)
+class Located:
+    """Where something lies that goes by a name; ``unused`` is what has the same name beside the study file."""
+
+    path: Path
+    is_shipped: bool = False
+    unused: Path | None = None
+
+
+def is_path(name: str) -> bool:
+    """Return whether a name is a path: it has a slash, begins with a dot, or has an ending."""
+    return "/" in name or "\\" in name or name.startswith(".") or bool(Path(name).suffix)
+
+
+def code_of(name: str) -> str:
+    """Return the language code in the name of a language, which may be a path; the name itself if there is none."""
+    last = Path(name.replace("\\", "/")).name
+    return standard(last) if is_right(last) else last
+
+
+def shipped_names(kind: str) -> dict[str, Path]:
+    """Map the names of everything shipped of this kind to its path."""
+    ending = _ENDINGS.get(kind, "")
+    folder = POLICIES if kind == "policies" else ASSETS / kind
+    there = (path for path in sorted(folder.glob(f"*{ending}")) if _is_there(path, ending))
+    return {path.name.removesuffix(ending): path for path in there}
+
+
+def _shipped(kind: str, name: str) -> Path | None:
+    there = shipped_names(kind)
+    if kind == "sentences":
+        return next((path for each, path in there.items() if code_of(each) == code_of(name)), None)
+    return there.get(name)
+
+
+def _is_there(path: Path, ending: str) -> bool:
+    """Return whether there is such a file or, without an ending, such a folder."""
+    try:
+        return path.is_file() if ending else path.is_dir()
+    except (OSError, ValueError):
+        # No file can have such a name.
+        return False
 
 
 def _beside_or_inside(name: str) -> Path:
@@ -470,6 +592,6 @@ POLICIES = _beside_or_inside("policies")
 
 
 def policy_path(name: str) -> Path:
-    """The file of a shipped policy by its name, or the path itself."""
-    shipped = POLICIES / f"{name}.json"
-    return shipped if shipped.is_file() else Path(name)
+    """Return the file of a shipped policy by its name, or the path itself."""
+    shipped = None if is_path(name) else _shipped("policies", name)
+    return Path(name) if shipped is None else shipped

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 MS_PER_SECOND = 1000
 SECONDS_PER_MINUTE = 60
 MS_PER_MINUTE = MS_PER_SECOND * SECONDS_PER_MINUTE
+MS_PER_HOUR = MS_PER_MINUTE * 60
 
 MIB = 1024 * 1024
+
+
+@dataclass(frozen=True)
+class Unit:
+    """What a setting is measured in."""
+
+    name: str

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import inspect
+import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from pydantic import BaseModel, ValidationError
 
 from kiosk import BadInput, settings
+from kiosk.refusals import refusals
 from kiosk.settings import ASSETS, POLICIES, Game, Keys, Settings, Timing, policy_path
 
 
@@ -67,8 +70,8 @@ def test_what_cannot_be_set_is_refused_by_name_and_all_of_it(tmp_path: Path) -> 
     with pytest.raises(BadInput) as refused:
         Settings.read(file)
     assert [sentence.removeprefix(f"the study file {file}: ") for sentence in refused.value.sentences] == [
-        "game.rows must be more than 0, but it is 0",
-        "timing.mark_delay must be at least 0, but it is -1",
+        "game.rows must be from 1 to 12, but it is 0",
+        "timing.mark_delay must be from 0 to 60000 ms, but it is -1",
         f"there is no key 'colour'; there are {', '.join(Settings.model_fields)}",
     ]
 
@@ -148,3 +151,31 @@ def test_a_policy_goes_by_its_name_or_by_its_path(tmp_path: Path, monkeypatch: p
     assert policy_path("own") == tmp_path / "own.json"
     assert policy_path("other") == Path("other")
     assert policy_path(str(tmp_path / "own.json")) == tmp_path / "own.json"
+
+
+def _numbers(model: type[BaseModel], path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], object]]:
+    """Every key of a study file that takes numbers, with its default."""
+    for key, field in model.model_fields.items():
+        if isinstance(field.default, BaseModel):
+            yield from _numbers(type(field.default), (*path, key))
+        elif re.search(r"\b(int|float)\b", str(field.annotation)):
+            yield (*path, key), field.default
+
+
+@pytest.mark.parametrize("place", [place for place, _ in _numbers(Settings)], ids=".".join)
+@pytest.mark.parametrize("number", [10**30, -(10**30), float("inf"), float("-inf"), float("nan")])
+def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str, ...], number: float) -> None:
+    default = dict(_numbers(Settings))[place]
+    value: object = number
+    if isinstance(default, tuple):
+        value = [number] * len(default)
+    elif isinstance(default, dict):
+        value = dict.fromkeys(default, number)
+    given: dict[str, object] = {place[-1]: value}
+    if len(place) > 1:
+        given = {place[0]: given}
+    with pytest.raises(ValidationError) as error:
+        Settings.model_validate(given)
+    for sentence in refusals(error.value, given, Settings):
+        assert sentence.startswith(".".join(place))
+        assert re.search(r"must be (a whole number|from \S+ to \S+)", sentence), sentence

@@ -14,13 +14,14 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "findings", "refusals", "settings", "units"}
-"""The package itself, the study file's types, how they refuse, what a look finds, and units: every room may know
-them, and they know no room."""
+BELOW_ALL = {"kiosk", "findings", "language_codes", "refusals", "settings", "units"}
+"""The package itself, the study file's types, how they refuse, what a look finds, codes of languages, and units: every
+room may know them, and they know no room."""
 
 ROOMS: dict[str, set[str]] = {
     "kiosk": set(),
     "findings": set(),
+    "language_codes": set(),
     "refusals": set(),
     "settings": set(),
     "units": set(),

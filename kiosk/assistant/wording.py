@@ -7,18 +7,25 @@ gives as attributes whatever else a language needs to speak of it: with an artic
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import logging
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
 from itertools import product
 from pathlib import Path
 from random import Random
 
 from fluent.runtime import FluentBundle, FluentResource
 from fluent.runtime.resolver import Pattern
-from fluent.syntax.ast import EntryType, Junk, Message
+from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
 
 from kiosk import BadInput
 from kiosk.assistant.hint import Hint
 from kiosk.assistant.mdp import Action
+from kiosk.language_codes import babel_codes, standard
+from kiosk.settings import ASSETS, read_text
+
+_log = logging.getLogger(__name__)
 
 CARD = "card"
 """The variable that is a card's name, and what the messages of cards begin with."""
@@ -27,46 +34,67 @@ CARD = "card"
 class Catalogue:
     """All messages of one language: the ``*.ftl`` files of one folder, kept as text in ``sources`` by file name."""
 
-    def __init__(self, folder: Path, sources: Mapping[str, str] | None = None) -> None:
-        """Read the folder, or take ``sources`` for what once stood in it.
+    def __init__(
+        self, folder: Path, sources: Mapping[str, str] | None = None, files: Mapping[str, Path] | None = None
+    ) -> None:
+        """Read the folder, or take ``sources`` for what once stood in it; ``files`` names those that lie elsewhere.
 
         Raises BadInput if there are no messages, or a file cannot be read or is not well-formed.
         """
-        self.language = folder.name
-        self.sources = dict(_read(folder) if sources is None else sources)
+        try:
+            self.language = standard(folder.name)
+        except ValueError as error:
+            raise BadInput(f"the folder of sentences {folder}: {error}") from error
+        self.sources = dict(sources_in(folder) if sources is None else sources)
+        self.written: dict[str, Written] = {}
         # The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
-        self._bundle = FluentBundle([self.language], use_isolating=False)
+        self._bundle = FluentBundle(babel_codes(self.language), use_isolating=False)
         self._forms: set[str] = set()
-        self._names: set[str] = set()
+        self._next: tuple[Catalogue, ...] = ()
+        self._warned: set[str] = set()
         for name, source in sorted(self.sources.items()):
             resource = FluentResource(source)
             for entry in resource.body:
-                self._check(entry, folder / name)
+                self._check(entry, (files or {}).get(name, folder / name), source)
             self._bundle.add_resource(resource)
 
-    def _check(self, entry: EntryType, file: Path) -> None:
+    def _check(self, entry: EntryType, file: Path, source: str) -> None:
         """Refuse what is no message, and what Fluent would pass over in silence."""
         if isinstance(entry, Junk):
             raise BadInput(f"{file} is not well-formed near: {str(entry.content).strip().splitlines()[0]}")
-        if not isinstance(entry, Message):
+        if not isinstance(entry, Message | Term):
             return
-        if entry.id.name in self._names:
-            raise BadInput(f"{file}: the message {entry.id.name} stands twice")
-        self._names.add(entry.id.name)
-        if entry.id.name.startswith(f"{CARD}-"):
+        name = entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
+        if name in self.written:
+            raise BadInput(f"{file}: the message {name} stands twice")
+        self.written[name] = Written(entry, file, source)
+        if name.startswith(f"{CARD}-"):
             self._forms |= {attribute.id.name for attribute in entry.attributes}
 
+    def followed_by(self, others: Iterable[Catalogue]) -> None:
+        """Name the catalogues that speak where this one cannot, in turn; the shipped English one is always the last."""
+        self._next = tuple(others)
+
     def text(self, message: str, **variables: str | int) -> str:
-        """The message with its variables filled in; an unknown message or variable is our mistake and raises."""
-        pattern = self._bundle.get_message(message).value
-        if pattern is None:
-            raise KeyError(f"{self.language}: the message {message} has several wordings and no single one")
-        return self._format(message, pattern, variables)
+        """The message with its variables filled in, or that of the next language that can say it.
+
+        A message or a variable that the shipped English one does not know either is our mistake and raises.
+        """
+        for catalogue in self._in_turn():
+            said = catalogue._text(message, variables)
+            if said is not None:
+                return said
+            self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
+        raise KeyError(self._why_not(message, variables))
 
     def wordings(self, message: str, **variables: str | int) -> tuple[str, ...]:
-        """Every wording of a message that has several."""
-        attributes = self._bundle.get_message(message).attributes
-        return tuple(self._format(message, attributes[name], variables) for name in sorted(attributes))
+        """Every wording of a message that has several, or those of the next language that has one."""
+        for catalogue in self._in_turn():
+            said = catalogue._wordings(message, variables)
+            if said:
+                return said
+            self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
+        raise KeyError(self._why_not(message, variables))
 
     def card(self, name: str) -> dict[str, str]:
         """What a sentence may say of a card: ``$card``, its name, and ``$card-<form>`` for every form there is.
@@ -74,39 +102,114 @@ class Catalogue:
         A card that the catalogue does not know goes by its file's name in every form; sentences about a deck that
         nobody has translated yet are clumsy, but nobody is left without help.
         """
+        if not self.names(name):
+            self._warn(f"{CARD}-{name}", f"the card {name!r} has no name in {self.language!r}; its file's name is said")
+        return self.forms_of(name)
+
+    def names(self, card: str) -> bool:
+        """Whether it has a name for a card."""
+        return self._text(f"{CARD}-{card}", {}) is not None
+
+    @property
+    def forms(self) -> tuple[str, ...]:
+        """The variables that stand for a card: its name, and every form that some card has."""
+        return (CARD, *(f"{CARD}-{form}" for form in sorted(self._forms)))
+
+    def forms_of(self, name: str) -> dict[str, str]:
+        """All forms of a card; a form that it lacks is its name, and a name that it lacks is its file's."""
         message = f"{CARD}-{name}"
-        if message not in self:
-            return dict.fromkeys((CARD, *(f"{CARD}-{form}" for form in sorted(self._forms))), name)
+        called = self._text(message, {})
+        if called is None:
+            return dict.fromkeys(self.forms, name)
         attributes = self._bundle.get_message(message).attributes
-        forms = {f"{CARD}-{form}": self._format(message, pattern, {}) for form, pattern in attributes.items()}
-        return {CARD: self.text(message), **forms}
+        told = {f"{CARD}-{form}": self._format(pattern, {}) for form, pattern in attributes.items()}
+        return dict.fromkeys(self.forms, called) | {form: text for form, text in told.items() if text is not None}
 
     @property
     def messages(self) -> frozenset[str]:
         """The names of all messages."""
-        return frozenset(self._names)
+        return frozenset(name for name in self.written if not name.startswith("-"))
 
     def __contains__(self, message: str) -> bool:
         """Whether there is such a message."""
         return self._bundle.has_message(message)
 
-    def _format(self, message: str, pattern: Pattern, variables: dict[str, str | int]) -> str:
-        text, errors = self._bundle.format_pattern(pattern, variables)
-        if errors:
-            raise KeyError(f"{self.language}: the message {message} cannot be filled in: {errors[0]}")
-        return str(text)
+    def _in_turn(self) -> Iterator[Catalogue]:
+        yield self
+        yield from self._next
+        yield _english()
+
+    def _why_not(self, message: str, variables: Mapping[str, str | int]) -> str:
+        why = self.fault(message, variables) if message in self else "there is no such message"
+        return f"{self.language}: the message {message} cannot be filled in: {why or 'it is of another form'}"
+
+    def _warn(self, message: str, words: str) -> None:
+        """Log what is missing, once for each message."""
+        if message not in self._warned:
+            self._warned.add(message)
+            _log.warning("%s", words)
+
+    def _text(self, message: str, variables: Mapping[str, str | int]) -> str | None:
+        """The message, or None if it cannot be said."""
+        pattern = self._bundle.get_message(message).value if message in self else None
+        return None if pattern is None else self._format(pattern, variables)
+
+    def _wordings(self, message: str, variables: Mapping[str, str | int]) -> tuple[str, ...]:
+        """The wordings of a message that can be said."""
+        attributes = self._bundle.get_message(message).attributes if message in self else {}
+        formed = (self._format(attributes[name], variables) for name in sorted(attributes))
+        said = tuple(text for text in formed if text is not None)
+        if 0 < len(said) < len(attributes):
+            self._warn(message, f"a wording of the message {message!r} cannot be said in {self.language!r}")
+        return said
+
+    def _format(self, pattern: Pattern, variables: Mapping[str, str | int]) -> str | None:
+        try:
+            text, errors = self._bundle.format_pattern(pattern, dict(variables))
+        except Exception:  # noqa: BLE001 - whatever a library makes of somebody's text, the next language speaks
+            return None
+        return None if errors else str(text)
+
+    def fault(self, message: str, variables: Mapping[str, str | int]) -> str | None:
+        """Say why a message, or a wording of it, cannot be formed with these variables; None if it can."""
+        formed = self._bundle.get_message(message)
+        for pattern in (formed.value, *formed.attributes.values()):
+            if pattern is None:
+                continue
+            try:
+                _, errors = self._bundle.format_pattern(pattern, dict(variables))
+            except Exception as error:  # noqa: BLE001 - it is told, whatever it is
+                errors = [error]
+            if errors:
+                return str(errors[0]) or type(errors[0]).__name__
+        return None
 
 
-def _read(folder: Path) -> dict[str, str]:
+@dataclass(frozen=True)
+class Written:
+    """A message or a term as it is written, and where."""
+
+    entry: Message | Term
+    file: Path
+    source: str
+
+    def line(self, node: SyntaxNode) -> int:
+        """The line in which a part of it begins, counted from 1."""
+        return self.source.count("\n", 0, node.span.start if node.span else 0) + 1
+
+
+@cache
+def _english() -> Catalogue:
+    """The catalogue that can say everything."""
+    return Catalogue(ASSETS / "sentences" / "en")
+
+
+def sources_in(folder: Path) -> dict[str, str]:
+    """Read the text of every file of sentences in a folder; raises BadInput."""
     files = sorted(folder.glob("*.ftl"))
     if not files:
         raise BadInput(f"there are no sentences for the language {folder.name!r} in {folder}")
-    try:
-        return {file.name: file.read_text("utf-8") for file in files}
-    except OSError as error:
-        raise BadInput(f"the sentences in {folder} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise BadInput(f"the sentences in {folder} are not UTF-8: {error}") from error
+    return {file.name: read_text(f"the file {file}", file) for file in files}
 
 
 class Wording:
@@ -180,3 +283,15 @@ def place(hint: Hint) -> dict[str, str | int]:
 
 
 _PRECISION = {Action.SUG_COL: "column", Action.SUG_ROW: "row", Action.SUG_CARD: "card"}
+
+
+def given_with(message: str) -> frozenset[str] | None:
+    """Name the variables that a message of a hint is given, ``card`` for all of its forms; None for other messages."""
+    if message.startswith("reason-"):
+        return frozenset({CARD})
+    if message.startswith("point-"):
+        return _PLACES.get(message.rpartition("-")[2])
+    return None
+
+
+_PLACES = {"column": frozenset({"column"}), "row": frozenset({"row"}), "card": frozenset({"row", "column"})}

@@ -11,7 +11,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import BadInput
+from kiosk import BadInput, program
 from kiosk.cli.front import BAD_INPUT
 from kiosk.cli.options import json_option
 from kiosk.cli.pin import pin
@@ -25,9 +25,11 @@ from kiosk.study.declared.imported.items import Heading, read_items
 from kiosk.study.declared.imported.writing import write_questionnaire
 from kiosk.study.declared.questionnaire import Order, Questionnaire, TextPage
 from kiosk.study.declared.reference import as_page, as_study_file
-from kiosk.study.plan import Study
+from kiosk.study.plan import Source, Study
+from kiosk.ui.probes.pictures import CannotDraw, undrawn
 
 MOST_PER_PAGE = 8
+SHORT_SHA = 12
 
 
 @click.group()
@@ -47,28 +49,43 @@ def check(context: click.Context, file: Path, *, as_json: bool) -> None:
     try:
         read = read_study(Settings.read(file))
         _check_robot(read.settings)
+        untried = check_pictures(read)
     except BadInput as refusal:
         if not as_json:
             raise
         click.echo(json.dumps({"faults": refusal.sentences}, ensure_ascii=False))
         context.exit(BAD_INPUT)
     summary = summarised(read)
+    summary["cautions"] += untried
     if as_json:
         click.echo(json.dumps({"faults": []} | summary, ensure_ascii=False))
         return
     table = Table(box=None, show_header=False)
     for key, value in summary.items():
-        if key != "cautions":
+        if key not in {"cautions", "sources"}:
             table.add_row(key.replace("_", " "), _told(value))
     Console().print(table)
+    for source in read.sources:
+        click.echo(_came_from(source))
     for caution in summary["cautions"]:
         click.echo(f"caution: {caution}")
+
+
+def check_pictures(read: Study) -> list[str]:
+    """Raise BadInput if a picture of the study's own cannot be drawn; say so if none can be tried here."""
+    try:
+        faults = tuple(undrawn(program("display", "pictures"), read.own_pictures))
+    except CannotDraw as error:
+        return [f"the pictures were not tried: {error}"]
+    if faults:
+        raise BadInput(*faults)
+    return []
 
 
 def _check_robot(settings: Settings) -> None:
     """Raise BadInput if what its robot needs is not installed; it is not looked for."""
     try:
-        robot_of(settings.robot, settings.languages[0])
+        robot_of(settings.robot, settings.language_codes[0])
     except BadInput as refusal:
         raise BadInput(f"{settings.name}: robot.kind: {refusal}") from refusal
 
@@ -85,8 +102,29 @@ def summarised(read: Study) -> dict[str, Any]:
         "policy": f"{plan.policy.name} {plan.policy.sha256[:8]}",
         "items": {asked.id: _questions(asked) for asked in (plan.about_you, *plan.questionnaires)},
         "minutes": max(round(minutes(plan)) for plan in read.plans),
+        "sources": [_described(source) for source in read.sources],
         "cautions": [*cautions(read), *_renamed(read)],
     }
+
+
+def _described(source: Source) -> dict[str, Any]:
+    """Where a name led, for programs."""
+    return {
+        "key": source.key,
+        "name": source.name,
+        "path": str(source.path),
+        "shipped": source.is_shipped,
+        "version": source.version,
+        "sha256": source.sha256,
+        "unused": None if source.unused is None else str(source.unused),
+    }
+
+
+def _came_from(source: Source) -> str:
+    """Where a name led, for people."""
+    kind = "shipped" if source.is_shipped else "own"
+    version = "" if source.version is None else f", version {source.version}"
+    return f"{source.key}: {source.name!r} is {kind}: {source.path}{version}, sha256 {source.sha256[:SHORT_SHA]}"
 
 
 def _renamed(read: Study) -> Iterator[str]:

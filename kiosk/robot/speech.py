@@ -20,7 +20,7 @@ import tempfile
 import threading
 import time
 import wave
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 import pyttsx3
 
+from kiosk.language_codes import distance
 from kiosk.robot import LOUDNESS_MS
 from kiosk.robot.player import player
 
@@ -66,14 +67,16 @@ class Engine:
     """The speech engine: renders a sentence to a file. pyttsx3 plays unreliably, but it renders well."""
 
     def __init__(self, language: str, rate: int, volume: float) -> None:
-        """Take the first voice of the language; raises whatever the engine raises when it is missing."""
+        """Take the nearest voice of the language; raises whatever the engine raises when it is missing."""
         self._engine = pyttsx3.init()
         self._done = threading.Event()
         self._engine.connect("finished-utterance", lambda **_: self._done.set())
         self._engine.setProperty("rate", rate)
         self._engine.setProperty("volume", volume)
         found = self._engine.getProperty("voices")
-        self.voice = _voice_of(language, found)
+        chosen = voice_of(language, found)
+        self.voice = None if chosen is None else str(chosen.id)
+        self.spoken = "" if chosen is None else described(chosen)
         self.voices = [{"id": str(voice.id), "name": str(voice.name), "languages": _codes(voice)} for voice in found]
         if self.voice is not None:
             self._engine.setProperty("voice", self.voice)
@@ -96,15 +99,20 @@ class Engine:
         return Sound.of(file)
 
 
-def _voice_of(language: str, voices: Any) -> str | None:
-    """The engine's name for a voice of this language: the plainest, whose code is the language itself."""
-    matching = [voice for voice in voices if _speaks(voice, language)]
-    matching.sort(key=lambda voice: (len(str(voice.id)), str(voice.id)))
-    return matching[0].id if matching else None
+def voice_of(language: str, voices: Iterable[Any]) -> Any | None:
+    """Choose the engine's voice for a language: the nearest by its code, and of those the plainest."""
+    near = [(far, voice) for voice in voices for far in _distances(voice, language)]
+    return min(near, key=lambda each: (each[0], len(str(each[1].id)), str(each[1].id)))[1] if near else None
 
 
-def _speaks(voice: Any, language: str) -> bool:
-    return any(code.lower().startswith(language) for code in _codes(voice))
+def _distances(voice: Any, language: str) -> Iterator[int]:
+    far = (distance(language, code) for code in _codes(voice))
+    return (each for each in far if each is not None)
+
+
+def described(voice: Any) -> str:
+    """Name a voice and what it speaks, for people."""
+    return f"{voice.name} ({', '.join(_codes(voice))})"
 
 
 def _codes(voice: Any) -> list[str]:
@@ -276,7 +284,7 @@ def main(language: str, rate: int, volume: float) -> None:
         report("unavailable", why=f"no speech engine: {error}")
         return
     plays = Player()
-    report("ready", voice=engine.voice, player=plays.audible)
+    report("ready", voice=engine.voice, spoken=engine.spoken, player=plays.audible)
     with tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder:
         Worker(engine, plays, report, Path(folder) / "sentence.wav", commands).run()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from kiosk.assistant.qtable import QTable
 from kiosk.assistant.wording import Catalogue
@@ -43,15 +44,39 @@ class Plan:
 
 
 @dataclass(frozen=True)
+class Source:
+    """Where something came from that a study file calls by name.
+
+    ``sha256`` is the hash that goes into records where there is one; that of a folder is over its files. ``unused`` is
+    what has the same name beside the study file, and was not taken.
+    """
+
+    key: str
+    name: str
+    path: Path
+    is_shipped: bool
+    sha256: str
+    version: str | None = None
+    unused: Path | None = None
+    pictures: tuple[Path, ...] = ()
+
+
+@dataclass(frozen=True)
 class Study:
     """A study, ready to be run: a plan for each of its languages, alike in all but words."""
 
     plans: tuple[Plan, ...]
+    sources: tuple[Source, ...] = ()
 
     @property
     def settings(self) -> Settings:
         """The study file."""
         return self.plans[0].settings
+
+    @property
+    def own_pictures(self) -> tuple[Path, ...]:
+        """The pictures that do not come with the program, each once."""
+        return tuple(dict.fromkeys(file for each in self.sources if not each.is_shipped for file in each.pictures))
 
     @property
     def languages(self) -> tuple[str, ...]:

@@ -188,4 +188,4 @@ def _voice(settings: Settings, mode: Mode, clock: Clock, owner: QObject) -> Voic
         return SilentVoice(clock, owner)
     if not settings.voice.enabled:
         return NoVoice(owner)
-    return EngineVoice(settings.voice, settings.languages[0], parent=owner)
+    return EngineVoice(settings.voice, settings.language_codes[0], parent=owner)

@@ -251,7 +251,7 @@ def test_a_variable_that_is_not_given_raises() -> None:
 
 
 def test_a_message_with_several_wordings_has_no_single_text() -> None:
-    with pytest.raises(KeyError, match="the message point-first-row has several wordings"):
+    with pytest.raises(KeyError, match="the message point-first-row cannot be filled in: it is of another form"):
         ENGLISH.text("point-first-row", row=1)
 
 
@@ -269,13 +269,13 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
     folder = tmp_path / "xx"
     folder.mkdir()
     (folder / "odd.ftl").write_bytes(b"hello = Ol\xe9\n")
-    with pytest.raises(BadInput, match=r"the sentences in .*xx are not UTF-8"):
+    with pytest.raises(BadInput, match=r"the file .*odd.ftl is not UTF-8"):
         Catalogue(folder)
 
 
 def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     (tmp_path / "xx" / "odd.ftl").mkdir(parents=True)
-    with pytest.raises(BadInput, match=r"the sentences in .*xx cannot be read: "):
+    with pytest.raises(BadInput, match=r"the file .*odd.ftl cannot be read: "):
         Catalogue(tmp_path / "xx")
 
 

@@ -119,7 +119,7 @@ STUDIES: dict[str, Bad] = {
     "fraction for a whole number": Bad(
         "[game]\nrows = 4.0", ("{study}: game.rows must be a whole number, but it is 4.0",)
     ),
-    "no rows": Bad("[game]\nrows = 0", ("{study}: game.rows must be more than 0, but it is 0",)),
+    "no rows": Bad("[game]\nrows = 0", ("{study}: game.rows must be from 1 to 12, but it is 0",)),
     "number for text": Bad("title = 5", ("{study}: title must be text in quotes, but it is 5",)),
     "number for yes": Bad("[voice]\nenabled = 1", ("{study}: voice.enabled must be true or false, but it is 1",)),
     "misspelt key": Bad("[game]\nrow = 4", ("{study}: game: there is no key 'row'; did you mean 'rows'?",)),
@@ -129,31 +129,76 @@ STUDIES: dict[str, Bad] = {
         ("{study}: there is no key 'colour'; there are {sections}",),
     ),
     "section as a number": Bad("game = 4", ("{study}: game must be a table with keys of its own, but it is 4",)),
-    "too fast a voice": Bad("[voice]\nrate = 301", ("{study}: voice.rate must be at most 300, but it is 301",)),
-    "no number": Bad("[voice]\nvolume = nan", ("{study}: voice.volume must be at most 1, but it is nan",)),
-    "huge text": Bad("[screen]\ntext_size = inf", ("{study}: screen.text_size must be at most 1.3, but it is inf",)),
+    "too fast a voice": Bad(
+        "[voice]\nrate = 301", ("{study}: voice.rate must be from 80 to 300 words per minute, but it is 301",)
+    ),
+    "no number": Bad("[voice]\nvolume = nan", ("{study}: voice.volume must be from 0 to 1, but it is nan",)),
+    "huge text": Bad(
+        "[screen]\ntext_size = inf", ("{study}: screen.text_size must be from 0.5 to 1.3, but it is inf",)
+    ),
+    "number of very many digits": Bad(
+        f"[timing]\nmood = {'9' * 5000}",
+        ("{study}: timing.mood must be from 1 to 3600000 ms, but it is 999999999999...",),
+    ),
+    "very long number in hexadecimal": Bad(
+        f"[game]\nrows = 0x{'f' * 5000}",
+        ("{study}: game.rows must be from 1 to 12, but it is 0xffffffffff...",),
+    ),
+    "very long number in a list": Bad(
+        f"[robot]\nboard_size = [{'9' * 5000}, 1.0]",
+        ("{study}: robot.board_size, number 1 must be from 0.01 to 10 m, but it is 999999999999...",),
+    ),
+    "huge quotas": Bad(
+        "[allocation]\nquotas = { tom = 1000000000, notom = 28 }",
+        ("{study}: allocation.quotas.tom must be from 1 to 10000, but it is 1000000000",),
+    ),
+    "huge time": Bad(
+        "[idle]\ngame = 99999999999999999999",
+        ("{study}: idle.game must be from 1 to 3600000 ms, but it is 99999999999999999999",),
+    ),
+    "board nowhere": Bad(
+        "[robot]\nboard_middle = [inf, 0, nan]",
+        (
+            "{study}: robot.board_middle, number 1 must be from -10 to 10 m, but it is inf",
+            "{study}: robot.board_middle, number 3 must be from -10 to 10 m, but it is nan",
+        ),
+    ),
+    "long title": Bad(f"title = '{'x' * 501}'", ("{study}: title must have at most 500 characters",)),
+    "long file": Bad(f"title = '{'x' * 2**20}'", ("{study} is too long: it has more than 1024 KiB",)),
+    "key of very many parts": Bad(
+        f"title{'.a' * 300_000} = 1", ("{study} is not for reading: line 1 has more than 1000 dots",)
+    ),
+    "brackets in brackets": Bad(
+        f"title = {'[' * 10_000}", ("{study} is not TOML: brackets stand in brackets too often",)
+    ),
+    "very many languages": Bad(
+        f"languages = [{', '.join(repr(f'l{n}') for n in range(51))}]",
+        ("{study}: languages must have at most 50 entries, but it has 51",),
+    ),
     "unknown rule": Bad(
         "[assistance]\ntarget_rule = 'random'",
         ("{study}: assistance.target_rule must be 'most_flipped' or 'most_recent', but it is 'random'",),
     ),
-    "too large a step": Bad("[assistance]\nstep = 2", ("{study}: assistance.step must be at most 1, but it is 2",)),
+    "too large a step": Bad("[assistance]\nstep = 2", ("{study}: assistance.step must be from 0 to 1, but it is 2",)),
     "no list": Bad("languages = 'en'", ("{study}: languages must be a list in square brackets, but it is 'en'",)),
     "empty list": Bad("languages = []", ("{study}: languages must have at least 1 entry, but it has 0",)),
     "list of numbers": Bad("languages = ['en', 5]", ("{study}: language 2 must be text in quotes, but it is 5",)),
-    "negative seed": Bad("[allocation]\nseed = -1", ("{study}: allocation.seed must be at least 0, but it is -1",)),
+    "negative seed": Bad(
+        "[allocation]\nseed = -1", ("{study}: allocation.seed must be from 0 to 9223372036854775807, but it is -1",)
+    ),
     "quotas as a number": Bad(
         "[allocation]\nquotas = 28", ("{study}: allocation.quotas must be a table in braces, but it is 28",)
     ),
     "no quota": Bad(
         "[allocation]\nquotas = { tom = 0, notom = 28 }",
-        ("{study}: allocation.quotas.tom must be more than 0, but it is 0",),
+        ("{study}: allocation.quotas.tom must be from 1 to 10000, but it is 0",),
     ),
     "unknown robot": Bad(
         "[robot]\nkind = 'pepper'",
         ("{study}: robot.kind must be 'none', 'furhat' or 'furhat-realtime', but it is 'pepper'",),
     ),
     "no host": Bad("[robot]\nkind = 'furhat'\nhost = ''", ("{study}: robot.host must not be empty",)),
-    "impossible port": Bad("[robot]\nport = 70000", ("{study}: robot.port must be at most 65535, but it is 70000",)),
+    "impossible port": Bad("[robot]\nport = 70000", ("{study}: robot.port must be from 1 to 65535, but it is 70000",)),
     "axes": Bad(
         "[robot]\naxes = 'x y'", ("{study}: robot.axes: 'x y' does not name x, y and z once each, such as 'x -z y'",)
     ),
@@ -182,7 +227,7 @@ STUDIES: dict[str, Bad] = {
         "title = 5\n[game]\nrows = 0\n[voice]\nloud = 1",
         (
             "{study}: title must be text in quotes, but it is 5",
-            "{study}: game.rows must be more than 0, but it is 0",
+            "{study}: game.rows must be from 1 to 12, but it is 0",
             "{study}: voice: there is no key 'loud'; did you mean 'sounds'?",
         ),
     ),
@@ -345,7 +390,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "item with one point": Bad(
         OWN,
-        ("the questionnaire {here}/own.toml: item 1 (one): points must be at least 2, but it is 1",),
+        ("the questionnaire {here}/own.toml: item 1 (one): points must be from 2 to 11, but it is 1",),
         asked(('kind = "likert"', 'kind = "likert"\npoints = 1')),
     ),
     "item without an end": Bad(
@@ -409,7 +454,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "fault in what a kind shares": Bad(
         OWN,
-        ("the questionnaire {here}/own.toml: likert.points must be at most 11, but it is 12",),
+        ("the questionnaire {here}/own.toml: likert.points must be from 2 to 11, but it is 12",),
         asked(("[[items]]", "[likert]\npoints = 12\n[[items]]")),
     ),
     "items that differ by capitals": Bad(

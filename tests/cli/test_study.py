@@ -214,7 +214,8 @@ def test_the_reference_of_every_key_is_printed_from_the_declarations(recollect: 
     assert printed == as_page(Settings)
     assert PAGE.read_text("utf-8") == printed, "write the output of `recollect study reference` into it"
     assert (
-        "| `turn_back` | How long two unmatched cards stay open (ms). | whole number, more than 0 | `1200` |" in printed
+        "| `turn_back` | How long two unmatched cards stay open (ms). | whole number, from 1 to 3600000 | `1200` |"
+        in printed
     )
 
 

@@ -92,7 +92,16 @@ def test_a_language_that_it_lacks_is_lost_to_one_visitor_only(fake: FurhatFake) 
 
 @pytest.mark.parametrize("language", ["en", "en-US", "en_GB", "EN-au"])
 def test_a_language_is_known_however_it_is_written(language: str) -> None:
-    assert chosen_voice((RobotVoice("X", "eng"), RobotVoice("Y", language)), "en").name == "Y"
+    assert chosen_voice((RobotVoice("X", "enm"), RobotVoice("Y", language)), "en").name == "Y"
+
+
+@pytest.mark.parametrize(
+    ("language", "name"), [("no", "Liv"), ("zh", "Zhiyu"), ("pt-BR", "Camila"), ("pt", "Ines"), ("en-GB", "Amy")]
+)
+def test_the_nearest_voice_is_chosen(language: str, name: str) -> None:
+    told = {"Nog": "nog", "Liv": "nb-NO", "Zhiyu": "cmn-CN", "Ines": "pt", "Camila": "pt_BR", "Joey": "en-US"}
+    voices = tuple(RobotVoice(each, code) for each, code in (told | {"Amy": "en-GB"}).items())
+    assert chosen_voice(voices, language).name == name
 
 
 def test_after_every_reconnection_the_voice_is_set_again(fake: FurhatFake) -> None:

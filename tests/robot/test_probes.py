@@ -125,7 +125,7 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
     engine = (
         "import wave, kiosk.robot.speech as s\n"
         "class E:\n"
-        " voice, voices = 'fake', []\n"
+        " voice, spoken, voices = 'fake', 'Fake (en)', []\n"
         " def __init__(self, *a): pass\n"
         " def render(self, text, file):\n"
         "  w = wave.open(str(file), 'wb'); w.setnchannels(1); w.setsampwidth(2); w.setframerate(8000)\n"

@@ -8,13 +8,13 @@ import sys
 import wave
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 from kiosk.robot import LOUDNESS_MS
-from kiosk.robot.speech import Player, Sound
+from kiosk.robot.speech import Player, Sound, described, voice_of
 
 RATE = 8000
 
@@ -143,3 +143,41 @@ def test_a_voice_that_is_told_to_quit_ends(process: Process) -> None:
     process.hear()
     process.send({"quit": True})
     assert process.child.wait(timeout=10) == 0
+
+
+class Installed(NamedTuple):
+    """A voice as the engine tells it."""
+
+    id: str
+    name: str
+    languages: list[bytes]
+
+
+VOICES = [
+    Installed(f"x/{code}", code.upper(), [b"\x05" + code.encode()])
+    for code in ("nog", "nb", "haw", "smj", "pt", "pt-br", "cmn", "yue", "en-gb-x-rp", "en-gb", "en-us", "he", "fil")
+]
+
+
+@pytest.mark.parametrize(
+    ("language", "code"),
+    [
+        *[
+            ("no", "nb"),
+            ("ha", None),
+            ("sm", None),
+            ("pt-BR", "pt-br"),
+            ("pt_br", "pt-br"),
+            ("pt", "pt"),
+            ("zh", "cmn"),
+        ],
+        *[("en", "en-gb"), ("en-US", "en-us"), ("iw", "he"), ("tl", "fil"), ("pt-AO", "pt"), ("de", None)],
+    ],
+)
+def test_a_language_is_spoken_by_a_voice_of_the_same_language_or_by_none(language: str, code: str | None) -> None:
+    chosen = voice_of(language, VOICES)
+    assert chosen == next((voice for voice in VOICES if voice.name == str(code).upper()), None)
+
+
+def test_a_voice_is_named_with_what_it_speaks() -> None:
+    assert described(Installed("gmq/nb", "Norwegian Bokmål", [b"\x05nb"])) == "Norwegian Bokmål (nb)"

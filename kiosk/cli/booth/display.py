@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
@@ -11,6 +12,7 @@ from kiosk.cli.wiring import read_settings
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.ui.probes.asked import to_json
 from kiosk.ui.probes.frame import frame as draw
+from kiosk.ui.probes.pictures import draw as draw_pictures
 from kiosk.ui.probes.screens import screens as look
 
 
@@ -24,6 +26,12 @@ def display() -> None:
 def screens(number: int) -> None:
     """Look at the screens, of which the kiosk is to cover this one."""
     click.echo(to_json(look(number)))
+
+
+@display.command()
+def pictures() -> None:
+    """Draw the pictures that are named on standard input."""
+    draw_pictures(sys.stdin, sys.stdout)
 
 
 @display.command()

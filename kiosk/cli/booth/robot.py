@@ -56,7 +56,7 @@ def robot(
 ) -> None:
     """Try a Furhat step by step, and say what it has and what it does."""
     settings = read_settings(study, host or (None if study else "localhost"), port)
-    language = language or settings.languages[0]
+    language = language or settings.language_codes[0]
     asked = settings.robot.model_copy(update={"kind": "furhat-realtime"} if realtime else {})
     device = robot_of(asked, language)
     if device is None:

@@ -18,6 +18,7 @@ from typing import Any, ClassVar
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
+from kiosk.language_codes import with_region
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, Found, RobotFailed, Saying
 from kiosk.robot.furhat.gestures import WISHES
@@ -30,7 +31,6 @@ from kiosk.units import MS_PER_SECOND
 PORT = 9000
 PATH = "/v1/events"
 
-_REGIONS: Mapping[str, str] = MappingProxyType({"en": "en-US", "es": "es-ES", "it": "it-IT"})
 _CLOSE_S = 0.2
 _CUT: Mapping[str, Any] = MappingProxyType({"type": "cut"})
 _DROPPED: Mapping[str, Any] = MappingProxyType({"type": "dropped"})
@@ -74,7 +74,7 @@ class FurhatRealtime:
     name: ClassVar[BodyName] = BodyName.FURHAT_REALTIME
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
-        """Nothing is sent yet; ``language`` is what it is to speak, as a code of two letters."""
+        """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
         self._settings = settings
         self._language = language
         self._numbers = count(1)
@@ -145,7 +145,7 @@ class FurhatRealtime:
 
     def _choose_voice(self) -> None:
         voice = {"name": self._settings.voice} if self._settings.voice else {}
-        self._send("request.voice.config", language=_REGIONS.get(self._language, self._language), **voice)
+        self._send("request.voice.config", language=with_region(self._language), **voice)
 
     def _sign_in(self) -> None:
         if self._ask("request.auth", "response.auth", key=self._settings.key).get("access") is not True:

@@ -9,6 +9,7 @@ import json
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
+from kiosk.language_codes import distance
 from kiosk.robot.body import Place
 from kiosk.robot.device import Fault, Found, RobotFailed, RobotVoice, Saying
 from kiosk.robot.furhat.gestures import CONFUSED, gesture
@@ -31,7 +32,7 @@ class Furhat:
     name: ClassVar[BodyName] = BodyName.FURHAT
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
-        """Nothing is sent yet; ``language`` is what it is to speak, as a code of two letters."""
+        """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
         self._settings = settings
         self._language = language
         self._http = Http(settings.host, settings.port or PORT, settings.connect_deadline)
@@ -155,11 +156,14 @@ class Furhat:
 
 
 def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = "") -> RobotVoice:
-    """The wished voice, or the first one of the language; raises RobotFailed if there is none."""
-    for voice in voices:
-        spoken = voice.language.replace("_", "-").lower()
-        if voice.name == wished or (not wished and spoken.split("-")[0] == language):
-            return voice
+    """The wished voice, or the first of those that are nearest to the language; raises RobotFailed without one."""
+    if wished:
+        matching = [(0, voice) for voice in voices if voice.name == wished]
+    else:
+        far = ((distance(language, voice.language), voice) for voice in voices)
+        matching = [(each, voice) for each, voice in far if each is not None]
+    if matching:
+        return min(matching, key=lambda each: each[0])[1]
     offered = ", ".join(sorted({voice.language for voice in voices})) or "none"
     raise RobotFailed(Fault.NO_VOICE, wished or language, f"it has {offered}")
 

@@ -70,12 +70,15 @@ def _told(what: str, language: str, events: dict[str, dict[str, Any]]) -> Findin
     speaker = events["ready"].get("voice")
     if speaker is None:
         words = f"{_SHOWN}: no installed voice speaks {language!r}"
-        return Finding.warning(what, words, f"install a voice for {language!r}, or take it out of the languages")
+        plain, region, _ = language.partition("-")
+        wider = f", or write {plain!r}, which takes any region" if region else ""
+        remedy = f"install a voice for {language!r}{wider}, or take it out of the languages"
+        return Finding.warning(what, words, remedy)
     if "rendered" not in events:
         why = events.get("failed", {}).get("why", "the voice's process died")
         return Finding.warning(what, f"{_SHOWN}: {why}", "install espeak-ng anew")
     took_ms = int(events["rendered"]["took_ms"])
-    words = f"{speaker} has a sentence ready in {took_ms} ms"
+    words = f"{events['ready'].get('spoken') or speaker} has a sentence ready in {took_ms} ms"
     if took_ms > SLOW_MS:
         return Finding.warning(what, words, "end other programs: the kiosk takes a slower voice for one that hangs")
     return Finding.good(what, words)

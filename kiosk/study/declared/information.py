@@ -13,7 +13,7 @@ from typing import Annotated, Self
 from pydantic import Field, field_validator
 
 from kiosk import BadInput
-from kiosk.settings import Declared
+from kiosk.settings import Declared, code_of
 from kiosk.study.declared.questionnaire import Name, refuse_twice
 from kiosk.study.declared.words import Text
 
@@ -83,8 +83,8 @@ class Information(Declared):
     @classmethod
     def of(cls, folder: Path, language: str) -> Self:
         """The sheet of a language; raises BadInput if there is none."""
-        file = folder / f"{language}.toml"
-        if not file.is_file():
+        file = next((each for each in sorted(folder.glob("*.toml")) if code_of(each.stem) == language), None)
+        if file is None:
             raise BadInput(f"there is no information sheet for the language {language!r} in {folder}")
         return cls.read(file)
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, PositiveInt, TypeAdapter, field_validator, model_validator
+from pydantic import AfterValidator, Field, TypeAdapter, field_validator, model_validator
 
 from kiosk.settings import Declared
 from kiosk.study.declared.typed_input import NumberInput, can_be_kept
@@ -29,6 +29,8 @@ Name = Annotated[str, AfterValidator(_name)]
 """Names go into records, columns and messages."""
 
 Points = Annotated[int, Field(ge=2, le=11)]
+Bound = Annotated[int, Field(ge=-999_999_999, le=999_999_999)]
+"""One end of what can be answered; the interface counts in 32 bits."""
 
 
 class _Item(Declared):
@@ -125,8 +127,8 @@ class Slider(_Rating):
     """A line between two words on which nothing is chosen beforehand."""
 
     kind: Literal["slider"]
-    lowest: int = 0
-    highest: int = 100
+    lowest: Bound = 0
+    highest: Bound = 100
     left: Words
     right: Words
 
@@ -150,8 +152,8 @@ class Integer(_Question):
     """A whole number, typed or stepped to."""
 
     kind: Literal["integer"]
-    lowest: int = 0
-    highest: int = 120
+    lowest: Bound = 0
+    highest: Bound = 120
 
     @property
     def input(self) -> NumberInput:
@@ -220,7 +222,7 @@ class ShortText(_Question):
     """A few words, typed."""
 
     kind: Literal["text"]
-    longest: Annotated[PositiveInt, Field(le=500)] = 120
+    longest: Annotated[int, Field(ge=1, le=500)] = 120
 
     def accepts(self, answer: Answer) -> bool:
         """Whether it is a text that is not too long and has no control characters, such as a line break."""

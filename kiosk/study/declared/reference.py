@@ -13,14 +13,14 @@ import tomlkit
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from kiosk.settings import Settings, Unit
+from kiosk.refusals import bounds
+from kiosk.settings import Settings
+from kiosk.units import Unit
 
 WIDTH = 100
 """Characters of a line in a study file."""
 
 _TYPES = {bool: "true or false", int: "whole number", float: "number", str: "text", dict: "table"}
-
-_BOUNDS = {"gt": "more than", "ge": "at least", "le": "at most"}
 
 _HEAD = """\
 # A study file with every key, as it is without one: this follows the study wherever it says anything. Keep only the
@@ -117,12 +117,20 @@ def _toml(value: object, width: int = WIDTH) -> str:
 
 def _may_be(field: FieldInfo) -> str:
     """What may be given for a key, in words."""
-    annotation, bounds = field.annotation, field.metadata
+    annotation, declared = field.annotation, list(field.metadata)
     if NoneType in get_args(annotation):
         annotation = next(each for each in get_args(annotation) if each is not NoneType)
-    if get_origin(annotation) is Annotated:
-        annotation, *bounds = get_args(annotation)
-    return ", ".join((_type(annotation), *_bounded(bounds)))
+    limits = _bounds(declared)
+    inner = next((each for each in get_args(annotation) if get_origin(each) is Annotated), None)
+    if inner is not None:
+        each_is = next(iter(get_args(inner)[1:]))
+        limits = f"each {_bounds(each_is.metadata)}"
+    return ", ".join(filter(None, (_type(annotation), limits)))
+
+
+def _bounds(declared: Sequence[Any]) -> str:
+    """The bounds of a number; its unit stands in its sentence."""
+    return bounds([each for each in declared if not isinstance(each, Unit)])
 
 
 def _type(annotation: Any) -> str:
@@ -133,8 +141,3 @@ def _type(annotation: Any) -> str:
         of = get_args(annotation)
         return "list of texts" if of[-1] is Ellipsis else f"list of {len(of)} numbers"
     return _TYPES[origin]
-
-
-def _bounded(bounds: Sequence[Any]) -> Iterator[str]:
-    for each in bounds:
-        yield from (f"{words} {getattr(each, name)}" for name, words in _BOUNDS.items() if hasattr(each, name))

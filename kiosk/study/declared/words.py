@@ -7,13 +7,20 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
+from kiosk.language_codes import standard
+
 Text = Annotated[str, Field(min_length=1)]
 
 
 def _by_language(given: object) -> object:
     if isinstance(given, str):
         raise ValueError(f"{given!r} stands in no language; write {{ en = {given!r} }}")
-    return given
+    if not isinstance(given, Mapping) or not all(isinstance(code, str) for code in given):
+        return given
+    spelt = {code: standard(code) for code in given}
+    if len(set(spelt.values())) < len(spelt):
+        raise ValueError(f"one language stands twice in {', '.join(spelt)}")
+    return {spelt[code]: text for code, text in given.items()}
 
 
 Words = Annotated[dict[str, Text], Field(min_length=1), BeforeValidator(_by_language)]

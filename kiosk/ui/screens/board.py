@@ -206,7 +206,7 @@ class BoardScreen(QAbstractListModel):
         place = {"row": position.row + 1, "column": position.column + 1}
         if not face.up:
             return self._catalogue.text("game-closed-card", **place)
-        return self._catalogue.text("game-open-card", card=self._catalogue.text(f"card-{face.card}"), **place)
+        return self._catalogue.text("game-open-card", **self._catalogue.card(face.card), **place)
 
     @Property(int, notify=changed)
     def rows(self) -> int:

@@ -93,7 +93,7 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         ("{table}, row 2, column points: it must be a whole number, but it is 'five'",),
     ),
     "fraction": (cell(",5,", ",5.0,"), ("{table}, row 2, column points: it must be a whole number, but it is '5.0'",)),
-    "one point": (cell(",5,", ",1,"), ("{table}, row 2, column points: it must be at least 2, but it is 1",)),
+    "one point": (cell(",5,", ",1,"), ("{table}, row 2, column points: it must be from 2 to 11, but it is 1",)),
     "bad scale": (
         cell(",S,", ",my scale,"),
         (

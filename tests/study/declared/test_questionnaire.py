@@ -137,8 +137,8 @@ def test_a_text_falls_back_to_its_first_language() -> None:
     ("old", "new", "said"),
     [
         ('version = "2"', "version = 2", "version must be text in quotes, but it is 2"),
-        ("points = 7", "points = 12", "likert.points must be at most 11, but it is 12"),
-        ("points = 5", "points = 1", "item 2 (two): points must be at least 2, but it is 1"),
+        ("points = 7", "points = 12", "likert.points must be from 2 to 11, but it is 12"),
+        ("points = 5", "points = 1", "item 2 (two): points must be from 2 to 11, but it is 1"),
         ('scale = "S"', "scale = 3", "item 1 (one): scale must be text in quotes, but it is 3"),
         ('id = "two"', 'id = "one"', "items: the item 'one' stands twice"),
         (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import partial
@@ -21,8 +21,10 @@ from kiosk.store.probes import clock, database, disk, forms
 from kiosk.study.declared.checked import found
 from kiosk.study.plan import Study
 from kiosk.ui.probes.asked import ask
+from kiosk.ui.probes.pictures import DRAWN_S, READY_S, CannotDraw, undrawn
 
 _DISPLAY_S, _MARGIN_S = 14.0, 1.0
+PICTURES = "pictures"
 SENTENCE = "introduction-help"
 """What every language has a sentence for."""
 
@@ -68,10 +70,25 @@ def _shown(booth: Booth) -> Iterator[Probe]:
     remedy = "see that the session has a screen, and run this in it"
     screens = partial(ask, "screen", program("display", "screens", number), _DISPLAY_S, remedy)
     yield Probe("screen", screens, _DISPLAY_S + _MARGIN_S, State.BAD)
+    if booth.study is not None and booth.study.own_pictures:
+        drawn = partial(found_pictures, booth.study.own_pictures)
+        yield Probe(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), State.BAD)
     remedy = "install Recollect anew, with the system's packages that packaging/README.md names"
     study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
     frame = partial(ask, "drawing", program("display", "frame", *study), _DISPLAY_S, remedy)
     yield Probe("drawing", frame, _DISPLAY_S + _MARGIN_S, State.BAD)
+
+
+def found_pictures(files: Sequence[Path]) -> Iterator[Finding]:
+    """Draw the pictures that do not come with the program."""
+    try:
+        faults = tuple(undrawn(program("display", "pictures"), files))
+    except CannotDraw as error:
+        yield Finding.warning(PICTURES, f"they were not tried: {error}", "see what is said of the drawing")
+        return
+    yield from (Finding.bad(PICTURES, fault, "draw it anew, with plain shapes") for fault in faults)
+    if not faults:
+        yield Finding.good(PICTURES, f"{len(files)} of the study's own can be drawn")
 
 
 def _heard(booth: Booth) -> Iterator[Probe]:
@@ -86,7 +103,7 @@ def _heard(booth: Booth) -> Iterator[Probe]:
             command = program("voice", plan.language, str(settings.voice.rate), str(settings.voice.volume))
             say = partial(voice.voice, command, plan.language, plan.catalogue.text(SENTENCE))
             yield Probe(f"voice: {plan.language}", say, voice.WITHIN_S + _MARGIN_S)
-    ask_robot = partial(robot.robot, settings.robot, settings.languages, busy=booth.busy)
+    ask_robot = partial(robot.robot, settings.robot, settings.language_codes, busy=booth.busy)
     yield Probe(robot.WHAT, ask_robot, robot.within_s(settings.robot))
 
 

@@ -65,7 +65,7 @@ class Followed:
     @property
     def language(self) -> str:
         """The study's first language, in which things are described."""
-        return self.plans[0].settings.languages[0] if self.plans else "en"
+        return self.plans[0].settings.language_codes[0] if self.plans else "en"
 
     @property
     def languages(self) -> tuple[str, ...]:

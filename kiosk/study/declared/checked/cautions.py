@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 
 from kiosk.assistant.wording import CARD
 from kiosk.game.board import CARDS_IN_A_PAIR
@@ -33,7 +35,7 @@ TAP_MS = 2000
 
 def cautions(study: Study) -> tuple[str, ...]:
     """A sentence for everything that can be run but may not be meant."""
-    return (*_of_texts(study), *_of_cards(study))
+    return (*_of_texts(study), *_of_names(study), *_of_cards(study))
 
 
 def _of_texts(study: Study) -> Iterator[str]:
@@ -57,13 +59,41 @@ def _given(study: Study) -> set[Condition]:
     }
 
 
+def _of_names(study: Study) -> Iterator[str]:
+    """Names that mean something shipped, although something beside the study file has them too."""
+    for source in study.sources:
+        if source.unused is not None:
+            yield (
+                f"{source.key}: {source.name!r} is the shipped {source.path}, and {source.unused} is not used; "
+                f"write {_as_path(source.unused)!r} to use it, or rename it"
+            )
+
+
+def _as_path(path: Path) -> str:
+    """How a study file names what lies in its own folder."""
+    return path.name if path.suffix else f"./{path.name}"
+
+
 def _of_cards(study: Study) -> Iterator[str]:
     for plan in study.plans:
-        decks = {plan.settings.game.deck: plan.deck, plan.settings.practice.deck: plan.practice_deck}
-        for deck, cards in decks.items():
-            unnamed = ", ".join(name for name in cards if f"{CARD}-{name}" not in plan.catalogue)
+        boards: dict[str, tuple[str, ...]] = {plan.settings.practice.deck: plan.practice_deck}
+        for deck, cards in (boards | {plan.settings.game.deck: plan.deck}).items():
+            folder = plan.settings.find("cards", deck)
+            unnamed = [name for name in cards if not plan.catalogue.names(name)]
             if unnamed:
-                yield f"the deck {deck!r} has cards without a name in {plan.language!r}: {unnamed}"
+                yield (
+                    f"the deck {deck!r} has cards without a name in {plan.language!r}: {', '.join(unnamed)}; "
+                    f"until they have one, their files' names are said. {_where_to_write(folder, unnamed, plan)}"
+                )
+
+
+def _where_to_write(folder: Path, unnamed: Sequence[str], plan: Plan) -> str:
+    """Say what to write into which file, so that cards have names."""
+    odd = [name for name in unnamed if not re.fullmatch(r"[A-Za-z0-9_-]+", name)]
+    if odd:
+        return f"First rename {odd[0]}.svg: such a name has letters, digits, - and _ only"
+    file = folder / f"{plan.language}.ftl"
+    return f"Write into {file}: {'; '.join(f'{CARD}-{name} = ...' for name in unnamed)}"
 
 
 def minutes(plan: Plan) -> float:

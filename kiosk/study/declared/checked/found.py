@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from kiosk.assistant.qtable import NONE
 from kiosk.findings import Finding
 from kiosk.settings import Experimenter, Keys
-from kiosk.study.declared.checked import naming
 from kiosk.study.declared.checked.cautions import cautions, minutes
 from kiosk.study.plan import Study
 
@@ -38,7 +37,7 @@ def policy(study: Study) -> Iterator[Finding]:
     table = study.plans[0].policy
     words = f"{table.name} {table.sha256[:SHORT_SHA]}"
     name = study.settings.assistance.policy
-    card = None if name == NONE else naming.policy(study.settings, name).with_suffix(CARD)
+    card = None if name == NONE else study.settings.find("policies", name).with_suffix(CARD)
     if card is None or card.is_file():
         yield Finding.good(POLICY, words)
     else:
