@@ -17,7 +17,7 @@ from kiosk.settings import ASSETS, Settings
 from kiosk.study.declared.checked.whole import read_study
 from kiosk.study.declared.questionnaire import Order, Questionnaire
 from kiosk.study.declared.reference import as_page, as_study_file
-from tests.cli.bad_studies import OWN, QUESTIONS, SENTENCES, SHEETS, STUDIES, TOLD, Bad
+from tests.cli.bad_studies import OWN, QUESTIONS, SENTENCES, SHEETS, STUDIES, TOLD, Bad, asset
 
 PAPER = ASSETS / "studies" / "paper.toml"
 PAGE = Path(__file__).parents[2] / "docs" / "study-file.md"
@@ -135,7 +135,7 @@ def test_the_table_says_what_the_study_is(recollect: Recollect) -> None:
 def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recollect: Recollect) -> None:
     (tmp_path / "toys").mkdir()
     for number in range(12):
-        (tmp_path / "toys" / f"toy{number}.svg").touch()
+        (tmp_path / "toys" / f"toy{number}.svg").write_text(asset("cards/animals/owl.svg"), "utf-8")
     study = tmp_path / "study.toml"
     study.write_text("languages = ['en']\nstages = ['game']\n[game]\ndeck = 'toys'\n", "utf-8")
     said = recollect("study", "check", study, "--json")
@@ -174,6 +174,55 @@ def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(tmp_pa
     said = recollect("study", "check", study)
     assert said.code == 0
     assert "caution" not in said.out
+
+
+def test_where_every_name_led_is_printed_with_its_version_and_hash(tmp_path: Path, recollect: Recollect) -> None:
+    study = Bad(f"{OWN}\n{TOLD}", (), SHEETS | {"own.toml": QUESTIONS}).write(tmp_path)
+    sources = json.loads(recollect("study", "check", study, "--json").out)["sources"]
+    asked = next(each for each in sources if each["name"] == "own.toml")
+    own = Questionnaire.read(tmp_path / "own.toml")
+    assert asked == {
+        "key": "questionnaires",
+        "name": "own.toml",
+        "path": str(tmp_path / "own.toml"),
+        "shipped": False,
+        "version": "1",
+        "sha256": own.sha256,
+        "unused": None,
+    }
+    keys = {each["key"] for each in sources}
+    assert keys >= {"languages", "consent.text (it)", "about_you", "assistance.policy", "game.deck", "practice.deck"}
+    assert [each for each in sources if not Path(each["path"]).exists()] == []
+    printed = recollect("study", "check", study).out
+    assert f"questionnaires: 'own.toml' is own: {tmp_path / 'own.toml'}, version 1, sha256 {own.sha256[:12]}" in printed
+    assert all(each["path"] in printed and each["sha256"][:12] in printed for each in sources)
+
+
+def test_a_questionnaire_of_the_labs_own_is_not_taken_for_the_shipped_one(tmp_path: Path, recollect: Recollect) -> None:
+    study = Bad('questionnaires = ["trust"]', (), {"trust.toml": QUESTIONS}).write(tmp_path)
+    cautions = json.loads(recollect("study", "check", study, "--json").out)["cautions"]
+    assert any(f"{tmp_path / 'trust.toml'} is not used; write 'trust.toml' to use it" in said for said in cautions)
+    study.write_text('questionnaires = ["trust.toml"]', "utf-8")
+    assert json.loads(recollect("study", "check", study, "--json").out)["items"] == {"about-you": 3, "own": 1}
+
+
+def test_a_picture_that_cannot_be_drawn_is_refused(tmp_path: Path, recollect: Recollect) -> None:
+    deck = {f"toys/{number}.svg": asset("cards/animals/owl.svg") for number in range(12)}
+    study = Bad("[game]\ndeck = 'toys'", (), deck | {"toys/7.svg": "a drawing"}).write(tmp_path)
+    said = recollect("study", "check", study)
+    assert (said.code, said.out) == (2, "")
+    (sentence,) = said.err.splitlines()
+    assert sentence.startswith(f"recollect: the picture {tmp_path / 'toys' / '7.svg'} cannot be drawn: ")
+
+
+@pytest.mark.parametrize("tag", ["de2", "english", "d", "./de2", "de_1_2_3-"])
+def test_a_language_that_is_none_is_refused_in_a_sentence(tag: str, tmp_path: Path, recollect: Recollect) -> None:
+    folder = Path(tag).name
+    study = Bad(f"languages = [{tag!r}]", (), {f"{folder}/a.ftl": "a = b"}).write(tmp_path)
+    said = recollect("study", "check", study)
+    assert said.code == 2
+    assert f"languages: {folder!r} is no language code, such as 'de' or 'pt-BR'" in said.err
+    assert "Traceback" not in said.err
 
 
 # What is printed

@@ -32,8 +32,9 @@ _PAGE = """\
 
 A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
 anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study
-check FILE` reads a file with everything that it names. What goes by a name is shipped in `assets/` or `policies/`;
-anything else is a path that starts from the study file's own folder.
+check FILE` reads a file with everything that it names. A name with a slash or an ending is a path that starts from the
+study file's own folder. Any other name is that of something shipped in `assets/` or `policies/` or, if nothing shipped
+has it, of something in the study file's folder.
 
 This page is printed by `recollect study reference`; change the declarations in `kiosk/settings.py`, not the page.
 """

@@ -11,7 +11,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
@@ -70,21 +70,23 @@ class _Child:
         )
         self._lines: Queue[str | None] = Queue()
         self._errors: list[str] = []
-        Thread(target=self._listen, args=(self._child.stdout,), daemon=True).start()
-        self._other = Thread(target=self._note, args=(self._child.stderr,), daemon=True)
-        self._other.start()
-        with suppress(OSError):
-            assert self._child.stdin is not None  # noqa: S101 - it is a pipe
-            self._child.stdin.write(json.dumps([str(file) for file in files]))
-            self._child.stdin.close()
+        ears = ((self._listen, self._child.stdout), (self._note, self._child.stderr))
+        self._ears = [Thread(target=hear, args=(stream,), daemon=True) for hear, stream in ears]
+        for each in self._ears:
+            each.start()
+        with suppress(OSError), self._child.stdin or nullcontext() as names:
+            if names is not None:
+                names.write(json.dumps([str(file) for file in files]))
 
     def _listen(self, stream: IO[str]) -> None:
-        for line in stream:
-            self._lines.put(line.rstrip("\n"))
+        with stream:
+            for line in stream:
+                self._lines.put(line.rstrip("\n"))
         self._lines.put(None)
 
     def _note(self, stream: IO[str]) -> None:
-        self._errors += [line.strip() for line in stream if line.strip()]
+        with stream:
+            self._errors += [line.strip() for line in stream if line.strip()]
 
     def says(self, within_s: float) -> str | None:
         """Return the next line; None if there is none in time, or no more."""
@@ -104,7 +106,8 @@ class _Child:
         """End it, and wait until it has."""
         self._child.kill()
         self._child.wait()
-        self._other.join(timeout=1)
+        for each in self._ears:
+            each.join()
 
 
 def draw(source: IO[str], out: IO[str]) -> None:

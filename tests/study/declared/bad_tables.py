@@ -19,7 +19,7 @@ def cell(old: str, new: str) -> str:
 
 TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     # The file
-    "empty": ("", ("{table}: its first line must name the columns, with , or ; between them",)),
+    "empty": ("", ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",)),
     "nothing but text": (
         "Dear all,",
         (
@@ -30,10 +30,13 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
             "{table}: a column with texts is missing, such as 'text_en'",
         ),
     ),
-    "one column": ("text_en\nHow?\n", ("{table}: its first line must name the columns, with , or ; between them",)),
-    "tabs": (
-        rows(LIKERT).replace(",", "\t"),
-        ("{table}: its first line must name the columns, with , or ; between them",),
+    "one column": (
+        "text_en\nHow?\n",
+        ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",),
+    ),
+    "bars": (
+        rows(LIKERT).replace(",", "|"),
+        ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",),
     ),
     "another encoding": (
         rows(LIKERT.replace("How?", "Perché?")).encode("cp1252"),

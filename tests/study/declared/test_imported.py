@@ -68,18 +68,47 @@ def test_a_delimiter_within_quotes_is_text(tmp_path: Path) -> None:
     assert read(tmp_path, table).items[0].text == {"en": 'One, two; "three"\nand four'}
 
 
-@pytest.mark.parametrize("word", ["yes", "TRUE", "VERO", "x", "1"])
+@pytest.mark.parametrize("word", ["yes", "TRUE", "VERO", "x", "1", "ja", "WAHR", "oui", "Vrai", "sí", "sim"])
 def test_yes_is_written_as_spreadsheets_write_it(word: str, tmp_path: Path) -> None:
     (item,) = read(tmp_path, rows(LIKERT.replace(",S,,", f",S,{word},"))).items
     assert isinstance(item, Likert)
     assert item.reverse
 
 
-@pytest.mark.parametrize("word", ["no", "False", "FALSO", "0", ""])
+@pytest.mark.parametrize("word", ["no", "False", "FALSO", "0", "", "nein", "FALSCH", "faux", "não"])
 def test_no_is_written_as_spreadsheets_write_it(word: str, tmp_path: Path) -> None:
     (item,) = read(tmp_path, rows(LIKERT.replace(",S,,", f",S,{word},"))).items
     assert isinstance(item, Likert)
     assert not item.reverse
+
+
+@pytest.mark.parametrize("line", ["sep=;", "sep=;;;;"])
+def test_a_first_line_that_tells_the_separator_is_no_row(line: str, tmp_path: Path) -> None:
+    table = f"{line}\n{rows(LIKERT).replace(',', ';')}"
+    assert read(tmp_path, table) == read(tmp_path, rows(LIKERT))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_a_table_is_read_in_every_form_that_spreadsheets_save(separator: str, encoding: str, tmp_path: Path) -> None:
+    table = rows(LIKERT).replace(",", separator)
+    assert read(tmp_path, table.encode(encoding)) == read(tmp_path, rows(LIKERT))
+
+
+def test_capital_letters_in_columns_and_kinds_make_no_difference(tmp_path: Path) -> None:
+    titled = rows(LIKERT.replace("likert", "Likert"), head=HEAD.title())
+    assert read(tmp_path, titled) == read(tmp_path, rows(LIKERT))
+
+
+@pytest.mark.parametrize("code", ["pt_BR", "pt-BR", "pt-br", "PT_br"])
+def test_a_language_is_known_however_its_code_is_written(code: str, tmp_path: Path) -> None:
+    (item,) = read(tmp_path, rows(LIKERT, head=HEAD.replace("_en", f"_{code}"))).items
+    assert item.text == {"pt-BR": "How?"}
+
+
+def test_one_language_in_two_columns_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="the column 'text_pt-BR' is there twice"):
+        read(tmp_path, "id,kind,text_pt_BR,text_pt-br\none,text,Oi?,Oi?\n")
 
 
 # Round trips

@@ -163,7 +163,7 @@ class _Look:
 
     def _words_of_decks(self, code: str) -> dict[str, Path]:
         """The files with which decks name their own cards in a language, by what to call them in records."""
-        words = {}
+        words: dict[str, Path] = {}
         for _, board in _boards(self._settings):
             place = self._settings.locate("cards", board.deck)
             if place is not None:

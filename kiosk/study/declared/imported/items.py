@@ -43,9 +43,21 @@ MODELS: Mapping[str, Model] = {
     "page": TextPage,
 }
 
-_YES = dict.fromkeys(("yes", "y", "true", "vero", "verdadero", "1", "x"), True)
-_NO = dict.fromkeys(("no", "n", "false", "falso", "0"), False)
-"""Spreadsheet programs write truth in their own language."""
+_YES = dict.fromkeys(
+    (
+        *("yes", "y", "true", "1", "x", "vero", "sì", "si", "verdadero", "sí", "ja", "j", "wahr", "oui", "o", "vrai"),
+        *("sim", "verdadeiro", "waar", "sand", "sant", "tak", "prawda", "ano", "pravda"),
+    ),
+    True,
+)
+_NO = dict.fromkeys(
+    (
+        *("no", "n", "false", "0", "falso", "nein", "falsch", "non", "faux", "não", "nee", "onwaar", "falsk", "nej"),
+        *("nei", "nie", "fałsz", "ne", "nepravda"),
+    ),
+    False,
+)
+"""Spreadsheet programs and people write truth in their own language."""
 
 
 @dataclass(frozen=True)
