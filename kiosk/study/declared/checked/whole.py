@@ -187,7 +187,9 @@ class _Look:
         self.into(partial(check_alike, sheets, place.path))
         for sheet in [*sheets.values()][:1]:
             names = (purpose.id for purpose in sheet.consent.purposes)
-            self.faults += (f"the information sheets in {place.path}: {sentence}" for sentence in unclear_purposes(names))
+            self.faults += (
+                f"the information sheets in {place.path}: {sentence}" for sentence in unclear_purposes(names)
+            )
         for language, sheet in sheets.items():
             self._came(f"consent.text ({language})", text, place, sheet.sha256, sheet.version)
         return sheets
