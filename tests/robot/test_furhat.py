@@ -283,6 +283,18 @@ def test_gestures_and_gaze_can_be_switched_off(fake: FurhatFake) -> None:
     assert fake.requests == []
 
 
+@pytest.mark.parametrize(
+    ("sentence", "said"),
+    [
+        ("12\N{NO-BREAK SPACE}pairs", "12 pairs"),
+        ("می\N{ZERO WIDTH NON-JOINER}خواهم", "می\N{ZERO WIDTH NON-JOINER}خواهم"),
+        ("one\ntwo\x07<b>", "one two b"),
+    ],
+)
+def test_a_sentence_loses_markup_and_control_characters_and_no_others(sentence: str, said: str) -> None:
+    assert speakable(sentence) == said
+
+
 def test_a_very_long_text_is_cut_at_a_word() -> None:
     text = speakable("word " * 400)
     assert len(text) < 1000

@@ -15,6 +15,7 @@ from kiosk.study.events import Stage
 from kiosk.ui.clock import VirtualClock
 from kiosk.ui.panel.asking import AWAY_MS
 from kiosk.ui.panel.card import Step
+from kiosk.ui.rehearsing.hand import Hand
 from tests.ui.panel.conftest import PIN, Desk, MakeDesk, Witness
 
 
@@ -211,6 +212,20 @@ def test_a_reason_in_ones_own_words_is_kept_in_them(desk: Desk) -> None:
     desk.enter()
     (ended,) = (event for event in witness.events if isinstance(event, happened.EndAsked))
     assert ended.reason == "other: Fire drill 2"
+
+
+def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_backspace(desk: Desk) -> None:
+    desk.go_to(Stage.ABOUT)
+    desk.do(Deed.END, reason="5")
+    hand, typed = Hand(desk.app.window), "se\N{NO-BREAK SPACE}\N{WOMAN}\N{ZERO WIDTH JOINER}\N{GIRL} "
+    hand.type("x\a")
+    desk.press(Qt.Key.Key_Backspace)
+    hand.type(typed[:-1] + "e\N{COMBINING ACUTE ACCENT}")
+    desk.press(Qt.Key.Key_Backspace)
+    hand.type(typed[-1])
+    assert desk.card.property("text") == typed
+    desk.enter()
+    assert desk.notes[-1][1]["reason"] == f"other: {typed}"
 
 
 def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(desk: Desk) -> None:
