@@ -49,7 +49,7 @@ TextField {
     rightPadding: 24 * Theme.unit
     focusPolicy: Qt.StrongFocus
     activeFocusOnTab: true
-    inputMethodHints: digits ? Qt.ImhDigitsOnly | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
+    inputMethodHints: digits ? (minus ? Qt.ImhFormattedNumbersOnly : Qt.ImhDigitsOnly) | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
     Accessible.name: label
     onPressed: pointed()
 
