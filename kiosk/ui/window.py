@@ -59,7 +59,7 @@ class Window:
 
     def __init__(self, study: Study, mode: Mode) -> None:
         """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
-        self.application = _application(mode.display)
+        self.application = application(mode.display)
         self.owner = QObject()
         """What belongs to the window lives as long as this."""
         self.screens = Screens.of(study, self.owner)
@@ -116,7 +116,7 @@ def check_screen(display: Display) -> None:
         raise BadInput("there is no screen here; 'recollect rehearse --headless' needs none")
 
 
-def _application(display: Display) -> QGuiApplication:
+def application(display: Display) -> QGuiApplication:
     """The application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
     os.environ.setdefault("QT_QUICK_BACKEND", "software")
     os.environ.setdefault("QSG_RENDER_LOOP", "basic")

@@ -1,11 +1,11 @@
-"""Lay out pages of a questionnaire in every size, script and number of items, and count until they settle.
+"""Lay out every page in every size, script and number of items, and count how often its size changes until it settles.
 
-    python -m tests.ui.settling            # every combination
-    python -m tests.ui.settling --every 7  # every seventh of them
-    python -m tests.ui.settling --only "3 likert, latin, 1920 x 1080"
+    python -m tests.ui.settling             # every page, in every text size and window
+    python -m tests.ui.settling --every 24  # every page, in one window and every 24th text size
+    python -m tests.ui.settling --only "3 likert, latin"
 
-A page that does not settle would keep this process busy for ever, so it ends itself with exit code 3 and names the page
-on the error stream.
+Qt is asked to lay out and never to paint, which takes most of the time. A page that does not settle would keep this
+process busy for ever, so the process ends itself with exit code 3 and names the page on the error stream.
 """
 
 from __future__ import annotations
@@ -13,166 +13,267 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 from itertools import product
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 os.environ["QT_QUICK_BACKEND"] = "software"
 os.environ["QSG_RENDER_LOOP"] = "basic"
+# A machine without a font for one of the scripts shows boxes, which have a size as well; Qt says so for every text.
 os.environ["QT_LOGGING_RULES"] = "qt.text.font.db=false"
 
-from PySide6.QtCore import QSize
-from PySide6.QtGui import QGuiApplication
-from PySide6.QtQuick import QQuickItem
+# Pydantic loads its parts late, which fails while PySide6 looks at every import: so it comes first.
+from kiosk.study.declared.information import ConsentPage, Page
+from kiosk.study.declared.questionnaire import KINDS, Item
 
-from kiosk.study.declared.questionnaire import Item, Questionnaire
-from kiosk.ui.rehearsing.hand import lay_out
-from tests.ui.headless import SMALL, headless
+# isort: split
+from pydantic import TypeAdapter
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSizeF
+from PySide6.QtQml import QQmlComponent, QQmlEngine
+from PySide6.QtQuick import QQuickItem, QQuickRenderControl, QQuickWindow
 
+from kiosk.settings import Settings
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.ui.screens.every import Screens
+from kiosk.ui.window import QML, Display, application
+
+TEXT_SIZES = [size / 100 for size in range(90, 151)]
+WINDOWS = [(1920, 1080), (1280, 720), (1366, 768), (1080, 1920), (3840, 2160)]
+MOST_ITEMS = 5
 MOST_CHANGES = 60
 """Changes of one size while a page is laid out; a page that settles takes a handful for each of its items."""
 
-SIZES = ((1920, 1080), (1280, 720), (1366, 768), (1080, 1920), (3840, 2160))
-TEXT_SIZES = tuple(round(0.9 + step / 100, 2) for step in range(61))
+
+@dataclass(frozen=True)
+class Script:
+    """Texts of one script: a question, a short word and a long one."""
+
+    question: str
+    short: str
+    long: str
+
+
 SCRIPTS = {
-    "latin": (
+    "latin": Script(
         "I would like to play this game with the robot again, at home or elsewhere.",
         "not at all",
-        "very much",
+        "I agree with this completely, and have always done so before",
     ),
-    "arabic": (
-        "أود أن ألعب هذه اللعبة مع الروبوت مرة أخرى في البيت أو في أي مكان آخر.",
-        "لا أوافق أبداً",
-        "أوافق تماماً",
+    "arabic": Script(
+        "أود أن ألعب هذه اللعبة مع الروبوت مرة أخرى في المنزل أو في أي مكان آخر مع الأصدقاء.",
+        "لا أوافق",
+        "أوافق على ذلك تماما وقد كنت أوافق عليه دائما من قبل أيضا",
     ),
-    "hindi": (
-        "मैं यह खेल रोबोट के साथ घर पर या कहीं और फिर से खेलना चाहूँगा या चाहूँगी।",
+    "hindi": Script(
+        "मैं इस रोबोट के साथ यह खेल घर पर या कहीं और फिर से खेलना चाहूँगा या चाहूँगी।",
         "बिल्कुल नहीं",
-        "पूरी तरह से सहमत",
+        "मैं इससे पूरी तरह सहमत हूँ और पहले भी हमेशा सहमत रहा हूँ",
     ),
-    "japanese": (
-        "このゲームをロボットと一緒に家や他の場所でもう一度遊んでみたいと思います。",
+    "japanese": Script(
+        "このゲームを家や他の場所でもう一度ロボットと一緒に遊んでみたいと思いますか。お答えください。",
         "全くそう思わない",
-        "とてもそう思う",
+        "完全に同意しますし、以前からずっとそのように考えてきました。これからも同じです",
     ),
+    "no place to break": Script("Rindfleischetikettierungsüberwachung" * 3, "w" * 30, "Aufgabenübertragungsgesetz" * 3),
 }
-KINDS = ("likert", "differential", "pictures", "slider", "single", "multiple", "integer", "text")
-ALL = (*KINDS, "mixed", "likert with long ends")
 
-Page = tuple[tuple[int, int], str, str, int, float]
-"""The window, the kind of items, the script, how many items, and the text size."""
+SOURCE = """
+import QtQuick
+import Recollect
+import "."
 
-
-def item(kind: str, script: str, number: int) -> dict[str, Any]:
-    """One item of a kind in a script, as a questionnaire file has it."""
-    text, low, high = SCRIPTS[script]
-    common: dict[str, Any] = {"id": f"item{number}", "kind": kind, "text": {"en": text}}
-    ends = {"lowest": {"en": low}, "highest": {"en": high}}
-    own: dict[str, dict[str, Any]] = {
-        "likert": {"points": 11, **ends},
-        "differential": {"points": 9, "left": {"en": low}, "right": {"en": high}},
-        "pictures": {"points": 5, "pictures": "faces", **ends},
-        "slider": {"lowest": -50, "highest": 50, "left": {"en": low}, "right": {"en": high}},
-        "single": {"options": [{"id": f"o{each}", "text": {"en": text}} for each in range(4)]},
-        "multiple": {"options": [{"id": f"o{each}", "text": {"en": high}} for each in range(5)]},
-        "integer": {"lowest": 0, "highest": 120},
-        "text": {"longest": 120},
+Item {
+    id: root
+    required property KioskScreen kiosk
+    required property %(screen)s %(name)s
+    property real textSize: 1
+    readonly property bool wide: width >= height
+    Binding {
+        target: Theme
+        property: "unit"
+        value: Math.min(root.width / (root.wide ? 1920 : 1080), root.height / (root.wide ? 1080 : 1920))
     }
-    return common | own[kind]
+    Binding { target: Theme; property: "textSize"; value: root.textSize }
+    %(view)s {
+        width: root.wide ? root.width * 0.715 : root.width
+        height: root.wide ? root.height : root.height * 0.64
+        %(name)s: root.%(name)s
+        words: root.kiosk.words
+        %(more)s
+    }
+}
+"""
+"""One view, with the room and the theme that the window gives it."""
+
+SOURCES = {
+    name: SOURCE % {"name": name, "screen": f"{name.title()}Screen", "view": f"{name.title()}View", "more": more}
+    for name, more in {"form": "kiosk: root.kiosk", "about": "", "consent": "", "debrief": ""}.items()
+}
+
+ITEMS: TypeAdapter[Item] = TypeAdapter(Item)
+Filling = Callable[[Screens], None]
 
 
-def page(kind: str, script: str, count: int) -> tuple[Item, ...]:
-    """A page of so many items of a kind; ``mixed`` takes one kind after another."""
-    kinds = [KINDS[number % len(KINDS)] if kind == "mixed" else kind.split(maxsplit=1)[0] for number in range(count)]
-    items = [item(each, script, number) for number, each in enumerate(kinds)]
-    if kind.endswith("long ends"):
-        for each in items:
-            for end in ("lowest", "highest"):
-                each[end] = {"en": 4 * each[end]["en"]}
-    made = Questionnaire.model_validate({"id": "settling", "version": "1", "note": "A test.", "items": items})
-    return made.items
+def item(kind: str, number: int, script: Script) -> Item:
+    """An item of this kind with as much text as items have in questionnaires."""
+    kind, _, long_ends = kind.partition(", ")
+    short, long = {"en": script.short}, {"en": script.long}
+    ends = {"left": short, "right": long}
+    bounds = {"lowest": short, "highest": long if long_ends else short}
+    own: dict[str, dict[str, Any]] = {
+        "likert": {"points": 11, **bounds},
+        "differential": {"points": 7, **ends},
+        "pictures": {"points": 5, **bounds},
+        "slider": ends,
+        "page": {"text": {"en": " ".join([script.question] * 12)}},
+    }
+    options = [{"id": f"option{n}", "text": text} for n, text in enumerate((short, long, short, long))]
+    own |= {several: {"options": options} for several in ("single", "multiple")}
+    common = {"kind": kind, "id": f"item{number}", "text": {"en": script.question}}
+    made: Item = ITEMS.validate_python({**common, **own.get(kind, {})})
+    return made
 
 
-class Watcher:
-    """Counts how often any size of what is shown changes, and ends the process when there is no end to it."""
+def pages() -> Iterator[tuple[str, str, Filling]]:
+    """Every page, with the screen that it is on and how that is filled: items of one kind, of several, and texts."""
+    asked = [kind for kind in KINDS if kind != "page"]
+    alike = [*asked, "likert, long ends"]
+    for (script, texts), count in product(SCRIPTS.items(), range(1, MOST_ITEMS + 1)):
+        sets = {kind: (kind,) * count for kind in alike}
+        sets |= {"several kinds": tuple(asked[:count]), "several other kinds": tuple(reversed(asked))[:count]}
+        for name, kinds in sets.items():
+            items = tuple(item(kind, number, texts) for number, kind in enumerate(kinds))
+            yield f"{count} {name}, {script}", "form", partial(_ask, items)
+        page = Page(title=texts.short, paragraphs=tuple([texts.question * 3] * count))
+        yield f"{count} paragraphs to read, {script}", "about", partial(_tell, page)
+        yield f"{count} paragraphs of a debriefing, {script}", "debrief", partial(_debrief, page)
+        purposes = [{"id": f"purpose{n}", "text": f"{texts.question} {texts.long}"} for n in range(count)]
+        consent = ConsentPage.model_validate({**page.model_dump(), "purposes": purposes})
+        yield f"{count} purposes to agree to, {script}", "consent", partial(_ask_consent, consent)
+    for script, texts in SCRIPTS.items():
+        yield f"a page of text, {script}", "form", partial(_ask, (item("page", 0, texts),))
+
+
+def _ask(items: tuple[Item, ...], screens: Screens) -> None:
+    screens.form.show(items, 1, 2)
+
+
+def _tell(page: Page, screens: Screens) -> None:
+    screens.about.show(page)
+
+
+def _debrief(page: Page, screens: Screens) -> None:
+    screens.debrief.give_code("WWWWWWW")
+    screens.debrief.show(page)
+
+
+def _ask_consent(page: ConsentPage, screens: Screens) -> None:
+    screens.consent.show(page)
+
+
+class Bench:
+    """One screen at a time, as the kiosk's window has it, laid out when it is asked to and never painted."""
 
     def __init__(self) -> None:
-        self.page = ""
-        self.most = 0
-        self._changes: dict[int, int] = {}
-        self._seen: set[int] = set()
+        self._application = application(Display.NOWHERE)
+        self._owner = QObject()
+        self.screens = Screens.of(read_study(Settings(languages=("en",))), self._owner)
+        self._control = QQuickRenderControl()
+        self._window = QQuickWindow(self._control)
+        self._engine = QQmlEngine()
+        self._shown: dict[str, QQuickItem] = {}
+        self._changes, self._at = 0, ""
 
-    def begin(self, page: str) -> None:
-        """Count from 0 for this page."""
-        self.page = page
-        self._changes.clear()
-        self._seen.clear()
+    def show(self, screen: str, fill: Filling) -> None:
+        """Show this page, and no other."""
+        fill(self.screens)
+        if screen not in self._shown:
+            for other in self._shown.values():
+                other.deleteLater()
+            self._shown = {screen: self._made(screen)}
+        # Without an event loop, what the page before was made of would stay and be laid out as well.
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
-    def watch(self, item: QQuickItem) -> None:
-        """Count the changes of this item and of all within it."""
-        if id(item) not in self._seen:
-            self._seen.add(id(item))
-            number = id(item)
-            item.heightChanged.connect(lambda: self._changed(number))
-            item.widthChanged.connect(lambda: self._changed(number))
-        for child in item.childItems():
-            self.watch(child)
+    def lay_out(self, at: str, text_size: float, window: tuple[int, int]) -> int:
+        """Lay out what is shown at this size; returns how often the column of its pane changed its own."""
+        (root,) = self._shown.values()
+        self._changes, self._at = 0, at
+        root.setSize(QSizeF(*window))
+        root.setProperty("textSize", text_size)
+        self._control.polishItems()
+        return self._changes
 
-    def _changed(self, number: int) -> None:
-        self._changes[number] = self._changes.get(number, 0) + 1
-        self.most = max(self.most, self._changes[number])
-        if self._changes[number] > MOST_CHANGES:
-            sys.stderr.write(f"the page does not settle: {self.page}\n")
+    def _made(self, screen: str) -> QQuickItem:
+        """A screen, with the room that it has in the kiosk's window."""
+        component = QQmlComponent(self._engine)
+        component.setData(SOURCES[screen].encode(), QML.as_uri())
+        given = {screen: self.screens.by_name[screen], "kiosk": self.screens.kiosk}
+        root = component.createWithInitialProperties(given)
+        if not isinstance(root, QQuickItem):
+            raise TypeError(component.errorString())
+        root.setParent(self._owner)
+        root.setParentItem(self._window.contentItem())
+        (column,) = _columns(root)
+        column.heightChanged.connect(self._count)
+        column.widthChanged.connect(self._count)
+        return root
+
+    def close(self) -> None:
+        """Let go of what is shown before what it shows."""
+        for shown in self._shown.values():
+            shown.deleteLater()
+        self._engine.deleteLater()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+    def _count(self) -> None:
+        self._changes += 1
+        if self._changes > MOST_CHANGES:
+            sys.stderr.write(f"the page does not settle: {self._at}\n")
             sys.stderr.flush()
             os._exit(3)
 
 
-def panes(item: QQuickItem) -> Iterator[QQuickItem]:
-    """Every pane that scrolls, whatever is in it."""
-    if item.metaObject().className().startswith("ScrollPane"):
-        yield item
+def _columns(item: QQuickItem) -> Iterator[QQuickItem]:
+    """The columns of all panes that scroll."""
     for child in item.childItems():
-        yield from panes(child)
-
-
-def name_of(page: Page) -> str:
-    """What a page is called."""
-    (width, height), kind, script, count, text_size = page
-    return f"{count} {kind}, {script}, {width} x {height}, text size {text_size}"
+        if child.inherits("QQuickFlickable"):
+            yield from child.property("contentItem").childItems()
+        else:
+            yield from _columns(child)
 
 
 def main(arguments: list[str]) -> int:
-    """Lay out the pages; the last line says how many there were, and the most changes that one size took."""
+    """Lay out the pages; the last line says how often, and the most changes that one size took."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--every", type=int, default=1, help="lay out every so many-th combination only")
+    parser.add_argument(
+        "--every", type=int, default=0, help="lay out each page in one window only, and in every so many-th text size"
+    )
     parser.add_argument("--only", default="", help="lay out only those whose name contains this")
     options = parser.parse_args(arguments)
-    application = QGuiApplication.instance() or QGuiApplication([])
-    watcher, laid_out = Watcher(), 0
-    every: list[Page] = list(product(SIZES, ALL, SCRIPTS, range(1, 6), TEXT_SIZES))
-    wanted = [each for each in every if options.only in name_of(each)][:: options.every]
-    with TemporaryDirectory() as data, headless(SMALL, Path(data)) as app:
-        form = app.screens.form
-        app.screens.kiosk.show("form")
-        watched = list(panes(app.window.contentItem()))
-        for pane in watched:
-            # The pane alone: its column and bar follow from it, and what stands in it is made anew for every page.
-            watcher.watch(pane)
-        for each in wanted:
-            size, kind, script, count, text_size = each
-            watcher.begin(name_of(each))
-            if app.window.size() != QSize(*size):
-                app.window.resize(*size)
-            app.window.setProperty("textSize", text_size)
-            form.show(page(kind, script, count), 1, 2)
-            lay_out(app.window)
-            application.processEvents()
-            laid_out += 1
-    sys.stdout.write(f"{laid_out} pages settled; the most changes of one size were {watcher.most}\n")
+    bench, every_page, laid_out, most = Bench(), list(pages()), 0, 0
+    # One window after another: a change of the window lays out much that does not belong to the page.
+    for place, window in enumerate(WINDOWS):
+        for number, (page, screen, fill) in enumerate(every_page):
+            if options.every and number % len(WINDOWS) != place:
+                continue
+            sizes = TEXT_SIZES[number % options.every :: options.every] if options.every else TEXT_SIZES
+            wanted = {told: size for size in sizes if options.only in (told := name_of(page, window, size))}
+            if wanted:
+                bench.show(screen, fill)
+            for told, text_size in wanted.items():
+                most = max(most, bench.lay_out(told, text_size, window))
+            laid_out += len(wanted)
+    bench.close()
+    sys.stdout.write(f"{laid_out} layouts settled; the most changes of one size were {most}\n")
     return 0
+
+
+def name_of(page: str, window: tuple[int, int], text_size: float) -> str:
+    """What a page is called in one size."""
+    return f"{page}, {window[0]} x {window[1]}, text size {text_size}"
 
 
 if __name__ == "__main__":
