@@ -23,8 +23,8 @@ HEADS = {
     Outcome.S_WRONG: "second card,\nafter a miss",
 }
 GAMES_COLOURS = ("#b0552f", "#1f5a8c", "#5f8f4e")
-# Text stays text, and nothing in the file depends on the clock or on chance.
-STYLE: dict[Any, Any] = {"svg.fonttype": "none", "svg.hashsalt": "recollect", "font.size": 9}
+# Text stays text, without formulas between dollar signs, and nothing in the file depends on the clock or on chance.
+STYLE: dict[Any, Any] = {"svg.fonttype": "none", "svg.hashsalt": "recollect", "text.parse_math": False, "font.size": 9}
 
 
 class Sample(Protocol):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 pytest.importorskip("matplotlib")
@@ -30,3 +32,8 @@ def test_the_same_numbers_give_the_same_file() -> None:
     assert distributions(samples, "svg") == distributions(samples, "svg")
     assert distributions(samples, "png").startswith(b"\x89PNG")
     assert all(label in distributions(samples, "svg").decode() for label in ("one", "two", "three"))
+
+
+def test_a_name_between_dollar_signs_is_no_formula() -> None:
+    table = replace(always(Action.SUG_CARD), name="a_$x^2$")
+    assert "a_$x^2$" in heat_map(table, {}, "svg").decode()

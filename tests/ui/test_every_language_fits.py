@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import QRectF
-from PySide6.QtQuick import QQuickItem
+from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
 
 from kiosk.assistant.hint import Reason
@@ -141,6 +141,26 @@ def scrolls(text: QQuickItem) -> QRectF | None:
     return above.mapRectToScene(QRectF(0, 0, above.width(), above.height())) if above else None
 
 
+def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
+    """No text of the window is cut off, reaches out of the window or lies on another one."""
+    inside = QRectF(0, 0, shown.width(), shown.height()).adjusted(*(-HALF_A_PIXEL,) * 2, *(HALF_A_PIXEL,) * 2)
+    places = [(text, painted(text), scrolls(text)) for text in texts(shown.contentItem())]
+    assert places, moment
+    for text, place, pane in places:
+        told = (moment, text.property("text"), place, pane)
+        assert not text.property("truncated"), told
+        if pane is None:
+            assert inside.contains(place), told
+        else:
+            assert inside.left() <= place.left() < place.right() <= inside.right(), told
+            assert inside.contains(pane), told
+    for (one, there, pane), (other, here, other_pane) in combinations(places, 2):
+        # Of what scrolls, only what is in sight can be covered by what stands still.
+        seen = there if pane == other_pane or pane is None else there.intersected(pane)
+        too = here if pane == other_pane or other_pane is None else here.intersected(other_pane)
+        assert not seen.intersects(too), (moment, one.property("text"), other.property("text"))
+
+
 def moments(screens: Screens, study: Study) -> Iterator[tuple[str, str, Callable[[], None]]]:
     """Every screen with as much to show as it can ever have: a name for it, the screen's, and how it is filled."""
     (plan,) = study.plans
@@ -190,26 +210,11 @@ def test_no_text_is_cut_off_or_covers_another(
     shown.resize(width, height)
     qtbot.waitUntil(lambda: shown.contentItem().width() == width)
     screens.avatar.say(longest_hint(study.plans[0].catalogue))
-    inside = QRectF(0, 0, width, height).adjusted(-HALF_A_PIXEL, -HALF_A_PIXEL, HALF_A_PIXEL, HALF_A_PIXEL)
     for moment, screen, fill in moments(screens, study):
         fill()
         screens.kiosk.show(screen)
         lay_out(shown)
-        places = [(text, painted(text), scrolls(text)) for text in texts(shown.contentItem())]
-        assert places, moment
-        for text, place, pane in places:
-            told = (moment, text.property("text"), place, pane)
-            assert not text.property("truncated"), told
-            if pane is None:
-                assert inside.contains(place), told
-            else:
-                assert inside.left() <= place.left() < place.right() <= inside.right(), told
-                assert inside.contains(pane), told
-        for (one, there, pane), (other, here, other_pane) in combinations(places, 2):
-            # Of what scrolls, only what is in sight can be covered by what stands still.
-            seen = there if pane == other_pane or pane is None else there.intersected(pane)
-            too = here if pane == other_pane or other_pane is None else here.intersected(other_pane)
-            assert not seen.intersects(too), (moment, one.property("text"), other.property("text"))
+        assert_all_can_be_read(shown, moment)
 
 
 def test_what_is_declared_for_this_study_needs_no_scrolling(window: Window, study: Study, qtbot: QtBot) -> None:

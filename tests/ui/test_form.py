@@ -227,14 +227,14 @@ def test_a_text_that_was_refused_is_sent_again_with_the_way_on(booth: Booth) -> 
 @pytest.mark.usefixtures("given")
 def test_the_way_on_says_whether_something_is_left_out(booth: Booth) -> None:
     ask(booth, ITEMS["differential"], ITEMS["text"])
-    assert booth.item("continue").property("text") == "Skip"
+    assert booth.item("continue").property("words") == "Skip"
     booth.click("text-remark")
     Hand(booth.app.window).type("x")
-    assert booth.item("continue").property("text") == "Finish"
+    assert booth.item("continue").property("words") == "Finish"
     ask(booth, required("likert"))
-    assert booth.item("continue").property("text") == "Finish"
+    assert booth.item("continue").property("words") == "Finish"
     booth.app.screens.form.show((ITEMS["page"],), 1, 2)
-    assert booth.item("continue").property("text") == "Next"
+    assert booth.item("continue").property("words") == "Next"
 
 
 def small(booth: Booth, qtbot: QtBot) -> None:
@@ -276,4 +276,4 @@ def test_a_page_in_another_language_is_in_that_language(booth: Booth) -> None:
     ask(booth, ITEMS["differential"])
     assert shown(booth, "item-clear", ITEMS["differential"].text["it"])
     assert find(booth.app.window.contentItem(), "continue") is not None
-    assert booth.item("continue").property("text") == "Salta"
+    assert booth.item("continue").property("words") == "Salta"

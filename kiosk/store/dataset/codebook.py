@@ -96,7 +96,12 @@ def _kind(variable: Variable) -> str:
 
 def _cell(text: str) -> str:
     """A text that does not break its line or its cell."""
-    return " ".join(text.split()).replace("|", "\\|")
+    return as_written(" ".join(text.split())).replace("|", "\\|")
+
+
+def as_written(text: str) -> str:
+    """Escape what a Markdown reader would take for HTML, for a link or for a picture to be fetched."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace("[", "\\[")
 
 
 def _kinds_of_events() -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from kiosk import __version__
-from kiosk.store.dataset.codebook import MARKED
+from kiosk.store.dataset.codebook import MARKED, as_written
 from kiosk.store.dataset.column import Shape
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.stored.followed import Followed
@@ -110,7 +110,7 @@ def readme(study: Followed, shapes: Iterable[Shape], file_of: Mapping[str, str],
     tables = [f"| [{shape.name}]({file_of[shape.name]}) | {shape.about} |" for shape in shapes]
     return "\n".join(
         [
-            f"# {study.title}",
+            f"# {as_written(study.title)}",
             "",
             abstract(study, extras),
             "",
@@ -136,7 +136,7 @@ def readme(study: Followed, shapes: Iterable[Shape], file_of: Mapping[str, str],
 
 def bids_readme(study: Followed, extras: frozenset[Extra]) -> str:
     """The same for names like those of BIDS."""
-    opening = [f"# {study.title}", "", abstract(study, extras), "", _HOW_TO_READ_BIDS, "", MARKED]
+    opening = [f"# {as_written(study.title)}", "", abstract(study, extras), "", _HOW_TO_READ_BIDS, "", MARKED]
     return "\n".join([*opening, "", "## What is not here, and why", "", *_missing(extras), "", _BEFORE_PUBLISHING, ""])
 
 

@@ -24,7 +24,7 @@ FocusScope {
             width: parent.width
             text: view.about.title
             font { pixelSize: Theme.title; bold: true }
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
         ScrollPane {
@@ -42,7 +42,8 @@ FocusScope {
         BigButton {
             id: go
             objectName: "continue"
-            text: view.words["about-continue"]
+            most: parent.width
+            words: view.words["about-continue"]
             focus: true
             onClicked: view.about.proceed()
         }

@@ -29,15 +29,20 @@ FocusScope {
             font.pixelSize: Theme.body
             color: Theme.faintInk
         }
-        Row {
+        Grid {
+            id: answers
+            // Both are as wide as the longer one needs; side by side, or where that is too wide, one above the other.
+            readonly property real room: view.width - 4 * Theme.gap
+            readonly property real wish: Math.min(room, Math.max(yes.implicitWidth, no.implicitWidth, 280 * Theme.unit))
             anchors.horizontalCenter: parent.horizontalCenter
+            columns: 2 * wish + spacing <= room ? 2 : 1
             topPadding: Theme.gap
             spacing: 2 * Theme.gap
             BigButton {
                 id: yes
                 objectName: "age-yes"
-                width: Math.max(implicitWidth, no.implicitWidth, 280 * Theme.unit)
-                text: view.words["age-yes"]
+                width: answers.wish
+                words: view.words["age-yes"]
                 font.pixelSize: Theme.heading
                 focus: true
                 onClicked: view.age.answer(true)
@@ -45,8 +50,8 @@ FocusScope {
             BigButton {
                 id: no
                 objectName: "age-no"
-                width: yes.width
-                text: view.words["age-no"]
+                width: answers.wish
+                words: view.words["age-no"]
                 font.pixelSize: Theme.heading
                 onClicked: view.age.answer(false)
             }

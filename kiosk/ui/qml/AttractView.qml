@@ -31,7 +31,8 @@ FocusScope {
         BigButton {
             id: start
             objectName: "start-" + way.modelData.language
-            text: way.modelData.start
+            most: view.width - 4 * Theme.gap
+            words: way.modelData.start
             font.pixelSize: Theme.heading
             focus: true
             Accessible.description: way.modelData.name

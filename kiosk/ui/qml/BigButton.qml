@@ -6,8 +6,14 @@ import "."
 Button {
     id: button
 
+    // What it says, and to those who cannot see it too. Not its text: "&" in that makes a shortcut of the letter behind.
+    required property string words
+    // How wide it may be at most; its words then take more lines.
+    property real most: Infinity
     property bool quiet: false
 
+    width: Math.min(implicitWidth, most)
+    Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 56 * Theme.unit
     verticalPadding: 26 * Theme.unit
@@ -24,14 +30,16 @@ Button {
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Text {
-        text: button.text
+        textFormat: Text.PlainText
+        text: button.words
         font: button.font
         color: button.quiet ? Theme.sea : Theme.white
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
+        wrapMode: Text.Wrap
     }
     background: Rectangle {
-        radius: height / 2
+        radius: Math.min(height / 2, button.topPadding + button.font.pixelSize)
         color: button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         border.color: Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0

@@ -59,11 +59,12 @@ FocusScope {
     BigButton {
         id: skip
         objectName: "skip"
+        most: view.width - 2 * Theme.gap
         anchors { bottom: parent.bottom; bottomMargin: Theme.gap; horizontalCenter: cards.horizontalCenter }
         visible: view.board.practice
         quiet: true
         verticalPadding: 16 * Theme.unit
-        text: view.words["practice-skip"]
+        words: view.words["practice-skip"]
         onClicked: view.board.skip()
     }
 

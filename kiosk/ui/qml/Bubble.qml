@@ -9,6 +9,8 @@ Item {
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
 
+    readonly property real room: height - 34 * Theme.unit - 3 * Theme.gap
+
     opacity: sentence === "" ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
 
@@ -16,6 +18,17 @@ Item {
     onSentenceChanged: if (sentence !== "") words.text = sentence
     onOpacityChanged: if (opacity === 0) words.text = ""
 
+    // The sentence as large as it is usually; what is longer than any hint is set smaller anyway.
+    Text {
+        id: usual
+        visible: false
+        width: words.width
+        textFormat: Text.PlainText
+        text: words.text
+        font.pixelSize: text.length > 130 ? Theme.small : Theme.body
+        lineHeight: words.lineHeight
+        wrapMode: Text.Wrap
+    }
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: 34 * Theme.unit }
@@ -27,12 +40,16 @@ Item {
 
         Text {
             id: words
+            textFormat: Text.PlainText
             anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap }
-            // What is longer than any hint is set smaller, or large text would not fit above the face.
-            font.pixelSize: text.length > 130 ? Theme.small : Theme.body
+            // What would not fit above the face is set smaller: half the size takes a quarter of the room.
+            font.pixelSize: {
+                const share = Math.max(0, bubble.room / Math.max(1, usual.height))
+                return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
+            }
             lineHeight: 1.12
             color: Theme.ink
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
         }

@@ -38,7 +38,7 @@ FocusScope {
                 Accessible.role: Accessible.AlertMessage
                 Accessible.name: text
                 horizontalAlignment: Text.AlignHCenter
-                wrapMode: Text.WordWrap
+                wrapMode: Text.Wrap
             }
             PlainText {
                 width: parent.width
@@ -46,13 +46,14 @@ FocusScope {
                 font.pixelSize: Theme.body
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
-                wrapMode: Text.WordWrap
+                wrapMode: Text.Wrap
             }
             BigButton {
                 objectName: "still-here"
+                most: content.width
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.button !== ""
-                text: calm.button
+                words: calm.button
                 focus: true
                 onClicked: calm.confirmed()
             }

@@ -7,6 +7,8 @@ AbstractButton {
     id: button
 
     required property bool on
+    // What it says. Not its text: "&" in that makes a shortcut of the letter behind.
+    property string words: ""
 
     focusPolicy: Qt.StrongFocus
     checkable: true

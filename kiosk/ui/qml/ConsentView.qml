@@ -23,7 +23,7 @@ FocusScope {
             width: parent.width
             text: view.consent.title
             font { pixelSize: Theme.heading; bold: true }
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
         FocusScope {
@@ -47,8 +47,8 @@ FocusScope {
                 }
                 Column {
                     id: boxes
-                    // The boxes stand out of the text by their padding alone; their edges are the text's, unless that is cut.
-                    x: pane.long ? 0 : -8 * Theme.unit
+                    // The boxes stand out of the text by their padding alone; their edges are the text's.
+                    x: -8 * Theme.unit
                     width: parent.width - x
                     Repeater {
                         id: purposes
@@ -57,7 +57,7 @@ FocusScope {
                             required property var modelData
                             objectName: "purpose-" + modelData.id
                             width: boxes.width
-                            text: modelData.text
+                            words: modelData.text
                             on: view.consent.ticks.includes(modelData.id)
                             note: view.words[modelData.required ? "consent-required" : "consent-optional"]
                             warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
@@ -77,15 +77,17 @@ FocusScope {
             BigButton {
                 id: agree
                 objectName: "agree"
+                most: answers.parent.width
                 quiet: !view.consent.complete
-                text: view.words["consent-agree"]
+                words: view.words["consent-agree"]
                 onClicked: view.consent.agree()
             }
             BigButton {
                 id: decline
                 objectName: "decline"
+                most: answers.parent.width
                 quiet: true
-                text: view.words["consent-decline"]
+                words: view.words["consent-decline"]
                 onClicked: view.consent.decline()
             }
         }

@@ -26,7 +26,7 @@ FocusScope {
             width: parent.width
             text: view.debrief.title
             font { pixelSize: Theme.heading; bold: true }
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
         ScrollPane {
@@ -73,8 +73,10 @@ FocusScope {
                 }
                 spacing: 0.3 * Theme.gap
                 PlainText {
+                    width: parent.width
                     text: view.words["debrief-code"]
                     font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
                     color: Theme.faintInk
                 }
                 PlainText {
@@ -98,7 +100,8 @@ FocusScope {
         BigButton {
             id: go
             objectName: "continue"
-            text: view.words["debrief-continue"]
+            most: parent.width
+            words: view.words["debrief-continue"]
             focus: true
             onClicked: view.debrief.proceed()
         }

@@ -74,9 +74,10 @@ FocusScope {
             BigButton {
                 id: go
                 objectName: "continue"
+                most: group.width
                 anchors.horizontalCenter: parent.horizontalCenter
                 quiet: view.form.skips
-                text: view.words[quiet ? "form-skip" : view.form.last ? "form-finish" : "form-next"]
+                words: view.words[quiet ? "form-skip" : view.form.last ? "form-finish" : "form-next"]
                 onClicked: view.form.proceed()
                 onActiveFocusChanged: if (activeFocus) keyboard.field = null
             }

@@ -43,7 +43,7 @@ FocusScope {
             leftPadding: Theme.gap
             text: rule.text
             font.pixelSize: Theme.body
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
     }
@@ -70,7 +70,8 @@ FocusScope {
         }
         BigButton {
             objectName: "continue"
-            text: view.words["introduction-continue"]
+            most: view.width - 4 * Theme.gap
+            words: view.words["introduction-continue"]
             focus: true
             onClicked: view.introduction.proceed()
         }

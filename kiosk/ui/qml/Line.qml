@@ -6,6 +6,6 @@ PlainText {
     required property real room
 
     width: Math.min(implicitWidth, room)
-    wrapMode: Text.WordWrap
+    wrapMode: Text.Wrap
     horizontalAlignment: Text.AlignHCenter
 }

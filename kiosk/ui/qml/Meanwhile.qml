@@ -1,4 +1,5 @@
 // What a visitor sees while the kiosk is started again: calm, in every language, with nothing to press.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Window
 import "."
@@ -29,8 +30,11 @@ Window {
             PlainText {
                 required property string modelData
                 anchors.horizontalCenter: parent?.horizontalCenter
+                width: Math.min(implicitWidth, root.width - 4 * Theme.gap)
                 text: modelData
                 font.pixelSize: Theme.heading
+                horizontalAlignment: Text.AlignHCenter
+                wrapMode: Text.Wrap
                 color: Theme.ink
             }
         }

@@ -18,7 +18,7 @@ Column {
             text: modelData
             font.pixelSize: paragraphs.size
             lineHeight: 1.08
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
     }

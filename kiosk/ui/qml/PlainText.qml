@@ -1,8 +1,9 @@
-// A text to be read, and told to those who cannot see it.
+// A text to be read as it was written, and told to those who cannot see it. What looks like markup is none.
 import QtQuick
 import "."
 
 Text {
+    textFormat: Text.PlainText
     color: Theme.ink
     Accessible.role: font.bold && font.pixelSize >= Theme.heading ? Accessible.Heading : Accessible.StaticText
     Accessible.name: text

@@ -14,6 +14,7 @@ FocusScope {
         id: figure
         property string value
         property string label
+        readonly property real most: (view.width - 12 * Theme.gap) / 3
         width: Math.max(240 * Theme.unit, implicitWidth + 2 * Theme.gap)
         PlainText {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -24,7 +25,10 @@ FocusScope {
         }
         PlainText {
             anchors.horizontalCenter: parent.horizontalCenter
+            width: Math.min(implicitWidth, figure.most)
             text: figure.label
+            horizontalAlignment: Text.AlignHCenter
+            wrapMode: Text.Wrap
             font.pixelSize: Theme.body
             color: Theme.faintInk
             Accessible.role: Accessible.StaticText
@@ -60,8 +64,9 @@ FocusScope {
         }
         BigButton {
             objectName: "continue"
+            most: view.width - 4 * Theme.gap
             anchors.horizontalCenter: parent.horizontalCenter
-            text: view.words["result-continue"]
+            words: view.words["result-continue"]
             focus: true
             onClicked: view.result.proceed()
         }

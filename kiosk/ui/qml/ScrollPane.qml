@@ -14,10 +14,12 @@ Item {
     // What is to stay in view while things around it find their places.
     property Item wanted: null
 
+    // What stands out of the content on both sides, such as the ring around a button, is not cut off.
+    readonly property real reach: 9 * Theme.unit
     readonly property bool long: column.height > room + 1
     readonly property real step: 0.8 * flick.height
 
-    height: Math.min(column.height, room)
+    height: Math.max(0, Math.min(column.height, room))
     // Every visitor begins at the top.
     onVisibleChanged: rewind()
     onHeightChanged: flick.returnToBounds()
@@ -62,8 +64,9 @@ Item {
 
     Flickable {
         id: flick
-        width: parent.width
-        height: parent.height - (pane.long ? further.height + 0.3 * Theme.gap : 0)
+        x: -pane.reach
+        width: parent.width + 2 * pane.reach
+        height: Math.max(0, parent.height - (pane.long ? further.height + 0.3 * Theme.gap : 0))
         contentWidth: width
         contentHeight: column.height
         interactive: pane.long
@@ -76,14 +79,15 @@ Item {
         onMovementStarted: pane.wanted = null
         Column {
             id: column
+            x: pane.reach
             // Never narrower for the bar: a page that became lower by it would need no bar, and so on without end.
-            width: flick.width
+            width: pane.width
         }
         ScrollBar.vertical: ScrollBar {
             id: bar
             // In the margin beside the pane, out of the flickable, which cuts off what reaches beyond it.
             parent: pane
-            anchors { top: flick.top; bottom: flick.bottom; left: flick.right; leftMargin: 0.5 * Theme.gap }
+            anchors { top: flick.top; bottom: flick.bottom; left: flick.right; leftMargin: 3 * Theme.unit }
             policy: pane.long ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
             width: 18 * Theme.unit
             padding: 2 * Theme.unit
@@ -102,12 +106,16 @@ Item {
         focusPolicy: Qt.NoFocus
         horizontalPadding: Theme.gap
         verticalPadding: 6 * Theme.unit
-        text: pane.more
+        width: Math.min(implicitWidth, pane.width)
+        Accessible.name: pane.more
         onClicked: pane.scroll(pane.step)
         contentItem: Text {
-            text: further.text
+            textFormat: Text.PlainText
+            text: pane.more
             font { pixelSize: Theme.small; bold: true }
             color: Theme.white
+            horizontalAlignment: Text.AlignHCenter
+            wrapMode: Text.Wrap
         }
         background: Rectangle { radius: height / 2; color: Theme.lightSea }
     }

@@ -9,7 +9,7 @@ Item {
     required property AvatarScreen avatar
 
     Bubble {
-        anchors { left: parent.left; right: parent.right; bottom: face.top; bottomMargin: 4 * Theme.unit }
+        anchors { left: parent.left; right: parent.right; top: parent.top; bottom: face.top; bottomMargin: 4 * Theme.unit }
         sentence: panel.avatar.bubble
         hasSpeaker: panel.avatar.present
     }

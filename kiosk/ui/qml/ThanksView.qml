@@ -33,9 +33,10 @@ FocusScope {
         }
         BigButton {
             objectName: "continue"
+            most: view.width - 4 * Theme.gap
             anchors.horizontalCenter: parent.horizontalCenter
             quiet: true
-            text: view.words["thanks-continue"]
+            words: view.words["thanks-continue"]
             focus: true
             onClicked: view.thanks.proceed()
         }

@@ -12,7 +12,7 @@ Choosable {
     padding: 8 * Theme.unit
     font.pixelSize: Theme.reading
     Accessible.role: Accessible.CheckBox
-    Accessible.name: text
+    Accessible.name: words
     Accessible.description: warning || note
 
     background: Rectangle {
@@ -51,18 +51,20 @@ Choosable {
         Column {
             width: box.availableWidth - mark.width - parent.spacing
             Text {
+                textFormat: Text.PlainText
                 width: parent.width
-                text: box.text
+                text: box.words
                 font: box.font
-                wrapMode: Text.WordWrap
+                wrapMode: Text.Wrap
                 color: Theme.ink
             }
             Text {
+                textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
                 text: box.warning || box.note
                 font { pixelSize: Theme.small; bold: box.warning !== "" }
-                wrapMode: Text.WordWrap
+                wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
             }
         }

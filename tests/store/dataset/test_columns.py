@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.store.dataset.codebook import variables
+from kiosk.store.dataset.codebook import as_written, variables
 from kiosk.store.dataset.column import SEPARATOR, Column, Kind, Shape, Variable, named
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.stored.followed import Followed
@@ -129,3 +129,8 @@ def test_a_studys_own_names_give_way_to_the_columns_that_are_there_already() -> 
     names = every(study, frozenset()).shapes[0].names
     assert "about_you_condition" in names
     assert names.count("condition") == 1
+
+
+def test_no_word_of_a_study_is_markup_for_a_reader_of_the_codebook() -> None:
+    written = as_written("Is A <b>bold</b> & 3 < 4? ![x](http://127.0.0.1/x.png)")
+    assert written == "Is A &lt;b>bold&lt;/b> &amp; 3 &lt; 4? !\\[x](http://127.0.0.1/x.png)"

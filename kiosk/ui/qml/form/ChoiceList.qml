@@ -37,7 +37,7 @@ Flow {
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
             width: list.stacked ? list.width : Math.min(implicitWidth, list.width)
-            text: modelData.text
+            words: modelData.text
             font.pixelSize: list.alone ? Theme.body : Theme.reading
             leftPadding: 22 * Theme.unit
             rightPadding: 30 * Theme.unit
@@ -45,7 +45,7 @@ Flow {
             spacing: 16 * Theme.unit
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
-            Accessible.name: `${list.label} ${text}`
+            Accessible.name: `${list.label} ${words}`
             onClicked: list.picked(modelData.id)
             Keys.onLeftPressed: go(index - 1)
             Keys.onRightPressed: go(index + 1)
@@ -71,11 +71,12 @@ Flow {
                     }
                 }
                 Text {
+                    textFormat: Text.PlainText
                     anchors.verticalCenter: parent.verticalCenter
                     width: Math.min(implicitWidth, list.width - mark.width - option.spacing - option.leftPadding - option.rightPadding)
-                    text: option.text
+                    text: option.words
                     font: option.font
-                    wrapMode: Text.WordWrap
+                    wrapMode: Text.Wrap
                     color: Theme.ink
                 }
             }

@@ -63,7 +63,7 @@ Rectangle {
             }
             lineHeight: box.item.kind === "page" ? 1.15 : 1
             horizontalAlignment: box.alone && box.item.kind !== "page" ? Text.AlignHCenter : Text.AlignLeft
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.ink
         }
         PlainText {
@@ -72,7 +72,7 @@ Rectangle {
             text: box.words[box.refused ? "form-refused" : "form-missing"]
             horizontalAlignment: box.alone ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: Theme.small; bold: true }
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
             color: Theme.deepAmber
         }
         Loader {
@@ -141,6 +141,7 @@ Rectangle {
     Component {
         id: number
         NumberField {
+            room: content.width
             item: box.item.id
             form: box.form
             label: box.item.text
@@ -164,7 +165,7 @@ Rectangle {
             objectName: `text-${box.item.id}`
             width: Math.min(content.width, 1000 * Theme.unit)
             label: box.item.text
-            placeholderText: box.words["form-type"]
+            hint: box.words["form-type"]
             longest: box.item.longest
             onTextChanged: box.form.draft(box.item.id, text)
             onEditingFinished: box.done()

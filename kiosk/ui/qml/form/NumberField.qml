@@ -8,6 +8,7 @@ import ".."
 Row {
     id: number
 
+    required property real room         // how wide it may be
     required property string item
     required property FormScreen form
     required property string label
@@ -93,6 +94,8 @@ Row {
     PlainText {
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
+        width: Math.min(implicitWidth, number.room - 2 * field.height - field.width - 3 * number.spacing)
+        wrapMode: Text.Wrap
         text: number.range
         font.pixelSize: Theme.small
         color: Theme.faintInk

@@ -32,24 +32,25 @@ Item {
 
     PlainText {
         id: lowest
-        x: scale.below ? row.x : 0
+        x: scale.below ? scale.width / 2 - Theme.gap - width : 0
         y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
-        width: scale.below ? scale.span / 2 - Theme.gap : scale.beside
+        // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
+        width: scale.below ? Math.max(scale.span / 2, Math.min(scale.width / 2, 280 * Theme.unit * Theme.textSize)) - Theme.gap : scale.beside
         text: scale.leftEnd
         horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
         font.pixelSize: Theme.small
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
         color: Theme.faintInk
     }
     PlainText {
         id: highest
-        x: scale.below ? row.x + row.width - width : scale.width - width
+        x: scale.below ? scale.width / 2 + Theme.gap : scale.width - width
         y: scale.below ? lowest.y : (scale.height - height) / 2
         width: lowest.width
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
         color: Theme.faintInk
     }
     Row {
@@ -86,10 +87,11 @@ Item {
 
                 contentItem: Item {
                     Text {
+                        textFormat: Text.PlainText
                         anchors.centerIn: parent
                         visible: !scale.pictured
                         text: point.number
-                        font { pixelSize: scale.alone ? Theme.heading : Math.min(Theme.body, 0.5 * scale.size); bold: true }
+                        font { pixelSize: Math.min(scale.alone ? Theme.heading : Theme.body, (scale.alone ? 0.55 : 0.5) * scale.size); bold: true }
                         color: point.on ? Theme.white : Theme.ink
                     }
                     Image {

@@ -29,14 +29,17 @@ Rectangle {
     // Not named Key: outside of QML, that name belongs to something else.
     component ScreenKey: AbstractButton {
         id: key
+        required property string words
         property bool pressedIn: false
+        Accessible.name: words
         focusPolicy: Qt.NoFocus
         width: Math.max(keyboard.keyWidth, implicitWidth)
         height: keyboard.keyHeight
         horizontalPadding: 14 * Theme.unit
         scale: down ? 0.94 : 1
         contentItem: Text {
-            text: key.text
+            textFormat: Text.PlainText
+            text: key.words
             font { pixelSize: Math.min(Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
@@ -64,7 +67,7 @@ Rectangle {
                 ScreenKey {
                     visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
                     objectName: "key-shift"
-                    text: keyboard.words["keyboard-shift"]
+                    words: keyboard.words["keyboard-shift"]
                     pressedIn: keyboard.capitals
                     checkable: true
                     checked: pressedIn
@@ -77,9 +80,9 @@ Rectangle {
                         required property int index
                         readonly property string letter: row.modelData.charAt(index)
                         objectName: "key-" + letter
-                        text: keyboard.capitals ? letter.toUpperCase() : keyboard.numbers && letter === "-" ? "−" : letter
+                        words: keyboard.capitals ? letter.toUpperCase() : keyboard.numbers && letter === "-" ? "−" : letter
                         onClicked: {
-                            keyboard.field.type(keyboard.numbers ? letter : text)
+                            keyboard.field.type(keyboard.numbers ? letter : words)
                             keyboard.capitals = false
                         }
                     }
@@ -88,19 +91,19 @@ Rectangle {
                     visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
                     objectName: "key-space"
                     width: Math.max(1.6 * keyboard.keyWidth, implicitWidth)
-                    text: keyboard.words["keyboard-space"]
+                    words: keyboard.words["keyboard-space"]
                     onClicked: keyboard.field.type(" ")
                 }
                 ScreenKey {
                     visible: row.index === keyboard.rows.length - 1
                     objectName: "key-delete"
-                    text: keyboard.words["keyboard-delete"]
+                    words: keyboard.words["keyboard-delete"]
                     onClicked: keyboard.field.wipe()
                 }
                 ScreenKey {
                     visible: row.index === keyboard.rows.length - 1
                     objectName: "key-done"
-                    text: keyboard.words["keyboard-done"]
+                    words: keyboard.words["keyboard-done"]
                     onClicked: keyboard.done()
                 }
             }

@@ -37,7 +37,7 @@ Item {
         text: scale.leftEnd
         horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
         font.pixelSize: Theme.small
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
         color: Theme.faintInk
     }
     PlainText {
@@ -48,7 +48,7 @@ Item {
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
         color: Theme.faintInk
     }
     Slider {

@@ -9,6 +9,8 @@ TextField {
 
     required property FormScreen form
     required property string label
+    // What there is to do, while nothing is typed. Not its placeholder text: that is drawn as markup if it looks like it.
+    property string hint: ""
     property bool digits: false
     property bool minus: false          // whether a number may be negative
     property int longest: 32767         // in characters; some take two places of Qt's own count
@@ -41,7 +43,6 @@ TextField {
     maximumLength: 2 * longest
     font.pixelSize: Theme.body
     color: Theme.ink
-    placeholderTextColor: Theme.faintInk
     selectionColor: Theme.sea
     selectedTextColor: Theme.white
     padding: 16 * Theme.unit
@@ -51,8 +52,21 @@ TextField {
     activeFocusOnTab: true
     inputMethodHints: digits ? (minus ? Qt.ImhFormattedNumbersOnly : Qt.ImhDigitsOnly) | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
     Accessible.name: label
+    Accessible.description: hint
     onPressed: pointed()
 
+    Text {
+        anchors { fill: parent; leftMargin: field.leftPadding; rightMargin: field.rightPadding }
+        visible: field.length === 0 && field.preeditText === ""
+        textFormat: Text.PlainText
+        text: field.hint
+        font: field.font
+        fontSizeMode: Text.HorizontalFit
+        minimumPixelSize: Theme.size(24)
+        color: Theme.faintInk
+        verticalAlignment: Text.AlignVCenter
+        Accessible.ignored: true
+    }
     background: Rectangle {
         radius: Theme.radius
         color: Theme.white

@@ -7,11 +7,15 @@ import ".."
 Button {
     id: button
 
+    // What it says, and to those who cannot see it too. Not its text: "&" in that makes a shortcut of the letter behind.
+    required property string words
     // The one of several that holds; or what is on, and whose words then say how to end it.
     property bool chosen: false
     property bool choosable: false
     property int alignment: Text.AlignHCenter
 
+    width: Math.min(implicitWidth, parent?.width ?? Infinity)
+    Accessible.name: words
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
@@ -30,12 +34,13 @@ Button {
     Keys.onUpPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
 
     contentItem: Text {
-        text: button.text
+        textFormat: Text.PlainText
+        text: button.words
         font: button.font
         color: button.chosen ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
         horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
     background: Rectangle {
         radius: 12 * Theme.unit

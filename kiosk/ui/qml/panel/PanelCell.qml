@@ -14,8 +14,6 @@ PlainText {
     color: heading ? Theme.faintInk : Theme.ink
     horizontalAlignment: number ? Text.AlignRight : Text.AlignLeft
     wrapMode: Text.Wrap
-    maximumLineCount: 2
-    elide: Text.ElideRight
     Accessible.role: heading ? Accessible.ColumnHeader : Accessible.StaticText
     Accessible.name: column === "" ? words : `${column}: ${words || "0"}`
 }

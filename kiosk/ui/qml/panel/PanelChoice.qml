@@ -20,7 +20,7 @@ Column {
         text: choice.title
         font.pixelSize: Theme.dense
         color: Theme.faintInk
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
     Flow {
         width: parent.width
@@ -30,11 +30,11 @@ Column {
             delegate: PanelButton {
                 required property var modelData
                 objectName: choice.deed + "-" + modelData.value
-                text: modelData.label
+                words: modelData.label
                 chosen: modelData.value === choice.chosen
                 choosable: true
                 Accessible.role: Accessible.RadioButton
-                Accessible.name: `${choice.title} ${text}`
+                Accessible.name: `${choice.title} ${words}`
                 onClicked: choice.picked(modelData.value)
             }
         }

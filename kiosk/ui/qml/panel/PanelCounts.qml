@@ -40,7 +40,7 @@ PanelSection {
                 text: cell.modelData.name
                 font { pixelSize: Theme.dense; bold: true }
                 color: Theme.ink
-                elide: Text.ElideRight
+                wrapMode: Text.Wrap
             }
             Item {
                 width: counts.second
@@ -85,6 +85,6 @@ PanelSection {
         text: counts.records.visits
         font.pixelSize: Theme.denser
         color: Theme.faintInk
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
     }
 }

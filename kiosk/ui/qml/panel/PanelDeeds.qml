@@ -58,44 +58,44 @@ Column {
             spacing: 9 * Theme.unit
             PanelButton {
                 objectName: "deed-quiet"
-                text: deeds.choices.quiet ? deeds.words["desk-heard"] : deeds.words["desk-quiet"]
+                words: deeds.choices.quiet ? deeds.words["desk-heard"] : deeds.words["desk-quiet"]
                 chosen: deeds.choices.quiet
                 onClicked: deeds.panel.wish("quiet", "")
             }
             PanelButton {
                 objectName: "deed-again"
                 visible: deeds.choices.underWay
-                text: deeds.words["desk-again"]
+                words: deeds.words["desk-again"]
                 onClicked: deeds.panel.wish("again", "")
             }
             PanelButton {
                 objectName: "deed-pause"
                 visible: deeds.choices.underWay
-                text: deeds.choices.staysPaused ? deeds.words["desk-not-stay-paused"] : deeds.words["desk-stay-paused"]
+                words: deeds.choices.staysPaused ? deeds.words["desk-not-stay-paused"] : deeds.words["desk-stay-paused"]
                 chosen: deeds.choices.staysPaused
                 onClicked: deeds.panel.wish("pause", "")
             }
             PanelButton {
                 objectName: "deed-end"
                 visible: deeds.choices.underWay
-                text: deeds.words["desk-end"]
+                words: deeds.words["desk-end"]
                 onClicked: deeds.panel.wish("end", "")
             }
             PanelButton {
                 objectName: "deed-next"
                 visible: deeds.choices.canBeNext
-                text: deeds.words["desk-next"]
+                words: deeds.words["desk-next"]
                 onClicked: deeds.panel.wish("next", "")
             }
             PanelButton {
                 objectName: "deed-backup"
                 enabled: deeds.choices.backup === ""
-                text: deeds.words["desk-backup"] + (enabled ? "" : ": " + deeds.choices.backup)
+                words: deeds.words["desk-backup"] + (enabled ? "" : ": " + deeds.choices.backup)
                 onClicked: deeds.panel.wish("backup", "")
             }
             PanelButton {
                 objectName: "deed-leave"
-                text: deeds.words["desk-leave"]
+                words: deeds.words["desk-leave"]
                 onClicked: deeds.panel.wish("leave", "")
             }
         }

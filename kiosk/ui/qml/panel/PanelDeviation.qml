@@ -20,8 +20,6 @@ Row {
         text: row.deviation.words + (row.deviation.reason === "" ? "" : " · " + row.deviation.reason)
         font.pixelSize: Theme.dense
         color: Theme.ink
-        wrapMode: Text.WordWrap
-        maximumLineCount: 2
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
 }

@@ -6,7 +6,9 @@ import ".."
 PlainText {
     required property string words
 
+    width: parent?.width ?? implicitWidth
     text: words
+    wrapMode: Text.Wrap
     font.pixelSize: Theme.dense
     color: Theme.faintInk
 }

@@ -16,15 +16,13 @@ Row {
         text: row.line.name
         font { pixelSize: Theme.dense; bold: true }
         color: Theme.ink
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
     PlainText {
         width: row.width - mark.width - name.width - 2 * row.spacing
         text: row.line.words
         font.pixelSize: Theme.dense
         color: row.line.well ? Theme.faintInk : Theme.deepAmber
-        wrapMode: Text.WordWrap
-        maximumLineCount: 3
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
 }

@@ -6,6 +6,7 @@ import ".."
 Text {
     required property bool well
 
+    textFormat: Text.PlainText
     text: well ? "●" : "▲"
     width: Theme.dense
     font.pixelSize: Theme.dense

@@ -16,7 +16,7 @@ Rectangle {
     visible: note.text !== "" || note.dots > 0
     width: content.width + 2 * Theme.gap
     height: content.height + Theme.gap
-    radius: height / 2
+    radius: Math.min(height / 2, 0.7 * Theme.dense + 0.5 * Theme.gap)
     color: Theme.white
     border { color: Theme.sea; width: 2 * Theme.unit }
 
@@ -25,7 +25,9 @@ Rectangle {
         anchors.centerIn: parent
         spacing: 12 * Theme.unit
         PlainText {
+            width: Math.min(implicitWidth, edge.parent.width - 4 * Theme.gap)
             visible: edge.note.text !== ""
+            wrapMode: Text.Wrap
             text: edge.note.text
             Accessible.ignored: true
             font.pixelSize: Theme.dense

@@ -24,7 +24,7 @@ PanelSection {
                 required property var modelData
                 objectName: "resume-" + modelData.number
                 enabled: !resume.panel.choices.underWay
-                text: modelData.label
+                words: modelData.label
                 onClicked: resume.panel.wish("resume", modelData.number)
             }
         }

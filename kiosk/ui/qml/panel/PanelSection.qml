@@ -20,7 +20,7 @@ Rectangle {
         text: section.title
         font { pixelSize: Theme.dense * 1.12; bold: true }
         color: Theme.ink
-        elide: Text.ElideRight
+        wrapMode: Text.Wrap
     }
     Column {
         id: body

@@ -25,7 +25,7 @@ FocusScope {
     Item {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        height: close.height
+        height: Math.max(close.height, title.height, sitting.height)
 
         PlainText {
             id: title
@@ -35,17 +35,18 @@ FocusScope {
             color: Theme.ink
         }
         PlainText {
+            id: sitting
             anchors { left: title.right; right: close.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
             text: view.panel.choices.sitting
             font.pixelSize: Theme.dense
             color: Theme.faintInk
-            elide: Text.ElideRight
+            wrapMode: Text.Wrap
         }
         PanelButton {
             id: close
             objectName: "panel-close"
             anchors.right: parent.right
-            text: view.words["desk-close"]
+            words: view.words["desk-close"]
             focus: true
             onClicked: view.panel.wish("panel", "")
         }
@@ -63,9 +64,7 @@ FocusScope {
             text: (view.panel.health.well ? "✓   " : "▲   ") + view.panel.health.summary
             font { pixelSize: Theme.dense * 1.12; bold: true }
             color: view.panel.health.well ? Theme.white : Theme.ink
-            wrapMode: Text.WordWrap
-            maximumLineCount: 3
-            elide: Text.ElideRight
+            wrapMode: Text.Wrap
         }
     }
     Flickable {
@@ -157,6 +156,6 @@ FocusScope {
         text: view.words["desk-keys"]
         font.pixelSize: Theme.denser
         color: Theme.faintInk
-        wrapMode: Text.WordWrap
+        wrapMode: Text.Wrap
     }
 }

@@ -30,7 +30,9 @@ Rectangle {
         spacing: 12 * Theme.unit
 
         PlainText {
+            width: parent.width
             text: pin.card.title
+            wrapMode: Text.Wrap
             font { pixelSize: Theme.body; bold: true }
             color: Theme.ink
         }
@@ -64,7 +66,7 @@ Rectangle {
                 required property string modelData
                 objectName: "reason-" + (reason.index + 1)
                 width: content.width
-                text: (reason.index + 1) + "   " + reason.modelData
+                words: (reason.index + 1) + "   " + reason.modelData
                 alignment: Text.AlignLeft
                 focusPolicy: Qt.NoFocus
                 onClicked: pin.card.choose(reason.index + 1)
@@ -78,7 +80,7 @@ Rectangle {
             color: pin.card.step === "wait" ? Theme.deepAmber : Theme.faintInk
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
-            wrapMode: Text.WordWrap
+            wrapMode: Text.Wrap
         }
     }
 }

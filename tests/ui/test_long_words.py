@@ -1,0 +1,106 @@
+"""Words with no place to break stay readable and cover nothing: compounds, addresses, and scripts without spaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fluent.syntax import FluentParser, FluentSerializer, ast
+from fluent.syntax.visitor import Transformer
+from pytestqt.qtbot import QtBot
+
+from kiosk.assistant.wording import Catalogue
+from kiosk.settings import ASSETS, Settings
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.declared.information import Information
+from kiosk.study.plan import Study
+from kiosk.ui.rehearsing.hand import lay_out
+from kiosk.ui.window import Display, Mode, Pace, Window
+from tests.ui.settling import pages
+from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments
+
+PAGES = [page for page in pages() if page[0].endswith("no place to break") and page[0][0] in "a135"]
+
+
+class _Joined(Transformer):
+    """Takes the spaces out of every text of a language."""
+
+    def visit_TextElement(self, node: ast.TextElement) -> ast.TextElement:  # noqa: N802 - fluent.syntax's name
+        node.value = joined(node.value)
+        return node
+
+
+def joined(text: str) -> str:
+    """A text without a space."""
+    return text.replace(" ", "")
+
+
+def rejoined(value: Any) -> Any:
+    """What is declared, without a space in any text of it."""
+    match value:
+        case str():
+            return joined(value)
+        case dict():
+            return {key: item if key in ("id", "version") else rejoined(item) for key, item in value.items()}
+        case list() | tuple():
+            return [rejoined(item) for item in value]
+    return value
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    """A study in a language whose sentences are single words."""
+    whole = read_study(Settings(languages=("en",)))
+    (plan,) = whole.plans
+    folder = tmp_path / "en"
+    folder.mkdir()
+    for file in (ASSETS / "sentences" / "en").glob("*.ftl"):
+        resource = _Joined().visit(FluentParser().parse(file.read_text("utf-8")))
+        (folder / file.name).write_text(FluentSerializer().serialize(resource), "utf-8")
+    sheet = Information.model_validate(rejoined(plan.information.model_dump()))
+    screen = plan.settings.screen.model_copy(update={"text_size": 1.3})
+    settings = plan.settings.model_copy(update={"screen": screen})
+    there = replace(plan, catalogue=Catalogue(folder), information=sheet, settings=settings)
+    return replace(whole, plans=(there,))
+
+
+@pytest.fixture
+def window(study: Study, qtbot: QtBot) -> Iterator[Window]:
+    """Its window, with texts as large as they can be."""
+    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened.show()
+    qtbot.waitUntil(opened.shown.isExposed)
+    yield opened
+    opened.close()
+
+
+def resize(window: Window, qtbot: QtBot, width: int, height: int) -> None:
+    """Give the window this size."""
+    window.shown.resize(width, height)
+    qtbot.waitUntil(lambda: window.shown.contentItem().width() == width)
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_long_words_are_broken_and_cover_nothing(window: Window, qtbot: QtBot, width: int, height: int) -> None:
+    resize(window, qtbot, width, height)
+    window.screens.avatar.say("w" * 100)
+    for page, screen, fill in PAGES:
+        fill(window.screens)
+        window.screens.kiosk.show(screen)
+        lay_out(window.shown)
+        assert_all_can_be_read(window.shown, page)
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_a_language_without_spaces_is_readable_on_every_screen(
+    window: Window, study: Study, qtbot: QtBot, width: int, height: int
+) -> None:
+    resize(window, qtbot, width, height)
+    for moment, screen, fill in moments(window.screens, study):
+        fill()
+        window.screens.kiosk.show(screen)
+        lay_out(window.shown)
+        assert_all_can_be_read(window.shown, moment)

@@ -1,0 +1,271 @@
+"""No word of a study, a visitor or a robot is drawn as markup, fetches anything or makes a shortcut."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fluent.syntax import FluentParser, FluentSerializer, ast
+from fluent.syntax.visitor import Transformer
+from PySide6.QtCore import Qt
+from PySide6.QtQml import QQmlExpression, qmlContext
+from PySide6.QtQuick import QQuickItem
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from kiosk.assistant.wording import Catalogue
+from kiosk.settings import ASSETS, Settings
+from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.declared.information import Information
+from kiosk.study.declared.questionnaire import Item, Questionnaire, Single
+from kiosk.study.plan import Study
+from kiosk.ui.panel.card import Step
+from kiosk.ui.rehearsing.hand import lay_out
+from kiosk.ui.screens.every import Screens
+from kiosk.ui.window import QML, Display, Mode, Pace, Window
+from tests.ui.conftest import Booth
+from tests.ui.looking import described
+
+BOLD = "Is A <b>bold</b> & 3 < 4 > 2?"
+PICTURE = '<img src="file:///somewhere/x.png">'
+MARKUP = f"{BOLD} {PICTURE}"
+PLAIN = 0
+"""What ``Text.PlainText`` is."""
+
+FILES = sorted(QML.parent.rglob("*.qml"))
+DRAW_MARKUP = ("Label", "ToolTip", "TextArea", "TextEdit", "CheckBox", "RadioButton", "ItemDelegate", "MenuItem")
+"""What would have to be told not to, and is not used."""
+BUTTONS = ("AbstractButton", "Button", "BigButton", "PanelButton", "Choosable", "TickBox", "ScreenKey", "Step")
+
+GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
+
+
+def elements(source: str) -> Iterator[tuple[str, str]]:
+    """Every element of a QML file: its type, and what stands in it outside of the elements in it."""
+    opened: list[tuple[str, list[str]]] = [("", [])]
+    for part in re.split(r"(?<=[{}])", re.sub(r"//.*", "", source)):
+        opened[-1][1].append(part[:-1])
+        if part.endswith("{"):
+            kind = re.search(r"\b([A-Z]\w*) $", part[:-1])
+            opened.append((kind[1], []) if kind else ("", opened[-1][1]))
+        elif part.endswith("}"):
+            kind_of, own = opened.pop()
+            if kind_of:
+                yield kind_of, "".join(own)
+
+
+def test_the_elements_of_a_file_are_told_apart() -> None:
+    source = (
+        "Item {\n  Text {\n    font { bold: true }\n    text: x\n  }\n  onX: { if (a) { g() } }\n  Row { y: 1 }\n}\n"
+    )
+    found = list(elements(source))
+    assert [kind for kind, _ in found] == ["Text", "Row", "Item"]
+    assert [[word in own for word in ("bold", "text: x", "g()", "y: 1")] for _, own in found] == [
+        [True, True, False, False],
+        [False, False, False, True],
+        [False, False, True, False],
+    ]
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_every_text_of_a_screen_is_plain(file: Path) -> None:
+    source = file.read_text("utf-8")
+    assert set(re.findall(r"textFormat: *(\S+)", source)) <= {"Text.PlainText"}
+    assert "placeholderText:" not in source
+    for kind, own in elements(source):
+        assert kind not in DRAW_MARKUP, own
+        assert kind != "Text" or "textFormat: Text.PlainText" in own, own
+        assert kind not in BUTTONS or not re.search(r"^\s*text:", own, re.MULTILINE), own
+
+
+class _Marked(Transformer):
+    """Puts markup before every text of a language."""
+
+    def visit_Pattern(self, node: ast.Pattern) -> ast.Pattern:  # noqa: N802 - fluent.syntax's name
+        node.elements = [ast.TextElement(f"{MARKUP} "), *node.elements]
+        return node
+
+
+def marked_language(folder: Path) -> Catalogue:
+    """The English sentences and names of cards, with markup in all of them."""
+    written = folder / "en"
+    written.mkdir()
+    for file in (ASSETS / "sentences" / "en").glob("*.ftl"):
+        resource = _Marked().visit(FluentParser().parse(file.read_text("utf-8")))
+        (written / file.name).write_text(FluentSerializer().serialize(resource), "utf-8")
+    return Catalogue(written)
+
+
+def marked(value: Any) -> Any:
+    """What is declared, with markup in every text of it."""
+    match value:
+        case {"en": str(text)}:
+            return {"en": f"{MARKUP} {text}"}
+        case {"id": str()}:
+            names = ("id", "kind", "version", "pictures", "scale")
+            return {key: item if key in names else marked(item) for key, item in value.items()}
+        case dict():
+            return {key: item if key == "version" else marked(item) for key, item in value.items()}
+        case list() | tuple():
+            return [marked(item) for item in value]
+        case str():
+            return f"{MARKUP} {value}"
+    return value
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    """A study with markup in every word."""
+    whole = read_study(Settings(languages=("en",)))
+    (plan,) = whole.plans
+    sheet = Information.model_validate(marked(plan.information.model_dump()))
+    return replace(whole, plans=(replace(plan, catalogue=marked_language(tmp_path), information=sheet),))
+
+
+@pytest.fixture
+def window(study: Study, qtbot: QtBot) -> Iterator[Window]:
+    """Its window."""
+    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened.show()
+    qtbot.waitUntil(opened.shown.isExposed)
+    yield opened
+    opened.close()
+
+
+def every(item: QQuickItem) -> Iterator[QQuickItem]:
+    """All items, seen or not."""
+    yield item
+    for child in item.childItems():
+        yield from every(child)
+
+
+def text_format(item: QQuickItem) -> int:
+    """How Qt draws a text."""
+    told = QQmlExpression(qmlContext(item), item, "textFormat").evaluate()
+    return int(told[0] if isinstance(told, tuple) else told)
+
+
+def seen(window: Window) -> dict[str, bool]:
+    """Every text that stands there, and whether it is drawn as it is written."""
+    lay_out(window.shown)
+    found: dict[str, bool] = {}
+    for item in every(window.shown.contentItem()):
+        if item.metaObject().indexOfProperty("textFormat") >= 0 and item.property("text"):
+            text = str(item.property("text"))
+            found[text] = found.get(text, True) and text_format(item) == PLAIN
+    return found
+
+
+def show_everything(screens: Screens, study: Study) -> Iterator[str]:
+    """Every screen, one after another."""
+    (plan,) = study.plans
+    sheet = plan.information
+    screens.avatar.say(f"{MARKUP} {plan.catalogue.card('hedgehog')['card']}")
+    screens.about.show(sheet.about)
+    screens.consent.show(sheet.consent)
+    screens.consent.show_missing((sheet.consent.purposes[0].id,))
+    screens.age.ask(18)
+    screens.board.deal(3, 4, 6, "fruit", practice=True)
+    screens.result.show(12, 188, 60_000)
+    screens.debrief.give_contact(MARKUP)
+    screens.debrief.give_code("ABCD234")
+    screens.debrief.show(sheet.debrief)
+    for screen in ("attract", "about", "consent", "age", "introduction", "practice", "result", "debrief", "thanks"):
+        screens.kiosk.show(screen)
+        yield screen
+    for item in GALLERY.items:
+        changed: Item = type(item).model_validate(marked(item.model_dump()))
+        screens.form.show((changed,), 1, 2)
+        screens.kiosk.show("form")
+        if item.kind != "page":
+            screens.form.show_missing((item.id,))
+        yield f"form: {item.kind}"
+    screens.kiosk.ask_still_there(asks=True)
+    yield "still there"
+
+
+def test_no_text_on_any_screen_is_drawn_as_markup(window: Window, study: Study) -> None:
+    for moment in show_everything(window.screens, study):
+        found = seen(window)
+        assert any(MARKUP in text for text in found), moment
+        assert [text for text, plain in found.items() if not plain] == [], moment
+
+
+def test_questions_options_ends_and_hints_stand_there_as_they_were_written(window: Window, study: Study) -> None:
+    for moment in show_everything(window.screens, study):
+        if moment.startswith("form: "):
+            item = next(item for item in GALLERY.items if moment == f"form: {item.kind}")
+            wanted = {f"{MARKUP} {words['en']}" for words in item.texts()}
+            assert wanted <= seen(window).keys(), moment
+        elif moment in ("about", "consent", "debrief"):
+            page = getattr(study.plans[0].information, moment)
+            wanted = {page.title, *page.paragraphs, *(purpose.text for purpose in getattr(page, "purposes", ()))}
+            assert wanted <= seen(window).keys(), moment
+
+
+def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: Window) -> None:
+    card, note, panel = window.screens.experimenter.parts
+    words = dict.fromkeys(_names_of_the_panel(), MARKUP)
+    option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
+    line = {"name": MARKUP, "words": PICTURE, "well": False}
+    panel.speak(words)
+    panel.show_health({"well": False, "summary": MARKUP, "lines": [line]})
+    panel.show_records(
+        {
+            "cells": [{"name": MARKUP, "done": BOLD, "share": 0.5, "counts": ["1", "2", "3", "4"]}],
+            "visits": MARKUP,
+            "sittings": [
+                dict.fromkeys(("participant", "when", "condition", "stage", "status", "robot"), BOLD) | {"odd": True}
+            ],
+            "deviations": [{"when": "12:00", "words": MARKUP, "reason": PICTURE}],
+            "more": MARKUP,
+            "resumable": [{"number": "1", "label": MARKUP}],
+        }
+    )
+    chosen = dict.fromkeys(("condition", "body", "language", "volume"), "one")
+    lists = dict.fromkeys(("conditions", "bodies", "languages", "volumes"), option)
+    flags = {"underWay": True, "canBeNext": True, "quiet": False, "staysPaused": False}
+    panel.show_choices({**chosen, **lists, **flags, "sitting": MARKUP, "backup": MARKUP})
+    panel.open(is_open=True)
+    note.tell(MARKUP)
+    card.show(Step.REASON, MARKUP, MARKUP, reasons=(MARKUP, BOLD))
+    found = seen(window)
+    assert {MARKUP, BOLD, PICTURE, f"1   {MARKUP}", f"{MARKUP}: {MARKUP}", f"▲   {MARKUP}"} <= found.keys()
+    assert [text for text, plain in found.items() if not plain] == []
+    card.show(Step.WORDS, MARKUP, MARKUP, text=MARKUP)
+    assert [text for text, plain in seen(window).items() if not plain] == []
+
+
+def _names_of_the_panel() -> set[str]:
+    """The messages that the panel shows as they stand."""
+    files = (QML.parent / "panel").glob("*.qml")
+    return {name for file in files for name in re.findall(r'"(desk-[a-z-]+)"', file.read_text("utf-8"))} | {
+        f"desk-counts-{name}" for name in ("dropped", "overridden", "beyond", "withdrawn")
+    }
+
+
+@pytest.mark.usefixtures("spoken")
+def test_an_ampersand_in_an_option_is_no_shortcut_and_no_letter_of_its_name_is_lost(booth: Booth) -> None:
+    words = {"one": "Q&A", "two": BOLD}
+    item = Single.model_validate(
+        {
+            "kind": "single",
+            "id": "which",
+            "text": {"en": BOLD},
+            "options": [{"id": name, "text": {"en": text}} for name, text in words.items()],
+        }
+    )
+    given: list[object] = []
+    booth.app.screens.form.answered.connect(lambda _, value: given.append(value))
+    booth.ask(item)
+    for key in (Qt.Key.Key_A, Qt.Key.Key_Space, Qt.Key.Key_3):
+        QTest.keyClick(booth.app.window, key, Qt.KeyboardModifier.AltModifier)
+    assert given == []
+    for name, text in words.items():
+        assert described(booth.item(f"option-which-{name}"))[1] == f"{BOLD} {text}"
+    booth.click("option-which-one")
+    assert given == ["one"]
