@@ -145,8 +145,12 @@ def every(item: QQuickItem) -> Iterator[QQuickItem]:
 
 def text_format(item: QQuickItem) -> int:
     """How Qt draws a text."""
-    told = QQmlExpression(qmlContext(item), item, "textFormat").evaluate()
-    return int(told[0] if isinstance(told, tuple) else told)
+    context = qmlContext(item)
+    assert context is not None
+    told: object = QQmlExpression(context, item, "textFormat").evaluate()
+    value = told[0] if isinstance(told, tuple) else told
+    assert isinstance(value, int)
+    return int(value)
 
 
 def seen(window: Window) -> dict[str, bool]:
