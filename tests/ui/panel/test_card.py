@@ -216,6 +216,7 @@ def test_a_reason_in_ones_own_words_is_kept_in_them(desk: Desk) -> None:
 
 def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_backspace(desk: Desk) -> None:
     desk.go_to(Stage.ABOUT)
+    witness = Witness(desk.app)
     desk.do(Deed.END, reason="5")
     hand, typed = Hand(desk.app.window), "se\N{NO-BREAK SPACE}\N{WOMAN}\N{ZERO WIDTH JOINER}\N{GIRL} "
     hand.type("x\a")
@@ -225,7 +226,8 @@ def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_
     hand.type(typed[-1])
     assert desk.card.property("text") == typed
     desk.enter()
-    assert desk.notes[-1][1]["reason"] == f"other: {typed}"
+    (ended,) = (event for event in witness.events if isinstance(event, happened.EndAsked))
+    assert ended.reason == f"other: {typed}"
 
 
 def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(desk: Desk) -> None:
