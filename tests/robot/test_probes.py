@@ -134,7 +134,9 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
         "s.main('en', 150, 1.0)\n"
     )
     command = ("env", f"PATH={tmp_path}:{os.environ['PATH']}", *python(engine))
-    assert alone(voice(command, "en", "Hello.")).state is State.GOOD
+    found = alone(voice(command, "en", "Hello."))
+    assert found.state is State.GOOD
+    assert found.words.startswith("Fake (en) has a sentence ready in ")
     assert not (tmp_path / "played").exists()
 
 

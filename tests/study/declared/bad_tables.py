@@ -19,7 +19,7 @@ def cell(old: str, new: str) -> str:
 
 TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     # The file
-    "empty": ("", ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",)),
+    "empty": ("", ("{table}: its first line must name the columns, with commas or semicolons between them",)),
     "nothing but text": (
         "Dear all,",
         (
@@ -32,11 +32,11 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     ),
     "one column": (
         "text_en\nHow?\n",
-        ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",),
+        ("{table}: its first line must name the columns, with commas or semicolons between them",),
     ),
     "bars": (
         rows(LIKERT).replace(",", "|"),
-        ("{table}: its first line must name the columns, with a comma, a semicolon or a tab between them",),
+        ("{table}: its first line must name the columns, with commas or semicolons between them",),
     ),
     "another encoding": (
         rows(LIKERT.replace("How?", "Perché?")).encode("cp1252"),

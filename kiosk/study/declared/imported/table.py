@@ -76,7 +76,7 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
         delimiter = told[1] if told else csv.Sniffer().sniff(header, DELIMITERS).delimiter
     except csv.Error as error:
         raise BadInput(
-            f"{name}: its first line must name the columns, with a comma, a semicolon or a tab between them"
+            f"{name}: its first line must name the columns, with commas or semicolons between them"
         ) from error
     try:
         lines = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
