@@ -56,7 +56,10 @@ def said(given: Any) -> tuple[str, ...]:
             "shape 1: kind must be one of 'round', 'square', but it is 'oval'",
         ),
         ({"title": "a", "shapes": [{"kind": "round", "id": "o"}]}, "shape 1 (o): the key 'radius' is missing"),
-        ({"title": "a", "shapes": [{"kind": "round", "radius": 0}]}, "shape 1: radius must be at least 1, but it is 0"),
+        (
+            {"title": "a", "shapes": [{"kind": "round", "radius": 0}]},
+            "shape 1: radius must be from 1 to 9, but it is 0",
+        ),
         (
             {"title": "a", "shapes": [{"kind": "square", "sid": 1}]},
             "shape 1: there is no key 'sid'; did you mean 'side'?",
@@ -76,7 +79,7 @@ def test_a_fault_in_what_a_kind_shares_is_told_once_and_there() -> None:
     merged = {"title": "a", "shapes": [{"kind": "round", "radius": 10}] * 2}
     with pytest.raises(ValidationError) as found:
         Drawing.model_validate(merged)
-    assert refusals(found.value, given, Drawing) == ("round.radius must be at most 9, but it is 10",)
+    assert refusals(found.value, given, Drawing) == ("round.radius must be from 1 to 9, but it is 10",)
 
 
 def test_a_long_value_is_cut_short() -> None:

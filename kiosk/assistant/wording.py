@@ -166,7 +166,7 @@ class Catalogue:
     def _format(self, pattern: Pattern, variables: Mapping[str, str | int]) -> str | None:
         try:
             text, errors = self._bundle.format_pattern(pattern, dict(variables))
-        except Exception:  # noqa: BLE001 - whatever a library makes of somebody's text, the next language speaks
+        except Exception:  # noqa: BLE001 - whatever a library raises, the next language speaks
             return None
         return None if errors else str(text)
 
@@ -178,7 +178,7 @@ class Catalogue:
                 continue
             try:
                 _, errors = self._bundle.format_pattern(pattern, dict(variables))
-            except Exception as error:  # noqa: BLE001 - it is told, whatever it is
+            except Exception as error:  # noqa: BLE001 - any error is reported
                 errors = [error]
             if errors:
                 return str(errors[0]) or type(errors[0]).__name__

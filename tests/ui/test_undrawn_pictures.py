@@ -1,4 +1,4 @@
-"""Pictures are drawn in a process of their own: what cannot be drawn, or never ends, is told; the rest is tried."""
+"""Pictures are drawn in a process of their own: one that cannot be drawn is reported, and the rest are tried."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import BadInput
+from kiosk import BadInput, StoreFailed
 from kiosk.settings import ASSETS
 from kiosk.study.declared.imported.items import MODELS, Heading, read_items
 from kiosk.study.declared.imported.table import PLAIN, WORDED
@@ -250,6 +250,6 @@ def test_nothing_is_left_of_a_file_that_could_not_be_finished(tmp_path: Path, mo
         raise OSError(28, "No space left on device", str(self), None, str(target))
 
     monkeypatch.setattr(Path, "replace", fail)
-    with pytest.raises(BadInput, match="cannot be written: No space left on device"):
+    with pytest.raises(StoreFailed, match="cannot be written: disk full"):
         write_questionnaire(Questionnaire.read(SHIPPED[0]), tmp_path / "q.toml")
     assert list(tmp_path.iterdir()) == []
