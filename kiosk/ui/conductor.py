@@ -17,7 +17,7 @@ from kiosk.robot.bodies import Bodies
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.study import commands as do
 from kiosk.study import events as happened
-from kiosk.study.commands import Command, StartTimer
+from kiosk.study.commands import Command
 from kiosk.study.events import Stage, Timer, WorldEvent
 from kiosk.study.session import Session
 from kiosk.study.stages import UnexpectedEvent
@@ -299,10 +299,14 @@ class Conductor:
 
     def _is_outrun(self, queued: _Queued, commands: tuple[Command, ...]) -> bool:
         """Whether what waits belongs to what these commands have ended."""
-        if isinstance(queued.event, happened.TimerEnded):
-            # It ended while the command to stop it, or to begin it anew, waited for the database.
-            timers = {command.timer for command in commands if isinstance(command, (do.StartTimer, do.StopTimer))}
-            return queued.event.timer in timers
+        timers = {command.timer for command in commands if isinstance(command, (do.StartTimer, do.StopTimer))}
+        match queued.event:
+            case happened.TimerEnded(timer=timer):
+                # It ended while the command to stop it, or to begin it anew, waited for the database.
+                return timer in timers
+            case happened.UserActivity():
+                # It was to put off an idle time that has begun anew meanwhile.
+                return Timer.IDLE in timers
         # As with a double click: what was tapped meanwhile was meant for what was there before.
         return queued.by_visitor and self._screen_changed
 
@@ -318,7 +322,7 @@ class Conductor:
     def _perform(self, commands: tuple[Command, ...], record: Record) -> None:
         self._performer.screens.debrief.give_code(record.code)
         for command in commands:
-            if isinstance(command, StartTimer) and command.timer is Timer.IDLE:
+            if isinstance(command, do.StartTimer) and command.timer is Timer.IDLE:
                 self._idle_since = self._clock.now_ms()
             self._performer.perform(command)
         sound = effect(commands)

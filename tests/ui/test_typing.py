@@ -239,7 +239,7 @@ def test_digits_and_signs_of_other_scripts_are_taken(booth: Booth, given: Given,
     assert given == [("n", number)]
 
 
-@pytest.mark.parametrize("ends", [(-1_000_000_000, 5), (0, 10**12), (0, 9)])
+@pytest.mark.parametrize("ends", [(-999_999_999, 5), (0, 999_999_999), (0, 9)])
 def test_the_field_is_as_wide_as_its_longest_number(booth: Booth, ends: tuple[int, int]) -> None:
     booth.ask(whole_number(*ends))
     number = max(map(str, ends), key=len)

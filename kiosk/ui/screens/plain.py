@@ -94,7 +94,7 @@ class KioskScreen(QObject):
     @property
     def waits_for_answer(self) -> bool:
         """Whether the visitor is asked if they are still there, and nothing lies over that question."""
-        return self._asks_still_there and not self._paused and not self._behind_panel
+        return self._asks_still_there and not (self._paused or self._waits or self._behind_panel)
 
     @property
     def covered(self) -> bool:

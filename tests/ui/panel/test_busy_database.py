@@ -7,15 +7,16 @@ from collections.abc import Iterator
 from contextlib import closing
 
 import pytest
+from PySide6.QtCore import Qt
 
 from kiosk.store.database import FILE
 from kiosk.store.glance import wrong_pins
 from kiosk.store.reading import archive
 from kiosk.study.booth.deeds import Deed
-from kiosk.study.events import Stage, Status
+from kiosk.study.events import ContinueTapped, Stage, Status, StillHereTapped, UserActivity
 from kiosk.ui.panel.card import Step
 from kiosk.ui.waiting import LONGEST_MS, TOLD_AFTER_MS
-from tests.ui.panel.conftest import Desk
+from tests.ui.panel.conftest import Desk, Witness
 
 
 @pytest.fixture
@@ -113,3 +114,37 @@ def test_leaving_waits_for_nobody_but_what_is_left_is_written_while_it_closes(
     other.execute("ROLLBACK")
     desk.close()
     assert kinds(desk) == ["PinAccepted", "PinAccepted", "KioskLeft"]
+
+
+def test_activity_told_meanwhile_does_not_shorten_the_idle_time_of_the_next_stage(
+    desk: Desk, other: sqlite3.Connection
+) -> None:
+    desk.go_to(Stage.INTRODUCTION)
+    idle, witness = desk.app.desk.study.settings.idle.introduction, Witness(desk.app)
+    wait_ms(desk, idle - 15_000)
+    desk.press(Qt.Key.Key_Down)
+    wait_ms(desk, 15_000 - 50)
+    other.execute("BEGIN IMMEDIATE")
+    desk.app.conductor.tell(ContinueTapped)
+    wait_ms(desk, 100)
+    assert desk.screen == "introduction"
+    other.execute("ROLLBACK")
+    desk.wait_until(lambda: desk.screen == "practice")
+    assert not witness.saw(UserActivity)
+
+
+def test_a_key_is_no_answer_while_the_visitor_is_asked_for_a_moment(desk: Desk, other: sqlite3.Connection) -> None:
+    kiosk = desk.app.screens.kiosk
+    desk.go_to(Stage.INTRODUCTION)
+    desk.wait_until(lambda: bool(kiosk.property("asksStillThere")))
+    told: list[object] = []
+    kiosk.confirmed.connect(lambda: told.append(StillHereTapped))
+    other.execute("BEGIN IMMEDIATE")
+    desk.press(Qt.Key.Key_Down)
+    wait_ms(desk, TOLD_AFTER_MS + 500)
+    assert kiosk.property("waits")
+    desk.press(Qt.Key.Key_Down)
+    other.execute("ROLLBACK")
+    desk.wait_until(lambda: not kiosk.property("waits"))
+    assert not kiosk.property("asksStillThere")
+    assert told == [StillHereTapped]
