@@ -20,6 +20,10 @@ LONGEST_TEXT = 999
 """Characters that a Furhat is sure to take in one request."""
 
 
+_DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+"""Characters that say from which side a text is written: they are for the eye alone. Joiners change words, and stay."""
+
+
 class Fault(Enum):
     """How a robot can fail, in words that go after its name."""
 
@@ -133,7 +137,8 @@ class Robot(Protocol):
 
 
 def speakable(sentence: str) -> str:
-    """A sentence as any robot takes it: below 1,000 characters, without markup and control characters."""
-    plain = "".join(" " if character in "<>&" or not can_be_kept(character) else character for character in sentence)
+    """A sentence as any robot takes it: below 1,000 characters, without markup, control and direction characters."""
+    shown = (character for character in sentence if character not in _DIRECTIONS)
+    plain = "".join(" " if character in "<>&" or not can_be_kept(character) else character for character in shown)
     text = " ".join(plain.split())
     return text if len(text) <= LONGEST_TEXT else text[:LONGEST_TEXT].rsplit(" ", 1)[0]
