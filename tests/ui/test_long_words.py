@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
+from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
 from kiosk.assistant.wording import Catalogue
@@ -20,7 +21,7 @@ from kiosk.study.plan import Study
 from kiosk.ui.rehearsing.hand import lay_out
 from kiosk.ui.window import Display, Mode, Pace, Window
 from tests.ui.settling import pages
-from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments
+from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, texts
 
 PAGES = [page for page in pages() if page[0].endswith("no place to break") and page[0][0] in "a135"]
 
@@ -104,3 +105,31 @@ def test_a_language_without_spaces_is_readable_on_every_screen(
         window.screens.kiosk.show(screen)
         lay_out(window.shown)
         assert_all_can_be_read(window.shown, moment)
+
+
+@pytest.fixture(params=["en", "es", "it"])
+def shipped(request: pytest.FixtureRequest, qtbot: QtBot) -> Iterator[Window]:
+    """The window of a study in one of the shipped languages."""
+    study = read_study(Settings.model_validate({"languages": [request.param]}))
+    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened.show()
+    qtbot.waitUntil(opened.shown.isExposed)
+    yield opened
+    opened.close()
+
+
+@pytest.mark.parametrize("text_size", [0.9, 1.0, 1.1, 1.2, 1.3])
+def test_a_word_that_fits_is_not_broken(shipped: Window, qtbot: QtBot, text_size: float) -> None:
+    shipped.shown.setProperty("textSize", text_size)
+    for width, height in SIZES:
+        resize(shipped, qtbot, width, height)
+        for screen in ("attract", "about", "consent", "age", "form", "introduction", "result", "debrief", "thanks"):
+            shipped.screens.kiosk.show(screen)
+            lay_out(shipped.shown)
+            broken = [text.property("text") for text in texts(shipped.shown.contentItem()) if is_broken(text)]
+            assert broken == [], (screen, width)
+
+
+def is_broken(text: QQuickItem) -> bool:
+    """Whether a text of one word has more than one line."""
+    return text.property("lineCount") > 1 and " " not in text.property("text")

@@ -36,7 +36,8 @@ Button {
         color: button.quiet ? Theme.sea : Theme.white
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
-        wrapMode: Text.Wrap
+        // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
+        wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
     }
     background: Rectangle {
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize)

@@ -115,7 +115,7 @@ Item {
             font { pixelSize: Theme.small; bold: true }
             color: Theme.white
             horizontalAlignment: Text.AlignHCenter
-            wrapMode: Text.Wrap
+            wrapMode: further.width < further.implicitWidth ? Text.Wrap : Text.NoWrap
         }
         background: Rectangle { radius: height / 2; color: Theme.lightSea }
     }

@@ -95,7 +95,7 @@ Row {
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
         width: Math.min(implicitWidth, number.room - 2 * field.height - field.width - 3 * number.spacing)
-        wrapMode: Text.Wrap
+        wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
         text: number.range
         font.pixelSize: Theme.small
         color: Theme.faintInk

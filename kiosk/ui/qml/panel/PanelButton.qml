@@ -40,7 +40,8 @@ Button {
         color: button.chosen ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
         horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
-        wrapMode: Text.Wrap
+        // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
+        wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
     }
     background: Rectangle {
         radius: 12 * Theme.unit
