@@ -3,6 +3,7 @@
 ``start`` installs what is missing and opens the kiosk, or rehearses one sitting where there is no screen; ``test``
 installs the development extras as well and runs every check; ``lock`` resolves the versions anew. This file changes
 ``.venv``, ``build`` and ``rehearsals`` in the checkout and, as root on Debian, the system's packages: nothing else.
+What it starts stores the sitting in the user's data folder, where the other commands look for it.
 """
 
 import hashlib
@@ -78,9 +79,9 @@ def start(arguments: Sequence[str]) -> int:
     if has_screen(os.environ):
         say("Opening the kiosk.")
         return run(["recollect", *arguments], os.environ)
-    data, shots = ROOT / "rehearsals" / "first" / "data", ROOT / "rehearsals" / "first" / "shots"
     say("There is no screen here: rehearsing one sitting without it.")
-    rehearsal = ["recollect", "rehearse", "--headless", "--seed", "1", "--data", str(data), "--shots", str(shots)]
+    shots = ROOT / "rehearsals" / "first"
+    rehearsal = ["recollect", "rehearse", "--headless", "--seed", "1", "--shots", str(shots)]
     with runtime_folder(os.environ) as environment:
         code = run([*rehearsal, *arguments], environment)
     if code:

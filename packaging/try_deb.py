@@ -22,8 +22,12 @@ COPIED = ("etc/apt/apt.conf.d", "etc/apt/auth.conf.d", "etc/ssl/certs", "etc/res
 
 INSIDE = 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"'
 
+PIN = f"scrypt:{'0' * 32}:{'0' * 64}"
+"""A PIN of the right form, which no digits open."""
+
 KEEP = f"""
-recollect keep --json --data {DATA} > kept &
+printf '[experimenter]\npin = "{PIN}"\n' > study.toml
+recollect keep --json --data {DATA} -- --study study.toml > kept &
 keeper=$!
 for _ in $(seq 300); do grep -q '"ready"' kept && break; sleep 0.1; done
 kill -9 $(pgrep -f '^[^ ]*recollect open')

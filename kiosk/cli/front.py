@@ -5,13 +5,18 @@ A command's module is loaded when the command is called, so that opening the kio
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
+from collections.abc import Sequence
 from importlib import import_module
+from io import TextIOWrapper
 from typing import Never
 
 import click
 
 from kiosk import DISK_FULL, BadInput, StoreFailed, __version__, why
+from kiosk.ui.qt_platform import missing_library
 
 DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
@@ -42,6 +47,8 @@ _WORKERS = {
     "voice": "kiosk.cli.booth.voice:voice",
 }
 """Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
+
+_WITH_A_WINDOW = frozenset({"open", "rehearse", "replay"})
 
 
 class Front(click.Group):
@@ -75,6 +82,8 @@ def recollect(context: click.Context) -> None:
 
 def main() -> Never:
     """Run the command line; input that cannot be used, and a disk that fails, get their sentences, one a line."""
+    _print_what_the_terminal_cannot()
+    _end_at_once_while_opening(sys.argv[1:])
     try:
         recollect()
     except BadInput as refusal:
@@ -82,10 +91,16 @@ def main() -> Never:
     except StoreFailed as failure:
         _say(str(failure))
         sys.exit(DISK_FAILED)
+    except ImportError as error:
+        missing = missing_library(error)
+        if missing is None:
+            raise
+        _say(str(missing))
     except OSError as error:
         if why(error) != DISK_FULL:
             raise
         _say(f"{error.filename} cannot be written: {DISK_FULL}" if error.filename else DISK_FULL)
+        _drop_what_is_not_printed_yet()
         sys.exit(DISK_FAILED)
     sys.exit(BAD_INPUT)
 
@@ -93,3 +108,28 @@ def main() -> Never:
 def _say(*sentences: str) -> None:
     for sentence in sentences:
         click.echo(f"recollect: {sentence}", err=True)
+
+
+def _drop_what_is_not_printed_yet() -> None:
+    """Keep Python from writing it once more at the very end, where no sentence can be said."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.__stdout__.fileno() if sys.__stdout__ else 1)
+    os.close(nowhere)
+
+
+def _print_what_the_terminal_cannot() -> None:
+    """Print characters that the terminal's encoding lacks by their numbers, instead of ending with a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        # There may be none, or one that something else put in its place.
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _end_at_once_while_opening(arguments: Sequence[str]) -> None:
+    """Let Ctrl+C end the process itself until the window's own loop takes it.
+
+    Raised as an exception while Qt is loaded or the window is built, it would be lost in a callback, or end in a crash.
+    """
+    command = next((argument for argument in arguments if not argument.startswith("-")), "open")
+    if command in _WITH_A_WINDOW and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -53,12 +53,12 @@ def check(context: click.Context, file: Path, *, as_json: bool) -> None:
     except BadInput as refusal:
         if not as_json:
             raise
-        click.echo(json.dumps({"faults": refusal.sentences}, ensure_ascii=False))
+        click.echo(json.dumps({"faults": refusal.sentences}))
         context.exit(BAD_INPUT)
     summary = summarised(read)
     summary["cautions"] += untried
     if as_json:
-        click.echo(json.dumps({"faults": []} | summary, ensure_ascii=False))
+        click.echo(json.dumps({"faults": []} | summary))
         return
     table = Table(box=None, show_header=False)
     for key, value in summary.items():

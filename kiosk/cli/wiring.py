@@ -43,11 +43,22 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
     return settings.model_copy(update={"robot": robot.model_copy(update=found | given)})
 
 
+def check_pin(settings: Settings) -> None:
+    """Raise BadInput for a study without a PIN, which is not to be run unattended."""
+    if not settings.experimenter.pin:
+        raise BadInput(
+            "no PIN is set, so the kiosk is not started unattended: put what 'recollect study pin' prints into the "
+            "study file, and name the file with --study; 'recollect open' runs a trial without a PIN"
+        )
+
+
 class _Private(logging.FileHandler):
     """A log for its owner alone, which a full disk does not stop: the line is lost and the program goes on."""
 
     def _open(self) -> TextIOWrapper:
-        return open(self.baseFilename, "a", encoding="utf-8", opener=partial(os.open, mode=0o600))
+        return open(
+            self.baseFilename, "a", encoding="utf-8", errors="backslashreplace", opener=partial(os.open, mode=0o600)
+        )
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802 - logging's name
         """Say on the standard error what could not be written, and why."""

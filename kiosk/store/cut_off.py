@@ -34,7 +34,7 @@ def read_cut_off(folder: Path, number: int) -> CutOff | Unreadable:
         with archive(folder) as stored:
             seen = stored.sitting(number)
             story = stored.story(number)
-            sitting = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.simulated)
+            sitting = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.kind)
     except BadInput as failure:
         return Unreadable(str(failure))
     return CutOff(number, sitting, tuple(event for event in story if isinstance(event, WorldEvent)))

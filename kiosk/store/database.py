@@ -121,6 +121,22 @@ def open_for_reading(folder: Path) -> Connection:
     return copy
 
 
+def has_database(folder: Path) -> bool:
+    """Tell whether a data folder has a database, whatever it is like."""
+    return (folder / FILE).is_file()
+
+
+def has_sittings(folder: Path) -> bool:
+    """Tell whether a data folder has stored sittings, or a database that cannot be looked into."""
+    if not has_database(folder):
+        return False
+    try:
+        with closing(open_for_reading(folder)) as connection:
+            return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM sitting)").fetchone()[0])
+    except (BadInput, sqlite3.Error):
+        return True
+
+
 def open_as_it_is(folder: Path) -> Connection:
     """The same, but an older one is opened as it was written."""
     path = folder / FILE

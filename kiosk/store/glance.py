@@ -21,6 +21,7 @@ from kiosk.study.booth.notes import DEVIATIONS, Note
 from kiosk.study.booth.pin import Wrong
 from kiosk.study.condition import Condition
 from kiosk.study.events import Stage, Status
+from kiosk.study.session_kind import SessionKind
 
 LAST = 8
 """How many sittings are shown."""
@@ -62,7 +63,7 @@ class Glance:
     deviations: tuple[Noted, ...]
 
 
-def glance(folder: Path, since_ms: int, *, simulated: bool) -> Glance:
+def glance(folder: Path, since_ms: int, *, simulated: bool | SessionKind) -> Glance:
     """Look at a data folder that is being written; deviations are those since ``since_ms``.
 
     Raises BadInput if there is none that can be read.
@@ -105,7 +106,7 @@ def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
             raise unreadable(error, folder) from error
 
 
-def _seen(connection: sqlite3.Connection, *, simulated: bool) -> Iterator[Seen]:
+def _seen(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Iterator[Seen]:
     rows = connection.execute(_SITTINGS, {"simulated": int(simulated), "limit": LOOKED_BACK}).fetchall()
     for number, started_at, condition, site, place, person, stage, ending, lost, finished in rows:
         status = Status(ending) if ending else None

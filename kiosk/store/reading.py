@@ -26,6 +26,7 @@ from kiosk.study.declared.information import Information
 from kiosk.study.declared.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.study.events import Event, SittingEnded, Stage, StageEntered, Status, from_record
 from kiosk.study.plan import Plan
+from kiosk.study.session_kind import SessionKind
 
 _SUMMARISED = (
     *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "BoardOpened"),
@@ -50,7 +51,7 @@ class Sitting:
     condition: str
     body: str
     status: Status | None
-    simulated: bool
+    kind: SessionKind
     measures: Measures
     participant: str | None
     code: str | None
@@ -71,7 +72,8 @@ class Sitting:
             "moves": self.measures.moves,
             "pairs": self.measures.pairs,
             "hints": self.measures.hints,
-            "simulated": self.simulated,
+            "simulated": self.kind is SessionKind.SIMULATED,
+            "trial": self.kind is SessionKind.TRIAL,
         }
 
 
@@ -91,8 +93,8 @@ class Archive:
         """One sitting; raises BadInput if there is none of this number."""
         return self._sitting(self._row(number))
 
-    def counts(self, *, simulated: bool) -> Counts:
-        """How many came, by condition and by what became of them: people, or rehearsals."""
+    def counts(self, *, simulated: bool | SessionKind) -> Counts:
+        """How many came, by condition and by what became of them: people, rehearsals or trials."""
         return counts(self._database.conn, simulated=simulated, in_use=self._unended is None)
 
     def records(self, number: int) -> list[dict[str, Any]]:
@@ -159,7 +161,7 @@ class Archive:
             row["condition"],
             row["body"],
             self._status(row["id"]),
-            bool(row["simulated"]),
+            SessionKind(row["simulated"]),
             measure(events),
             participant.name if participant else None,
             participant.code if participant else None,

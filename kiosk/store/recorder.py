@@ -26,6 +26,7 @@ from kiosk.study.condition import Condition
 from kiosk.study.declared.questionnaire import QUESTIONNAIRES
 from kiosk.study.events import Event, Unstored
 from kiosk.study.plan import Plan
+from kiosk.study.session_kind import SessionKind
 
 _log = logging.getLogger(__name__)
 
@@ -42,7 +43,7 @@ class Provenance:
     seed: int
     body: str
     code_commit: str
-    simulated: bool
+    simulated: bool | SessionKind
     place: Place | None = None
     """The place that it takes in the list that the recorder fixed; given if, and only if, it was allotted by it."""
     allotted: Allotted | None = None
@@ -107,7 +108,7 @@ class Recorder:
     # The list of places
 
     def fix_list(
-        self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, simulated: bool
+        self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, simulated: bool | SessionKind
     ) -> tuple[Place, ...]:
         """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
 
@@ -117,7 +118,7 @@ class Recorder:
         with self.waiting(OPENING_WAIT_MS), self._transaction():
             return self._lists(simulated=simulated).fix(quotas, block, seed)
 
-    def next_place(self, *, simulated: bool) -> Place | None:
+    def next_place(self, *, simulated: bool | SessionKind) -> Place | None:
         """The first place of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
 
         It is computed from what is stored and nothing else. It only reads, so a program that writes is no hindrance.
@@ -166,7 +167,7 @@ class Recorder:
 
     # Outside sittings
 
-    def count_visit(self, why: Unstored, *, simulated: bool) -> None:
+    def count_visit(self, why: Unstored, *, simulated: bool | SessionKind) -> None:
         """Count somebody who played without being stored; nothing else of them is kept, not even when."""
         with self._transaction():
             insert(self._connection, "visit", {"why": why.value, "simulated": int(simulated)})
@@ -196,7 +197,7 @@ class Recorder:
             _log.error("%s", failed)
         return open_for_writing(self.folder)
 
-    def _lists(self, *, simulated: bool) -> Lists:
+    def _lists(self, *, simulated: bool | SessionKind) -> Lists:
         return Lists(self._connection, self._site, simulated=simulated)
 
     def _close(self) -> None:

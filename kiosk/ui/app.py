@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from contextlib import ExitStack
 from functools import partial
 from random import Random
 from types import TracebackType
@@ -18,6 +19,7 @@ from kiosk.robot.kinds import robot_of
 from kiosk.robot.robot_body import RobotBody
 from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
+from kiosk.study.session_kind import SessionKind
 from kiosk.ui.activity import Activity
 from kiosk.ui.booth.window import BoothWindow
 from kiosk.ui.clock import Clock, VirtualClock, WallClock
@@ -58,16 +60,27 @@ class App:
         self.on_fault: Callable[[BaseException], None] = lambda _: None
         """Is told of a fault of ours once the calm screen is up."""
         self.desk = desk
-        settings = desk.study.settings
+        self._beat = beat
         self._window = Window(desk.study, mode)
+        with ExitStack() as undo:
+            undo.callback(self._window.close)
+            self._build(mode, recorder, desk, robot, undo)
+            undo.pop_all()
+
+    def _build(self, mode: Mode, recorder: Recorder, desk: Desk, robot: Robot | None, undo: ExitStack) -> None:
+        """Build what stands behind the window; ``undo`` is given what has to be done if something of it cannot be."""
+        settings = desk.study.settings
         owner = self._window.owner
         self.booth = self._show(settings, mode.display)
+        if self.booth is not None:
+            undo.callback(self.booth.release)
         self.clock = _clock(mode, owner)
         self.started_ms = self.clock.now_ms()
         self.conductor = Conductor(self.screens, recorder, self.clock, desk)
         self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
         self.conductor.last_activity_ms = self._activity.last_ms
         self.voice = _voice(settings, mode, self.clock, owner)
+        undo.callback(self.voice.close)
         self.bodies = Bodies(self.conductor, self.clock.after, settings.robot)
         board = settings.screen.board
         self.bodies.take(AvatarBody(self.screens.avatar, self.voice, self.bodies, board, owner))
@@ -80,7 +93,10 @@ class App:
             # Kept, for Qt alone does not keep alive whom it calls back.
             shown = self.screens
             self._life = IdleLife(shown.kiosk, shown.avatar, shown.attract, self.clock, Random())
-        self._loop = Loop(self.clock, owner, self.fault, beat)
+        if desk.kind is SessionKind.TRIAL:
+            self.screens.attract.show_trial(settings.keys.leave)
+        self._loop = Loop(self.clock, owner, self.fault, self._beat)
+        undo.callback(self._loop.close)
         virtual = mode.pace is Pace.VIRTUAL
         self._work, self._slow = (AtOnce() if virtual else Worker(self._landing) for _ in range(2))
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms

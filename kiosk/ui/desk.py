@@ -14,6 +14,7 @@ from kiosk.study.booth.notes import Note
 from kiosk.study.condition import Condition
 from kiosk.study.events import BodyName
 from kiosk.study.plan import Study
+from kiosk.study.session_kind import SessionKind
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,7 @@ class Origin:
     """What all sittings of a run of the program have in common."""
 
     code_commit: str
-    simulated: bool
+    simulated: bool | SessionKind
     seed: Callable[[], int]
     """Gives every sitting a seed of its own."""
     condition: Condition | None = None
@@ -53,9 +54,9 @@ class Desk:
             recorder.fix_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
 
     @property
-    def simulated(self) -> bool:
-        """Whether nobody real sits there, as in a rehearsal."""
-        return self._origin.simulated
+    def kind(self) -> SessionKind:
+        """Who sits there."""
+        return SessionKind(self._origin.simulated)
 
     @property
     def chosen(self) -> Condition | None:

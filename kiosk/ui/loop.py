@@ -35,7 +35,7 @@ class Loop:
         self._beat = beat
         # Python runs now and then, or it would never see that the system asks it to end.
         self._heart = QTimer(owner)
-        self._heart.timeout.connect(beat)
+        self._heart.timeout.connect(self._live)
         self._heart.start(HEARTBEAT_MS)
         self._signals_before = {
             ending: signal.signal(ending, lambda *_: self._end()) for ending in (signal.SIGINT, signal.SIGTERM)
@@ -68,6 +68,12 @@ class Loop:
         """Leave the system's requests to whoever had them before."""
         for ending, handler in self._signals_before.items():
             signal.signal(ending, handler)
+
+    def _live(self) -> None:
+        self._beat()
+        # A loop that was told to end just before it began has not heard of it.
+        if self.told_to_end:
+            self.quit()
 
     def _end(self) -> None:
         self.told_to_end = True

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -18,6 +17,7 @@ from kiosk import BadInput
 from kiosk.settings import ASSETS, Settings
 from kiosk.study.plan import Study
 from kiosk.ui.held_keys import HeldKeys
+from kiosk.ui.qt_platform import obstacle
 from kiosk.ui.replaying.bar import ReplayBar
 from kiosk.ui.screens.every import Screens
 
@@ -60,10 +60,11 @@ class Window:
     def __init__(self, study: Study, mode: Mode) -> None:
         """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
         self.application = application(mode.display)
-        self.owner = QObject()
+        self._engine = QQmlApplicationEngine()
+        # A child of the engine goes after the windows, which look at the screens up to their own end.
+        self.owner = QObject(self._engine)
         """What belongs to the window lives as long as this."""
         self.screens = Screens.of(study, self.owner)
-        self._engine = QQmlApplicationEngine()
         self.shown = self._load(study.settings, mode)
         """Qt's own window."""
         self._held_keys = HeldKeys(self.shown, self.owner)
@@ -84,10 +85,8 @@ class Window:
         """Close it, with everything but the application object: Qt allows no second one."""
         self.screens.kiosk.let_go()
         self.shown.close()
-        # The engine goes before the objects that its windows look at.
-        for part in (self._engine, self.owner):
-            part.deleteLater()
-            QCoreApplication.sendPostedEvents(part, QEvent.Type.DeferredDelete)
+        self._engine.deleteLater()
+        QCoreApplication.sendPostedEvents(self._engine, QEvent.Type.DeferredDelete)
 
     def _load(self, settings: Settings, mode: Mode) -> QQuickWindow:
         moving = settings.screen.motion and mode.pace is Pace.WALL
@@ -110,10 +109,10 @@ class Window:
 
 
 def check_screen(display: Display) -> None:
-    """Raise BadInput where there is no screen to show anything on; Qt itself would end the process."""
-    needs = sys.platform.startswith("linux") and display is not Display.NOWHERE
-    if needs and not {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"} & os.environ.keys():
-        raise BadInput("there is no screen here; 'recollect rehearse --headless' needs none")
+    """Raise BadInput where no window can be opened; Qt itself would end the process."""
+    found = None if display is Display.NOWHERE else obstacle()
+    if found is not None:
+        raise BadInput(str(found))
 
 
 def application(display: Display) -> QGuiApplication:

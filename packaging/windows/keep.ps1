@@ -1,8 +1,9 @@
 # NOT TRIED: written after the documentation alone. Has Recollect started when a user signs in, and again when it ends
 # otherwise than by being left. Run as an administrator:
-#   powershell -ExecutionPolicy Bypass -File keep.ps1 -User BOOTH [-Program PATH] [-Remove]
+#   powershell -ExecutionPolicy Bypass -File keep.ps1 -User BOOTH -Study FILE [-Program PATH] [-Remove]
 param(
     [Parameter(Mandatory = $true)][string]$User,
+    [string]$Study,
     [string]$Program = "$env:ProgramFiles\Recollect\recollect.exe",
     [switch]$Remove
 )
@@ -18,8 +19,12 @@ if (-not (Test-Path $Program)) {
     Write-Error "There is no $Program; copy the built folder there first."
     exit 2
 }
+if (-not $Study -or -not (Test-Path $Study)) {
+    Write-Error "Name the study file with -Study; it needs a PIN."
+    exit 2
+}
 
-$action = New-ScheduledTaskAction -Execute $Program -Argument "keep"
+$action = New-ScheduledTaskAction -Execute $Program -Argument "keep -- --study `"$Study`""
 $trigger = New-ScheduledTaskTrigger -AtLogOn -User $User
 # An exit code that is not 0 is a failure to the scheduler, which starts the task again after a minute, the shortest
 # time that it knows; within that minute the keeper itself has long started the kiosk again.

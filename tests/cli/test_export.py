@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 
 from kiosk import BadInput
 from kiosk.cli.front import recollect
+from kiosk.study.session_kind import SessionKind
 from tests.store.dataset.conftest import rows_of
 from tests.store.dataset.visitors import store, unsharing, visitor
 
@@ -37,6 +38,18 @@ def test_it_says_how_many_were_left_out(tmp_path: Path) -> None:
     assert done.output.splitlines()[1:] == ["Left out, as their visitors did not agree to publishing: 1."]
 
 
+def test_it_says_how_many_were_trials(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(visitor(1), 1)])
+    store(tmp_path / "data", [(visitor(2), 2), (visitor(3), 3)], simulated=SessionKind.TRIAL)
+    done = run("--data", tmp_path / "data", "--out", tmp_path / "out")
+    assert done.output.splitlines() == [
+        f"The data set in {tmp_path / 'out'} holds 1 sittings.",
+        "Left out, as no PIN was set, so that they were trials: 2.",
+    ]
+    done = run("--data", tmp_path / "data", "--out", tmp_path / "all", "--with-trials")
+    assert done.output == f"The data set in {tmp_path / 'all'} holds 3 sittings.\n"
+
+
 def test_it_tells_programs_the_same(data: Path, tmp_path: Path) -> None:
     done = run("--data", data, "--out", tmp_path / "out", "--json")
     assert json.loads(done.stdout) == {
@@ -44,13 +57,14 @@ def test_it_tells_programs_the_same(data: Path, tmp_path: Path) -> None:
         "participants": 1,
         "not_shared": 0,
         "under_way": 0,
+        "trials": 0,
     }
 
 
 def test_every_extra_is_an_option(data: Path, tmp_path: Path) -> None:
-    extras = ("--with-dates", "--with-rehearsals", "--with-texts", "--with-unshared")
+    extras = ("--with-dates", "--with-rehearsals", "--with-trials", "--with-texts", "--with-unshared")
     assert run("--data", data, "--out", tmp_path / "out", *extras).exit_code == 0
-    assert {"started_at", "simulated", "job"} <= set(rows_of(tmp_path / "out", "participants")[0])
+    assert {"started_at", "simulated", "trial", "job"} <= set(rows_of(tmp_path / "out", "participants")[0])
 
 
 def test_names_like_those_of_bids_are_an_option(data: Path, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from kiosk import program
+from tests.samples import WITH_PIN
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for processes as Linux shows them")
 
@@ -53,7 +54,9 @@ def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Ke
 
 
 def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path: Path) -> None:
-    with kept(tmp_path) as keeper:
+    study = tmp_path / "study.toml"
+    study.write_text(WITH_PIN)
+    with kept(tmp_path, "--", "--study", str(study)) as keeper:
         keeper.wait_for("ready")
         os.kill(keeper.kiosk(), signal.SIGKILL)
         assert keeper.wait_for("died")["detail"] == "signal 9"
@@ -81,9 +84,10 @@ def test_a_study_file_that_cannot_be_used_ends_the_keeper_in_words(tmp_path: Pat
 
 def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    done = subprocess.run(
-        program("keep", "--data", str(tmp_path / "file")), capture_output=True, text=True, check=False
-    )
+    study = tmp_path / "study.toml"
+    study.write_text(WITH_PIN)
+    command = program("keep", "--data", str(tmp_path / "file"), "--", "--study", str(study))
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
 
@@ -91,6 +95,32 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
 def test_a_disk_that_takes_nothing_does_not_end_the_keeper(tmp_path: Path) -> None:
     # No file may grow beyond a few bytes, so the kiosk starts and cannot make its database.
     limit = "import os, resource as r, sys; r.setrlimit(r.RLIMIT_FSIZE, (64, 64)); os.execv(sys.argv[1], sys.argv[1:])"
-    with kept(tmp_path, before=(sys.executable, "-c", limit)) as keeper:
+    study = tmp_path / "study.toml"
+    study.write_text(WITH_PIN)
+    with kept(tmp_path, "--", "--study", str(study), before=(sys.executable, "-c", limit)) as keeper:
         assert keeper.wait_for("died")["detail"] == "exit code 1"
         assert keeper.wait_for("died")["start"] == 2
+
+
+@pytest.mark.parametrize("study", ["", "[experimenter]\nbackups = 3\n", None], ids=["empty", "no PIN", "no file"])
+def test_a_study_without_a_pin_is_not_kept_up(study: str | None, tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(study or "")
+    options = () if study is None else ("--", f"--study={file}", "--window")
+    data = tmp_path / "data"
+    done = subprocess.run(program("keep", "--data", str(data), *options), capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("recollect: no PIN is set, so the kiosk is not started unattended: ")
+    assert "recollect study pin" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert not data.exists()
+
+
+def test_a_kiosk_that_is_started_again_unattended_needs_its_pin_still(tmp_path: Path) -> None:
+    """The study file may have changed since the keeper looked at it."""
+    command = program("open", "--unattended", "--data", str(tmp_path / "data"))
+    done = subprocess.run(
+        command, env=os.environ | {"QT_QPA_PLATFORM": "offscreen"}, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, "recollect study pin" in done.stderr) == (2, True)
+    assert not (tmp_path / "data").exists()

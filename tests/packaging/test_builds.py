@@ -21,6 +21,7 @@ import pytest
 from kiosk import program
 from kiosk.cli.wiring import code_commit
 from kiosk.store.reading import archive
+from tests.samples import WITH_PIN
 
 ROOT = Path(__file__).parents[2]
 LONG = 600
@@ -101,7 +102,18 @@ def test_an_unpacked_package_plays_a_sitting_by_its_name_on_the_path(unpacked: P
 
 def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
     """Every process that a build starts of itself must find the build's own libraries again."""
-    command = [str(unpacked / "usr/bin/recollect"), "keep", "--json", "--data", str(tmp_path)]
+    study = tmp_path / "study.toml"
+    study.write_text(WITH_PIN)
+    command = [
+        str(unpacked / "usr/bin/recollect"),
+        "keep",
+        "--json",
+        "--data",
+        str(tmp_path),
+        "--",
+        "--study",
+        str(study),
+    ]
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as keeper:
         assert keeper.stdout is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import sqlite3
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from kiosk.store.reading import archive
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.after.measures import Measures
 from kiosk.study.events import StartTapped, Status
+from kiosk.study.session_kind import SessionKind
 
 MUSEUM = Path(__file__).parent / "museum"
 
@@ -91,35 +93,49 @@ def test_it_is_read_before_it_is_brought_up_to_date(first: Path) -> None:
     assert (first / FILE).read_bytes() == before
 
 
-@pytest.fixture
-def second(folder: Path) -> Path:
-    """A data folder as the second schema left it."""
+@pytest.fixture(params=["schema-2.db", "schema-3.db"])
+def later(folder: Path, request: pytest.FixtureRequest) -> Path:
+    """A data folder as a later schema left it."""
     folder.mkdir()
-    shutil.copy(MUSEUM / "schema-2.db", folder / FILE)
+    shutil.copy(MUSEUM / request.param, folder / FILE)
     return folder
 
 
-def test_the_second_schema_takes_the_steps_it_lacks_and_is_sound_before_and_after(second: Path) -> None:
-    assert verify(second) == []
-    with archive(second) as stored:
+def test_a_later_schema_takes_the_steps_it_lacks_and_is_sound_before_and_after(later: Path) -> None:
+    assert verify(later) == []
+    with archive(later) as stored:
         before = stored.sittings()
-    with Recorder(second) as recorder:
+    with Recorder(later) as recorder:
         assert recorder.recovered == ()
-    assert verify(second) == []
-    with archive(second) as stored:
+    assert verify(later) == []
+    with archive(later) as stored:
         assert stored.sittings() == before
         assert [(sitting.id, sitting.participant, sitting.status) for sitting in before] == [
             (1, "1", Status.COMPLETED),
             (3, "3", Status.ABANDONED),
         ]
         assert stored.counts(simulated=True).cells
-    with closing(sqlite3.connect(second / FILE)) as connection:
+    with closing(sqlite3.connect(later / FILE)) as connection:
         assert connection.execute("PRAGMA user_version").fetchall() == [(SCHEMA,)]
         assert connection.execute("SELECT sitting FROM tombstone").fetchall() == [(2,)]
 
 
-def test_a_participant_of_the_second_schema_can_withdraw(second: Path) -> None:
-    withdraw(second, "GJ6EESU")
-    assert verify(second) == []
-    with archive(second) as stored:
+def test_a_participant_of_a_later_schema_can_withdraw(later: Path) -> None:
+    withdraw(later, "GJ6EESU")
+    assert verify(later) == []
+    with archive(later) as stored:
         assert [sitting.id for sitting in stored.sittings()] == [3]
+
+
+def test_a_database_from_before_trials_takes_them_and_nothing_else_that_it_does_not_know(
+    first: Path, provenance: Provenance
+) -> None:
+    with Recorder(first) as recorder:
+        recorder.begin(replace(provenance, simulated=SessionKind.TRIAL), [StartTapped(at_ms=0)])
+    with archive(first) as stored:
+        assert [sitting.kind for sitting in stored.sittings()] == [*[SessionKind.SIMULATED] * 3, SessionKind.TRIAL]
+    with (
+        closing(sqlite3.connect(first / FILE)) as connection,
+        pytest.raises(sqlite3.IntegrityError, match="CHECK constraint failed"),
+    ):
+        connection.execute("INSERT INTO visit (why, simulated) VALUES ('left', 3)")

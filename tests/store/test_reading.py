@@ -49,6 +49,7 @@ def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Dri
         "pairs": 12,
         "hints": measures.hints,
         "simulated": True,
+        "trial": False,
     }
 
 

@@ -16,6 +16,7 @@ from kiosk.study import events as happened
 from kiosk.study.allocation import Allotted, Place
 from kiosk.study.condition import Condition
 from kiosk.study.events import Event, Status, Unstored
+from kiosk.study.session_kind import SessionKind
 
 BEGUN = (happened.StartTapped(at_ms=0),)
 LEFT = (*BEGUN, happened.SittingEnded(at_ms=5, status=Status.ABANDONED))
@@ -41,7 +42,7 @@ def seated(
     events: Sequence[Event] = COMPLETED,
     *,
     allotted: Allotted = Allotted.LIST,
-    simulated: bool = True,
+    simulated: bool | SessionKind = True,
 ) -> Place | None:
     """Have somebody play in the next place, or without one, and say which place it was."""
     place = recorder.next_place(simulated=simulated) if allotted is Allotted.LIST else None

@@ -11,6 +11,7 @@ from kiosk.settings import Settings
 from kiosk.store.recorder import Recorder
 from kiosk.study.condition import Condition
 from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.session_kind import SessionKind
 from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.window import Display, Mode, Pace
@@ -43,6 +44,7 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     condition: str | None = "tom",
     mode: Mode = VIRTUAL,
     robot: Robot | None = None,
+    kind: SessionKind = SessionKind.SIMULATED,
     opened: Callable[[Path], Recorder] = Recorder,
 ) -> Iterator[App]:
     """A kiosk with this study, in this condition, or None for its list's; every sitting has the same seed.
@@ -51,6 +53,6 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     """
     study = read_study(settings)
     fixed = Condition.named(condition) if condition else None
-    origin = Origin("a test", simulated=True, seed=lambda: seed, condition=fixed)
+    origin = Origin("a test", simulated=kind, seed=lambda: seed, condition=fixed)
     with opened(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
         yield app

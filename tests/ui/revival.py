@@ -32,6 +32,7 @@ from kiosk.store.reading import archive
 from kiosk.study.events import Status
 from kiosk.study.stages import BEFORE_DECIDING
 from kiosk.ui.conductor import PAUSE_MS
+from tests.samples import WITH_PIN
 
 STAGES = ("attract", *(stage for stage in settings.STAGES))
 WAYS = {"about_you": ("form",), "questions": ("result", "form")}
@@ -130,7 +131,7 @@ class Kept:
         command = [sys.executable, "-m", "tests.ui.kept_kiosk", stage, str(folder / "marker")]
         self.data = folder / "data"
         study = folder / "study.toml"
-        study.write_text(STUDY)
+        study.write_text(STUDY + WITH_PIN)
         self.process = subprocess.Popen(
             [*command, "keep", "--json", "--data", str(self.data), "--", "--study", str(study)],
             env=environment | {"TMPDIR": str(folder)},

@@ -70,7 +70,7 @@ desk-policy = Policy
 desk-study = Study
 desk-pin-line-name = PIN
 desk-pin-set = is asked for
-desk-pin-none = there is none: anybody who knows the keys can do everything
+desk-pin-none = none is set: every sitting is a trial, and anybody who knows the keys can do everything
 desk-screen = Screen
 
 ## Counts

@@ -70,7 +70,7 @@ desk-policy = Política
 desk-study = Estudio
 desk-pin-line-name = PIN
 desk-pin-set = se pide
-desk-pin-none = no hay: quien conozca las teclas puede hacerlo todo
+desk-pin-none = no hay: cada sesión es una prueba, y quien conozca las teclas puede hacerlo todo
 desk-screen = Pantalla
 
 ## Counts

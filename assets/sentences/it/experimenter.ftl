@@ -70,7 +70,7 @@ desk-policy = Politica
 desk-study = Studio
 desk-pin-line-name = PIN
 desk-pin-set = viene chiesto
-desk-pin-none = non c’è: chi conosce i tasti può fare tutto
+desk-pin-none = non c’è: ogni sessione è una prova, e chi conosce i tasti può fare tutto
 desk-screen = Schermo
 
 ## Counts

@@ -58,7 +58,7 @@ def check(
     ready = all(finding.state is not State.BAD for finding in found)
     if as_json:
         rows = [asdict(finding) | {"state": finding.state.value} for finding in found]
-        click.echo(json.dumps({"ready": ready, "findings": rows}, ensure_ascii=False))
+        click.echo(json.dumps({"ready": ready, "findings": rows}))
     else:
         _show(found, ready=ready)
     if booth.faults:

@@ -11,10 +11,11 @@ from typing import Any
 import click
 
 from kiosk.cli.options import data_option, json_option, robot_host_option, robot_port_option, site_option, study_option
-from kiosk.cli.wiring import code_commit, log_into, read_settings
+from kiosk.cli.wiring import check_pin, code_commit, log_into, read_settings
 from kiosk.keeping.guard import guarded
 from kiosk.store.recorder import Recorder
 from kiosk.study.declared.checked.whole import read_study
+from kiosk.study.session_kind import kind_of
 from kiosk.ui.app import App
 from kiosk.ui.desk import Desk, Origin
 from kiosk.ui.window import Display, Mode, check_screen
@@ -29,6 +30,7 @@ SEED_BITS = 63
 @robot_host_option
 @robot_port_option
 @site_option
+@click.option("--unattended", is_flag=True, hidden=True, help="Refuse a study without a PIN; the keeper says so.")
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
 @json_option
 def open_kiosk(
@@ -38,12 +40,13 @@ def open_kiosk(
     robot_host: str | None,
     robot_port: int | None,
     *,
+    unattended: bool,
     window: bool,
     as_json: bool,
 ) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
     with guarded() as beat:
-        told = _open(data, study, site, robot_host, robot_port, beat, window=window)
+        told = _open(data, study, site, robot_host, robot_port, beat, unattended=unattended, window=window)
     click.echo(json.dumps(told) if as_json else f"{told['sittings']} sittings were recorded in {data}.")
 
 
@@ -55,12 +58,15 @@ def _open(
     robot_port: int | None,
     beat: Callable[[], None],
     *,
+    unattended: bool,
     window: bool,
 ) -> dict[str, Any]:
     """Open the kiosk until it is left; returns what is told of it."""
     prepared = read_study(read_settings(study, robot_host, robot_port))
+    if unattended:
+        check_pin(prepared.settings)
     chance = SystemRandom()
-    origin = Origin(code_commit(), simulated=False, seed=lambda: chance.getrandbits(SEED_BITS))
+    origin = Origin(code_commit(), simulated=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
     mode = Mode(Display.WINDOW if window else Display.FULL_SCREEN)
     check_screen(mode.display)
     with Recorder(data, site) as recorder:

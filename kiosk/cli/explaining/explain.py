@@ -13,7 +13,7 @@ from kiosk.assistant.explain import Explanation
 from kiosk.assistant.hint import Hint
 from kiosk.assistant.mdp import Action, Outcome
 from kiosk.cli.explaining import case, reasons
-from kiosk.cli.options import data_option, json_option
+from kiosk.cli.options import json_option, sittings_data_option
 from kiosk.game import Board
 from kiosk.store import moments
 from kiosk.store.reading import archive
@@ -30,7 +30,7 @@ _LABEL = 11
 @click.command()
 @click.argument("case_or_sitting", required=False, metavar="CASE.json|SITTING")
 @click.option("--flip", type=click.IntRange(min=1), help="Explain the decision before this flip of a stored sitting.")
-@data_option
+@sittings_data_option
 @json_option
 @click.option("--table", is_flag=True, help="Print the table of all reasons that docs/mentaliser.md shows.")
 def explain(case_or_sitting: str | None, flip: int | None, data: Path, *, as_json: bool, table: bool) -> None:
@@ -43,7 +43,7 @@ def explain(case_or_sitting: str | None, flip: int | None, data: Path, *, as_jso
     if flip is None and case_or_sitting.isdecimal():
         raise click.UsageError("a stored sitting needs --flip")
     explanation = _of_case(Path(case_or_sitting)) if flip is None else _of_sitting(case_or_sitting, flip, data)
-    click.echo(json.dumps(explanation.to_json(), ensure_ascii=False) if as_json else "\n".join(_lines(explanation)))
+    click.echo(json.dumps(explanation.to_json()) if as_json else "\n".join(_lines(explanation)))
 
 
 def _of_case(path: Path) -> Explanation:

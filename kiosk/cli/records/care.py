@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 from kiosk import StoreFailed
-from kiosk.cli.options import data_option, json_option
+from kiosk.cli.options import database_data_option, json_option, sittings_data_option
 from kiosk.cli.progress import progress_bar
 from kiosk.store.care import backup as copies
 from kiosk.store.care import merge as merging
@@ -35,7 +35,7 @@ def _disk_in_words() -> Iterator[None]:
 
 
 @click.command()
-@data_option
+@database_data_option
 @click.option("--to", type=click.Path(path_type=Path), help="Where copies are kept; by default in the data folder.")
 @click.option(
     "--keep", type=click.IntRange(min=1), default=copies.KEPT, show_default=True, help="How many copies are kept."
@@ -51,7 +51,7 @@ def backup(data: Path, to: Path | None, keep: int, *, as_json: bool) -> None:
 
 
 @click.command()
-@data_option
+@database_data_option
 @json_option
 def verify(data: Path, *, as_json: bool) -> None:
     """Check the database row by row; exit code 1 if anything is wrong. It is never changed."""
@@ -80,7 +80,7 @@ def _table(flaws: list[Flaw]) -> Table:
 
 @click.command()
 @click.argument("code")
-@data_option
+@sittings_data_option
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @json_option
 def withdraw(code: str, data: Path, *, yes: bool, as_json: bool) -> None:

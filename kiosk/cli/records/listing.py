@@ -10,7 +10,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk.cli.options import data_option, json_option
+from kiosk.cli.options import json_option, sittings_data_option
 from kiosk.store.reading import Sitting, archive
 from kiosk.units import MS_PER_SECOND
 
@@ -22,7 +22,7 @@ _COUNTS = ("pairs", "moves", "flips", "hints")
 
 
 @click.command()
-@data_option
+@sittings_data_option
 @click.option("--codes", is_flag=True, help="Show the participants' codes as well; they are the visitors' own.")
 @json_option
 def sittings(data: Path, *, codes: bool, as_json: bool) -> None:
@@ -38,7 +38,7 @@ def sittings(data: Path, *, codes: bool, as_json: bool) -> None:
         table.add_column(heading, no_wrap=True, justify="right" if heading in _COUNTS else "left")
     for row in rows:
         started = row["started_at"][:16].replace("T", " ")
-        visitor = "simulated" if row["simulated"] else "person"
+        visitor = "simulated" if row["simulated"] else "trial" if row["trial"] else "person"
         cells = (row["sitting"], *(row[key] for key in own), started, *(row[key] for key in _WORDS), visitor)
         table.add_row(*(_word(cell) for cell in cells), *(str(row[key]) for key in _COUNTS))
     # Where nobody looks, or the window is narrow, lines may be long, but no word is cut.
@@ -55,7 +55,7 @@ def _word(value: object) -> str:
 
 @click.command()
 @click.argument("sitting", type=int)
-@data_option
+@sittings_data_option
 @json_option
 def events(sitting: int, data: Path, *, as_json: bool) -> None:
     """List what happened in a SITTING, in the order in which it was written."""

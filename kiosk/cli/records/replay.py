@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from kiosk import BadInput
-from kiosk.cli.options import data_option, json_option, study_option
+from kiosk.cli.options import json_option, sittings_data_option, study_option
 from kiosk.cli.progress import progress_bar
 from kiosk.keeping.guard import guarded
 from kiosk.settings import Settings
@@ -24,7 +24,7 @@ from kiosk.ui.window import Display, Mode, Pace, check_screen
 
 @click.command()
 @click.argument("sitting", type=int)
-@data_option
+@sittings_data_option
 @study_option
 @click.option(
     "--speed",

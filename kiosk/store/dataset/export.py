@@ -15,6 +15,10 @@ from kiosk.store.dataset.stored.followed import Followed
 from kiosk.store.dataset.stored.kept import Kept, Source, source
 from kiosk.store.dataset.tables.every import every
 from kiosk.store.dataset.tables.flow import Flow, Quantity
+from kiosk.study.session_kind import SessionKind
+
+_KINDS = {Extra.REHEARSALS: SessionKind.SIMULATED, Extra.TRIALS: SessionKind.TRIAL}
+"""The kinds of sittings that are exported for those who ask for them."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,7 @@ class Exported:
     participants: int
     not_shared: int
     under_way: int
+    trials: int = 0
     cautions: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, int | list[str]]:
@@ -47,18 +52,15 @@ def export(
     ``tell`` hears how many sittings are done, of how many. Raises BadInput, and writes nothing, if there is nothing to
     export or ``out`` cannot be used.
     """
-    rehearsals = Extra.REHEARSALS in extras
-    with source(data, rehearsals=rehearsals) as stored, new_folder(out) as folder:
+    kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
+    with source(data, kinds) as stored, new_folder(out) as folder:
         study = Followed(stored.plans())
         contents = Contents(study, every(study, extras), extras)
-        flows = {
-            simulated: Flow(simulated, stored.archive.counts(simulated=simulated))
-            for simulated in ((False, True) if rehearsals else (False,))
-        }
+        flows = {kind: Flow(kind, stored.archive.counts(simulated=kind)) for kind in sorted(kinds)}
         with closing(layout(folder, contents)) as writing:
             wanted = len(stored)
             for done, kept in enumerate(stored, 1):
-                _add(kept, writing, flows[kept.simulated], extras)
+                _add(kept, writing, flows[kept.kind], extras)
                 if tell is not None:
                     tell(done, wanted)
             writing.finish(tuple(flows.values()))
@@ -75,13 +77,14 @@ def _add(kept: Kept, writing: Layout, flow: Flow, extras: frozenset[Extra]) -> N
         flow.exported(kept)
 
 
-def _exported(flows: dict[bool, Flow], data: Path, stored: Source) -> Exported:
+def _exported(flows: dict[SessionKind, Flow], data: Path, stored: Source) -> Exported:
     """What was written; raises BadInput if it is nothing."""
 
     def total(quantity: Quantity) -> int:
         return sum(count for flow in flows.values() for (what, _), count in flow.seen.items() if what is quantity)
 
     exported = Exported(total(Quantity.EXPORTED), total(Quantity.NOT_SHARED), total(Quantity.NOT_ENDED))
+    exported = replace(exported, trials=stored.left_out(SessionKind.TRIAL))
     if not exported.participants:
         raise BadInput(f"there is no sitting in {data} to export ({_why_none(exported, stored)})")
     return exported
@@ -92,8 +95,7 @@ def _why_none(exported: Exported, stored: Source) -> str:
         return "nobody agreed to publishing"
     if exported.under_way:
         return "the only ones are still under way"
-    return (
-        "it is empty"
-        if stored.rehearsals
-        else "nobody has sat there; rehearsals are left out without --with-rehearsals"
-    )
+    left_out = [extra.value for extra, kind in _KINDS.items() if stored.left_out(kind)]
+    if not left_out:
+        return "it is empty"
+    return f"it holds no participant; {', '.join(f'{each} are left out without --with-{each}' for each in left_out)}"

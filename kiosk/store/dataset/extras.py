@@ -12,6 +12,8 @@ class Extra(Enum):
     """When each sitting began."""
     REHEARSALS = "rehearsals"
     """Sittings in which nobody sat."""
+    TRIALS = "trials"
+    """Sittings at a kiosk without a PIN."""
     TEXTS = "texts"
     """What people typed, and what a failure said."""
     UNSHARED = "unshared"

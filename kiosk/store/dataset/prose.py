@@ -29,6 +29,7 @@ _LEFT_OUT = {
     Extra.TEXTS: "What people typed: short answers, an experimenter's reason for ending a sitting, and messages of "
     "failures. They may hold names, or tell where it was.",
     Extra.REHEARSALS: "Rehearsals, in which a program plays.",
+    Extra.TRIALS: "Trials, in which a person plays at a kiosk without a PIN.",
     Extra.UNSHARED: f"Sittings whose visitor was asked whether their data may be published (the purpose "
     f"`{PUBLISHING}`) and did not agree; the flow says how many.",
 }

@@ -12,6 +12,7 @@ from kiosk.store.people.lists import quotas_from_json
 from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
 from kiosk.study.events import Unstored
+from kiosk.study.session_kind import SessionKind
 
 
 class Fate(Enum):
@@ -56,8 +57,11 @@ class Counts:
     visits: Mapping[Unstored, int]
 
 
-def counts(connection: sqlite3.Connection, *, simulated: bool, in_use: bool) -> Counts:
-    """Count people or rehearsals; ``in_use``: somebody is writing, so that a sitting without an end is under way."""
+def counts(connection: sqlite3.Connection, *, simulated: bool | SessionKind, in_use: bool) -> Counts:
+    """Count people, rehearsals or trials.
+
+    With ``in_use`` the folder is being written, so that a sitting without an end is under way.
+    """
     fates: Counter[tuple[Condition, Fate]] = Counter()
     withdrawn: Counter[Condition] = Counter()
     for name, allotted, finished, ended, gone in connection.execute(_SITTINGS, {"simulated": int(simulated)}):
@@ -101,7 +105,7 @@ def _fate(allotted: str | None, *, finished: bool, ended: bool) -> Fate:
             return Fate.UNLISTED
 
 
-def _quotas(connection: sqlite3.Connection, *, simulated: bool) -> Counter[Condition]:
+def _quotas(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Counter[Condition]:
     """What the lists that are followed ask for, of all sites together."""
     asked: Counter[Condition] = Counter()
     latest = "SELECT max(id) FROM allocation GROUP BY site, simulated"
@@ -113,7 +117,7 @@ def _quotas(connection: sqlite3.Connection, *, simulated: bool) -> Counter[Condi
     return asked
 
 
-def _visits(connection: sqlite3.Connection, *, simulated: bool) -> dict[Unstored, int]:
+def _visits(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> dict[Unstored, int]:
     rows = connection.execute("SELECT why, count(*) FROM visit WHERE simulated = ? GROUP BY why", (int(simulated),))
     counted = dict(rows.fetchall())
     return {why: counted.get(why.value, 0) for why in Unstored}

@@ -13,6 +13,7 @@ from random import SystemRandom
 from kiosk import BadInput
 from kiosk.study.allocation import Place, next_place, places, ratio_in_words
 from kiosk.study.condition import Condition
+from kiosk.study.session_kind import SessionKind
 
 SEED_BITS = 63
 """Who has seen many places of a list shall not find the rest by trying seeds."""
@@ -30,9 +31,9 @@ class PlaceList:
 
 
 class Lists:
-    """The lists of one site, for people or for rehearsals; the last one goes on from those before and is followed."""
+    """The lists of one site, of one kind of sittings; the last one goes on from those before and is followed."""
 
-    def __init__(self, connection: sqlite3.Connection, site: str, *, simulated: bool) -> None:
+    def __init__(self, connection: sqlite3.Connection, site: str, *, simulated: bool | SessionKind) -> None:
         """Whoever calls ``fix`` has a transaction open."""
         self._connection = connection
         self._whose = {"site": site, "simulated": int(simulated)}
@@ -119,7 +120,8 @@ def check_not_given_out_again(connection: sqlite3.Connection, sitting: int) -> N
         """,
         (sitting,),
     ).fetchone()
-    if place is not None and not finished and place in Lists(connection, site, simulated=bool(simulated)).consumed():
+    lists = Lists(connection, site, simulated=SessionKind(simulated))
+    if place is not None and not finished and place in lists.consumed():
         raise BadInput(f"the place of sitting {sitting} was given out again, so it cannot be gone on with")
 
 

@@ -22,6 +22,7 @@ from kiosk.store.people.participants import checked_site
 from kiosk.store.probes.clock import newest
 from kiosk.study.allocation import ratio_in_words
 from kiosk.study.condition import Condition
+from kiosk.study.session_kind import SessionKind
 
 DATABASE, SITTINGS, COPY, LIST = "database", "sittings", "backup", "places"
 
@@ -114,15 +115,17 @@ def copy(folder: Path, into: Path, now: datetime) -> Iterator[Finding]:
 _AS_FIXED = "put quotas, block and seed back as they are fixed; another study needs a data folder of its own"
 
 
-def allocation(folder: Path, site: str, declared: Allocation) -> Iterator[Finding]:
-    """Whether the list that is fixed is the study file's, and how much of it is left."""
+def allocation(
+    folder: Path, site: str, declared: Allocation, kind: SessionKind = SessionKind.STUDY
+) -> Iterator[Finding]:
+    """Whether the list that is fixed for this kind of sittings is the study file's, and how much of it is left."""
     if not declared.quotas:
         yield Finding.good(LIST, "no quotas in the study file: every visitor gets the same condition")
         return
     quotas = {Condition.named(name): quota for name, quota in declared.quotas.items()}
 
     def look(connection: sqlite3.Connection) -> Iterator[Finding]:
-        lists = Lists(connection, checked_site(site), simulated=False)
+        lists = Lists(connection, checked_site(site), simulated=kind)
         try:
             lists.check(quotas, declared.block, declared.seed)
         except BadInput as refusal:

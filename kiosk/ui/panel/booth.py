@@ -15,6 +15,7 @@ from kiosk.store.cut_off import read_cut_off
 from kiosk.store.glance import Glance, glance, last_written_ms, wrong_pins
 from kiosk.study.booth.chords import chords
 from kiosk.study.events import BodyName
+from kiosk.study.session_kind import SessionKind
 from kiosk.ui.panel.asking import Asking
 from kiosk.ui.panel.deeds import Booth, Deeds, Writing
 from kiosk.ui.panel.health import Clocks, State
@@ -49,7 +50,7 @@ class Experimenter:
         self._now_ms = now_ms
         self._began_ms, self._run_from_ms = now_ms(), booth.clock.now_ms()
         self._written_ms = last_written_ms(folder)
-        self._simulated = booth.desk.simulated
+        self._kind = booth.desk.kind
         self._write = Writing(booth.recorder, booth.clock)
         self._lock = Lock(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write.keep)
         self._asking = Asking(card, self._lock, booth.clock, catalogue)
@@ -64,7 +65,7 @@ class Experimenter:
             booth.conductor.shut,
         )
         self.deeds = Deeds(booth, self._asking, note, self._write, self.upkeep, catalogue)
-        look = partial(_look, folder, simulated=self._simulated)
+        look = partial(_look, folder, simulated=self._kind)
         self.panel = Panel(
             panel,
             booth,
@@ -114,7 +115,7 @@ def read_for(work: Work, folder: Path) -> Callable[..., None]:
     return lambda number, then: work(partial(read_cut_off, folder, number), then)
 
 
-def _look(folder: Path, *, simulated: bool) -> Glance | str:
+def _look(folder: Path, *, simulated: SessionKind) -> Glance | str:
     """The records since this morning, or why they cannot be read."""
     today = datetime.now().astimezone().replace(hour=0, minute=0, second=0, microsecond=0)
     try:

@@ -35,7 +35,7 @@ def _said(stderr: str) -> str:
 
 def to_json(findings: Iterable[Finding]) -> str:
     """Findings as the process prints them."""
-    return json.dumps([asdict(each) | {"state": each.state.value} for each in findings], ensure_ascii=False)
+    return json.dumps([asdict(each) | {"state": each.state.value} for each in findings])
 
 
 def from_json(text: str) -> Iterator[Finding]:

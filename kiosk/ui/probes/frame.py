@@ -9,6 +9,7 @@ from PySide6.QtCore import QEventLoop
 
 from kiosk.findings import Finding
 from kiosk.study.plan import Study
+from kiosk.ui.qt_platform import obstacle
 from kiosk.ui.window import Display, Mode, Pace, Window
 
 WHAT = "drawing"
@@ -22,6 +23,10 @@ SLOW_MS = 50.0
 
 def frame(study: Study) -> Iterator[Finding]:
     """Open the kiosk's window off the screen, and draw its first page several times."""
+    found = obstacle()
+    if found is not None and not found.of_the_screen:
+        yield Finding.bad(WHAT, found.words, found.remedy)
+        return
     window = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
     try:
         window.shown.setWidth(WIDTH)

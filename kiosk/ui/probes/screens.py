@@ -11,12 +11,11 @@ from time import monotonic
 from PySide6.QtCore import QEventLoop
 from PySide6.QtGui import QGuiApplication, QScreen
 
-from kiosk import BadInput
 from kiosk.findings import Finding
 from kiosk.ui.booth.awake import Awake
 from kiosk.ui.booth.full_screen import numbered_screens
 from kiosk.ui.booth.ways import ANSWER_MS, ways
-from kiosk.ui.window import Display, check_screen
+from kiosk.ui.qt_platform import obstacle
 from kiosk.units import MS_PER_SECOND
 
 DISPLAY, DESKTOP, LIT = "screen", "desktop", "kept lit"
@@ -25,14 +24,14 @@ LEAST_HIGH, LEAST_WIDE = 720, 1280
 """The smallest screen, lying or standing, that every page is tried on."""
 
 _TICK_MS = 20
+_PLUG_IN = "plug one in, and run this in the booth's own session"
 
 
 def screens(number: int) -> Iterator[Finding]:
     """Everything about the screen of a number and what surrounds it."""
-    try:
-        check_screen(Display.FULL_SCREEN)
-    except BadInput as refusal:
-        yield Finding.bad(DISPLAY, str(refusal), "plug one in, and run this in the booth's own session")
+    found = obstacle()
+    if found is not None:
+        yield Finding.bad(DISPLAY, found.words, _PLUG_IN if found.of_the_screen else found.remedy)
         return
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     yield screen(numbered_screens(), number)

@@ -50,6 +50,15 @@ FocusScope {
         }
     }
 
+    Line {
+        objectName: "trial"
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: 0.5 * Theme.gap }
+        visible: text !== ""
+        room: view.width - 2 * Theme.gap
+        text: view.attract.trial
+        font.pixelSize: Theme.small
+        color: Theme.faintInk
+    }
     Column {
         anchors.centerIn: parent
         spacing: 2 * Theme.gap

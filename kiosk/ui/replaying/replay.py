@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -64,6 +65,13 @@ class Replay:
         """Show the window as it was before the first step; ``beat`` is called as long as it goes on."""
         self._beat = beat
         self._window = Window(Study((plan,)), mode)
+        with ExitStack() as undo:
+            undo.callback(self._window.close)
+            self._build(mode, plan, steps, title, undo)
+            undo.pop_all()
+
+    def _build(self, mode: Mode, plan: Plan, steps: tuple[Step, ...], title: str, undo: ExitStack) -> None:
+        """Build what stands behind the window; ``undo`` is given what has to be done if something of it cannot be."""
         owner = self._window.owner
         self._clock = WallClock(owner)
         self._window.show(mode.display)
@@ -71,7 +79,8 @@ class Replay:
         self._performer.bodies = self._bodies(plan, owner)
         self.player = Player(self._performer, self._clock, plan, steps)
         self.player.change_speed(mode.speed)
-        self._loop = Loop(self._clock, owner, self._fault, beat)
+        self._loop = Loop(self._clock, owner, self._fault, self._beat)
+        undo.callback(self._loop.close)
         self._bar = ReplayBar(title, self.player, owner)
         self._bar.left.connect(self._loop.quit)
         self._window.drive_by(self._bar)

@@ -172,6 +172,12 @@ class AttractScreen(QObject):
         self._catalogues = tuple(catalogues)
         self._shown = self._language = self._first = 0
         self._up = True
+        self._trial: str | None = None
+
+    def show_trial(self, chord: str) -> None:
+        """Say that this is a trial, and by which chord it is left; it may have none."""
+        self._trial = chord
+        self.changed.emit()
 
     @property
     def resting(self) -> Catalogue:
@@ -224,6 +230,14 @@ class AttractScreen(QObject):
     def line(self) -> str:
         """The line below it, in the same language."""
         return self._text("attract-line")
+
+    @Property(str, notify=changed)
+    def trial(self) -> str:
+        """That this is a trial, and how it is left, in the same language; empty if it is none."""
+        if self._trial is None:
+            return ""
+        text = self._catalogues[self._language].text
+        return text("attract-trial", chord=self._trial) if self._trial else text("attract-trial-keyless")
 
     @Property(list, constant=True)
     def ways(self) -> list[dict[str, str]]:

@@ -20,9 +20,10 @@ from kiosk.store.dataset.stored.kept import Kept
 from kiosk.store.dataset.tables.flow import Flow
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import StartTapped, Unstored
+from kiosk.study.session_kind import SessionKind
 from tests.store.dataset.conftest import FEW, rows_of
 from tests.store.dataset.psych_ds import issues
-from tests.store.dataset.visitors import COMMIT, store, study_plan, visitor
+from tests.store.dataset.visitors import COMMIT, store, study_plan, unsharing, visitor
 
 MUSEUM = Path(__file__).parents[1] / "museum"
 
@@ -123,6 +124,29 @@ def test_rehearsals_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> No
     assert told == [("r0001", "true"), ("P0001", "false")]
     assert {row["simulated"] for row in rows_of(tmp_path / "all", "flow")} == {"true", "false"}
     assert issues(tmp_path / "all") == []
+
+
+def test_trials_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    store(data, [(visitor(1), 1)], simulated=SessionKind.TRIAL)
+    with pytest.raises(BadInput, match="it holds no participant; trials are left out without --with-trials"):
+        export(data, tmp_path / "out", PsychDs)
+    store(data, [(visitor(2), 2)])
+    store(data, [(visitor(3), 3)], simulated=True)
+    assert export(data, tmp_path / "people", PsychDs).trials == 1
+    assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["P0001"]
+    assert {"trial", "simulated"}.isdisjoint(rows_of(tmp_path / "people", "participants")[0])
+    assert export(data, tmp_path / "tried", PsychDs, frozenset({Extra.TRIALS})).trials == 0
+    told = [(row["participant_id"], row["trial"]) for row in rows_of(tmp_path / "tried", "participants")]
+    assert told == [("t0001", "true"), ("P0001", "false")]
+    assert {row["trial"] for row in rows_of(tmp_path / "tried", "flow")} == {"true", "false"}
+    assert issues(tmp_path / "tried") == []
+
+
+def test_who_did_not_agree_to_publishing_in_a_trial_is_left_out_as_well(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(unsharing(1), 1), (visitor(2), 2)], simulated=SessionKind.TRIAL)
+    exported = export(tmp_path / "data", tmp_path / "out", PsychDs, frozenset({Extra.TRIALS}))
+    assert (exported.participants, exported.not_shared) == (1, 1)
 
 
 def test_a_site_stands_before_the_number(tmp_path: Path) -> None:

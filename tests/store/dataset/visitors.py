@@ -15,6 +15,7 @@ from kiosk.study.condition import Condition
 from kiosk.study.declared.questionnaire import Answer, Integer, Item, Multiple, Questionnaire, Rating, Single, TextPage
 from kiosk.study.events import Stage
 from kiosk.study.plan import Plan
+from kiosk.study.session_kind import SessionKind
 from tests.samples import mixed, whole
 from tests.study.driver import Driver, Voice, at_random, with_memory
 from tests.study.view import View
@@ -139,7 +140,9 @@ def unsharing(seed: int) -> Driver:
     return driver
 
 
-def store(folder: Path, drivers: Sequence[tuple[Driver, int]], *, simulated: bool = False, site: str = "") -> None:
+def store(
+    folder: Path, drivers: Sequence[tuple[Driver, int]], *, simulated: bool | SessionKind = False, site: str = ""
+) -> None:
     """Write sittings that were played into a data folder, all at once each."""
     with Recorder(folder, site) as recorder:
         for driver, seed in drivers:

@@ -14,6 +14,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.allocation import Allotted
 from kiosk.study.condition import Condition
 from kiosk.study.events import Unstored
+from kiosk.study.session_kind import SessionKind
 from tests.store.visitors import BEGUN, COMPLETED, FINISHED, FOUR, LEFT, seated
 
 TWO = {Condition.TOM: 2}
@@ -80,6 +81,8 @@ def test_people_and_rehearsals_are_counted_apart(folder: Path, provenance: Prove
         recorder.begin(replace(provenance, simulated=True), COMPLETED)
         recorder.count_visit(Unstored.LEFT, simulated=True)
         recorder.count_visit(Unstored.DECLINED, simulated=False)
+        recorder.begin(replace(provenance, simulated=SessionKind.TRIAL), BEGUN)
+        recorder.count_visit(Unstored.LEFT, simulated=SessionKind.TRIAL)
     people, rehearsals = (counted(folder, simulated=simulated) for simulated in (False, True))
     assert told(people.cells[Condition.TOM]) == {"quota": 2, "begun": 1, "consumed": 1}
     assert told(rehearsals.cells[Condition.TOM]) == {"begun": 1, "unlisted": 1}

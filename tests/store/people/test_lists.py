@@ -17,6 +17,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.allocation import Allotted, Place, places
 from kiosk.study.condition import Condition
 from kiosk.study.events import Event
+from kiosk.study.session_kind import SessionKind
 from tests.store.visitors import BEGUN, FINISHED, LEFT, rows, seated
 
 FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
@@ -106,12 +107,15 @@ def test_a_list_that_there_cannot_be_is_refused_and_not_stored(folder: Path) -> 
     assert rows(folder, "SELECT * FROM allocation") == []
 
 
-def test_people_and_rehearsals_and_every_site_have_lists_of_their_own(folder: Path, provenance: Provenance) -> None:
+def test_people_rehearsals_trials_and_every_site_have_lists_of_their_own(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.fix_list(FOUR, 4, 1, simulated=False)
         recorder.fix_list(FOUR, 2, 2, simulated=True)
         for _ in range(3):
             seated(recorder, provenance)
+        recorder.fix_list(EIGHT, 4, 3, simulated=SessionKind.TRIAL)
+        seated(recorder, provenance, simulated=SessionKind.TRIAL)
+        assert recorder.next_place(simulated=SessionKind.TRIAL) == places(EIGHT, 4, 3)[1]
         assert recorder.next_place(simulated=True) == places(FOUR, 2, 2)[3]
         assert recorder.next_place(simulated=False) == places(FOUR, 4, 1)[0]
     with Recorder(folder, "MI") as recorder:

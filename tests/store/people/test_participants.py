@@ -17,6 +17,7 @@ from kiosk.store.database import FILE
 from kiosk.store.people.participants import ALPHABET, Participant, checked_code, checked_site, codes
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.study.events import StartTapped
+from kiosk.study.session_kind import SessionKind
 
 START = StartTapped(at_ms=0)
 SEEDS = st.integers(0, 2**63 - 1)
@@ -47,13 +48,13 @@ def test_every_site_counts_for_itself(folder: Path, provenance: Provenance) -> N
         assert [person.name for person in entered(folder, provenance, 1, 2, site=site)] == names
 
 
-def test_a_rehearsal_uses_up_no_number_of_a_person_s(folder: Path, provenance: Provenance) -> None:
+def test_a_rehearsal_or_a_trial_uses_up_no_number_of_a_person_s(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         numbers = [
             recorder.begin(replace(provenance, simulated=simulated), [START]).number
-            for simulated in (True, True, False, True, False)
+            for simulated in (True, True, False, True, False, SessionKind.TRIAL, SessionKind.TRIAL, False)
         ]
-    assert numbers == [1, 2, 1, 3, 2]
+    assert numbers == [1, 2, 1, 3, 2, 1, 2, 3]
 
 
 def test_a_number_that_was_withdrawn_is_not_given_again(folder: Path, provenance: Provenance) -> None:

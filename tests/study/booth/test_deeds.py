@@ -22,6 +22,11 @@ def test_every_deed_has_a_rule_in_every_stage() -> None:
     assert all(set(stages) == set(Stage) for stages in TABLE.values())
 
 
+@pytest.mark.parametrize("stage", Stage)
+def test_nobody_leaves_or_sees_the_panel_without_the_pin(stage: Stage) -> None:
+    assert Asks.NOTHING not in {rule(Deed.PANEL, stage).asks, rule(Deed.LEAVE, stage).asks}
+
+
 def test_every_key_of_the_study_file_is_a_deed() -> None:
     assert set(Keys.model_fields) <= {deed.value for deed in Deed}
 

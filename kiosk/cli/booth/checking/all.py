@@ -20,6 +20,7 @@ from kiosk.store.care.backup import FOLDER
 from kiosk.store.probes import clock, database, disk, forms
 from kiosk.study.declared.checked import found
 from kiosk.study.plan import Study
+from kiosk.study.session_kind import kind_of
 from kiosk.ui.probes.asked import ask
 from kiosk.ui.probes.pictures import DRAWN_S, READY_S, CannotDraw, undrawn
 
@@ -116,7 +117,8 @@ def _kept(booth: Booth) -> Iterator[Probe]:
     yield Probe(database.SITTINGS, partial(database.sittings, folder, busy=busy))
     yield Probe(database.COPY, partial(database.copy, folder, folder / FOLDER, now))
     if booth.settings is not None and booth.study is not None:
-        yield Probe(database.LIST, partial(database.allocation, folder, booth.site, booth.settings.allocation))
+        kind = kind_of(booth.settings)
+        yield Probe(database.LIST, partial(database.allocation, folder, booth.site, booth.settings.allocation, kind))
         yield Probe(forms.WHAT, partial(forms.forms, folder, booth.study.plans[0]))
     yield Probe(clock.WHAT, partial(clock.clock, folder, now, code_made()))
 

@@ -21,10 +21,12 @@ from kiosk.store.reading import Archive
 from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.events import ConsentGiven, Event, SittingEnded, Stage, StageEntered, Status, from_record
 from kiosk.study.plan import Plan
+from kiosk.study.session_kind import SessionKind
 
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
 
+_LETTERS = {SessionKind.STUDY: "P", SessionKind.SIMULATED: "r", SessionKind.TRIAL: "t"}
 _ABOUT_THE_RECORD = ("seq", "at_ms", "origin", "type")
 
 
@@ -56,19 +58,19 @@ class Kept:
         return int(self.row["id"])
 
     @property
-    def simulated(self) -> bool:
-        """Whether nobody sat there."""
-        return bool(self.row["simulated"])
+    def kind(self) -> SessionKind:
+        """Who sat there."""
+        return SessionKind(self.row["simulated"])
 
     @cached_property
     def name(self) -> str:
         """What the person is called: site and number, with a letter that keeps it from being read as a number.
 
-        P stands for participants and r for rehearsals; as small letters are in no site, no two are alike.
+        P stands for participants, r for rehearsals and t for trials; as small letters are in no site, no two are alike.
         """
         if self.row["number"] is None:
             return f"sitting-{self.id:0{PADDED}}"
-        number = f"{'r' if self.simulated else 'P'}{self.row['number']:0{PADDED}}"
+        number = f"{_LETTERS[self.kind]}{self.row['number']:0{PADDED}}"
         return f"{self.row['site']}-{number}" if self.row["site"] else number
 
     @cached_property
@@ -84,7 +86,7 @@ class Kept:
     @property
     def publishable(self) -> bool:
         """Whether nobody said no to publishing: it was agreed to, or not asked, or there is nobody to say no."""
-        if self.simulated or self.consent is None or PUBLISHING in self.consent.purposes:
+        if self.kind is SessionKind.SIMULATED or self.consent is None or PUBLISHING in self.consent.purposes:
             return True
         # Where the sheet cannot be read, nobody knows what was offered.
         offered = self.plan.information.consent.purposes if self.plan else None
@@ -93,20 +95,27 @@ class Kept:
 
 @dataclass
 class Source:
-    """The database at one moment; a kiosk may go on writing meanwhile. Rehearsals are read only if they are wanted."""
+    """The database at one moment; a kiosk may go on writing meanwhile. Only these kinds are read."""
 
     connection: sqlite3.Connection
     archive: Archive
-    rehearsals: bool
+    kinds: frozenset[SessionKind]
     _unended: Status | None
     _plans: dict[tuple[object, ...], Plan | None] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """How many sittings there are to be read."""
         number: int = self.connection.execute(
-            "SELECT count(*) FROM sitting WHERE NOT simulated OR ?", (self.rehearsals,)
+            f"SELECT count(*) FROM sitting WHERE {self._wanted}"  # noqa: S608 - numbers
         ).fetchone()[0]
         return number
+
+    def left_out(self, kind: SessionKind) -> int:
+        """How many sittings of a kind there are that is not read."""
+        number: int = self.connection.execute(
+            "SELECT count(*) FROM sitting WHERE simulated = ?", (int(kind),)
+        ).fetchone()[0]
+        return 0 if kind in self.kinds else number
 
     def __iter__(self) -> Iterator[Kept]:
         """Every sitting in the order in which they began, one in memory at a time."""
@@ -123,12 +132,15 @@ class Source:
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
             "SELECT sitting.*, participant.number FROM sitting LEFT JOIN participant"  # noqa: S608 - the names are ours
-            f" ON participant.sitting = sitting.id WHERE NOT sitting.simulated OR ? {which}",
-            (self.rehearsals,),
+            f" ON participant.sitting = sitting.id WHERE {self._wanted} {which}"
         )
         names = [column[0] for column in cursor.description]
         for row in cursor:
             yield dict(zip(names, row, strict=True))
+
+    @property
+    def _wanted(self) -> str:
+        return f"sitting.simulated IN ({', '.join(str(int(kind)) for kind in sorted(self.kinds))})"
 
     def _plan(self, row: Mapping[str, Any]) -> Plan | None:
         """What a sitting followed; sittings that followed the same share it."""
@@ -163,14 +175,14 @@ _FOLLOWED = (
 
 
 @contextmanager
-def source(folder: Path, *, rehearsals: bool) -> Iterator[Source]:
+def source(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Source]:
     """What is stored in a data folder now; raises BadInput if there is nothing that can be read."""
     with closing(open_for_reading(folder)) as connection:
         writing = in_use(folder)
         connection.execute("BEGIN")
         archive = Archive(sqlite_utils.Database(connection), in_use=writing)
         try:
-            yield Source(connection, archive, rehearsals, None if writing else Status.INTERRUPTED)
+            yield Source(connection, archive, kinds, None if writing else Status.INTERRUPTED)
         except sqlite3.DatabaseError as error:
             raise unreadable(error, folder) from error
 

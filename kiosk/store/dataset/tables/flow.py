@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 
-from kiosk.store.dataset.column import Column, Kind, Table, Variable, named
+from kiosk.store.dataset.column import Cell, Column, Kind, Table, Variable, named
 from kiosk.store.dataset.extras import Extra
 from kiosk.store.dataset.stored.kept import Kept
-from kiosk.store.dataset.tables.shared import SIMULATED, columns
+from kiosk.store.dataset.tables.shared import columns, who_sat_there
 from kiosk.store.people.counting import Counts, Fate
 from kiosk.study.after.overview import Overview, overview
 from kiosk.study.events import Stage, Status
+from kiosk.study.session_kind import SessionKind
 
 
 class Quantity(Enum):
@@ -55,9 +56,9 @@ MEANINGS = {
 
 @dataclass
 class Flow:
-    """What was counted on the way through the sittings of people, or of rehearsals."""
+    """What was counted on the way through the sittings of people, of rehearsals or of trials."""
 
-    simulated: bool
+    kind: SessionKind
     counts: Counts
     seen: Counter[tuple[Quantity, str]] = field(default_factory=Counter)
 
@@ -79,7 +80,7 @@ def last_stage(sitting: Overview) -> Stage:
 
 @dataclass(frozen=True)
 class _Count:
-    simulated: bool
+    kind: SessionKind
     quantity: Quantity
     group: str
     count: int
@@ -91,7 +92,7 @@ def _rows(flows: tuple[Flow, ...]) -> Iterator[_Count]:
         for quantity in Quantity:
             for (what, group), count in counted.items():
                 if what is quantity:
-                    yield _Count(flow.simulated, quantity, group, count)
+                    yield _Count(flow.kind, quantity, group, count)
 
 
 def _counted(counts: Counts) -> Counter[tuple[Quantity, str]]:
@@ -104,10 +105,14 @@ def _counted(counts: Counts) -> Counter[tuple[Quantity, str]]:
     return +counted
 
 
+def _is_of(kind: SessionKind) -> Callable[[_Count], Cell]:
+    return lambda row: row.kind is kind
+
+
 def flow(extras: frozenset[Extra]) -> Table[tuple[Flow, ...], _Count]:
     """The table of the flow."""
     counted: tuple[Column[_Count], ...] = columns(
-        *([(SIMULATED, lambda row: row.simulated)] if Extra.REHEARSALS in extras else []),
+        *((variable, _is_of(kind)) for variable, kind in who_sat_there(extras)),
         (
             Variable(
                 "quantity",

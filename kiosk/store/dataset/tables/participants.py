@@ -13,10 +13,11 @@ from kiosk.store.dataset.tables.flow import last_stage
 from kiosk.store.dataset.tables.measured import MEASURES
 from kiosk.store.dataset.tables.person import Person
 from kiosk.store.dataset.tables.personal import about_you, agreed, scales, told_items
-from kiosk.store.dataset.tables.shared import CONDITION, PARTICIPANT, SIMULATED, columns
+from kiosk.store.dataset.tables.shared import CONDITION, PARTICIPANT, columns, who_sat_there
 from kiosk.study.allocation import Allotted
 from kiosk.study.declared.labels import fold_name
 from kiosk.study.events import BodyName, PracticeEnd, Stage, Status
+from kiosk.study.session_kind import SessionKind
 
 
 def participants(study: Followed, extras: frozenset[Extra], elsewhere: frozenset[str]) -> Table[Kept, Person]:
@@ -64,11 +65,14 @@ def _who(extras: frozenset[Extra]) -> tuple[Column[Person], ...]:
             lambda row: Label(row.kept.row["site"]) or None,
         ),
     ]
-    if Extra.REHEARSALS in extras:
-        who.append((SIMULATED, lambda row: row.kept.simulated))
+    who += [(variable, _is_of(kind)) for variable, kind in who_sat_there(extras)]
     if Extra.DATES in extras:
         who.append((started, lambda row: row.kept.row["started_at"]))
     return columns(*who)
+
+
+def _is_of(kind: SessionKind) -> Callable[[Person], Cell]:
+    return lambda row: row.kept.kind is kind
 
 
 _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = columns(

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 from kiosk.assistant.gate import Verdict
 from kiosk.assistant.mdp import Action, Card
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Variable, named
+from kiosk.store.dataset.extras import Extra
 from kiosk.study.condition import Condition
 from kiosk.study.events import Stage
+from kiosk.study.session_kind import SessionKind
 
 _Row = TypeVar("_Row")
 
@@ -68,6 +70,15 @@ FOLLOWED = Variable(
 SENTENCE = Variable("sentence", "What was said and shown, in the sitting's language; a sentence of the program.")
 UTTERANCE = Variable("utterance", "The number of the sentence in its sitting.", Kind.WHOLE)
 SIMULATED = Variable("simulated", "Whether a program sat there instead of a person.", Kind.TRUTH)
+TRIAL = Variable("trial", "Whether the kiosk had no PIN, so that the sitting is none of the study's.", Kind.TRUTH)
+
+
+def who_sat_there(extras: frozenset[Extra]) -> Iterator[tuple[Variable, SessionKind]]:
+    """Yield the columns that tell sittings apart which are none of the study's, with the kind that each is about."""
+    if Extra.REHEARSALS in extras:
+        yield SIMULATED, SessionKind.SIMULATED
+    if Extra.TRIALS in extras:
+        yield TRIAL, SessionKind.TRIAL
 
 
 def columns(*pairs: tuple[Variable, Callable[[_Row], Cell]]) -> tuple[Column[_Row], ...]:

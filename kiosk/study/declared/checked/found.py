@@ -51,12 +51,13 @@ def languages(study: Study) -> Iterator[Finding]:
 
 
 def pin(experimenter: Experimenter) -> Iterator[Finding]:
-    """Whether a running study can be changed by anybody."""
+    """Whether the kiosk is closed, or open for trials alone."""
     if experimenter.pin:
         yield Finding.good(PIN, "set")
     else:
         remedy = "put what 'recollect study pin' prints into the study file, under [experimenter]"
-        yield Finding.warning(PIN, "none: whoever knows the keys can change the study", remedy)
+        words = "none: every sitting is a trial, which is not exported, and 'recollect keep' does not start"
+        yield Finding.warning(PIN, words, remedy)
 
 
 def keys(chords: Keys) -> Iterator[Finding]:

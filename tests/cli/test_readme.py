@@ -1,0 +1,208 @@
+"""After the README's first command, every row of its table works as it is printed."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from unittest.mock import patch
+
+import pytest
+
+from kiosk.keeping.notice import SocketListener
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.study.events import StartTapped
+from tests.samples import WITH_PIN, plan
+
+ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the commands are run in a Unix shell's way")
+
+SMALL = """
+stages = ["introduction", "game", "result"]
+[game]
+rows = 3
+columns = 4
+"""
+LESS = {
+    "train": ("--episodes", "200"),
+    "simulate": ("--games", "50"),
+    "rehearse": ("--study", "small.toml"),
+}
+"""What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
+
+LEFT_AT_ONCE = """
+import sys
+from PySide6.QtCore import QTimer
+from kiosk.cli.front import main
+from kiosk.ui.loop import Loop
+run = Loop.run
+def leave(loop):
+    QTimer.singleShot(0, loop.quit)
+    run(loop)
+Loop.run = leave
+main()
+"""
+"""The program, with somebody who leaves every window as soon as it is there."""
+
+
+def rows() -> list[str]:
+    """Every command of the README's table."""
+    table = (ROOT / "README.md").read_text("utf-8").split("| command |")[1].split("\n\n")[0]
+    cells = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
+    return [command for cell in cells for command in re.findall(r"`([^`]+)`", cell)]
+
+
+@dataclass
+class Newcomer:
+    """Somebody with a fresh checkout and no screen, who has typed the first command."""
+
+    home: Path
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """What their shell has."""
+        return os.environ | {
+            "XDG_DATA_HOME": str(self.home / "share"),
+            "XDG_RUNTIME_DIR": str(self.home),
+            "QT_QPA_PLATFORM": "offscreen",
+            "PYTHONPATH": str(ROOT),
+        }
+
+    def run(self, arguments: Sequence[str], how: Sequence[str] = ("-m", "kiosk")) -> subprocess.CompletedProcess[str]:
+        """Run the program in their home."""
+        return subprocess.run(
+            [sys.executable, *how, *arguments],
+            cwd=self.home,
+            env=self.environment,
+            input="2580\n2580\n",
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+            start_new_session=True,
+        )
+
+
+def bootstrap() -> ModuleType:
+    """The file that the first command runs."""
+    spec = importlib.util.spec_from_file_location("bootstrap", ROOT / "packaging" / "bootstrap.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A home in which ``bootstrap.py start`` has been run; it is installed already."""
+    newcomer = Newcomer(tmp_path_factory.mktemp("home"))
+    start = bootstrap()
+
+    def run(command: Sequence[str], environment: Mapping[str, str]) -> int:
+        del environment
+        done = newcomer.run([*command[1:]])
+        assert done.stderr == ""
+        return done.returncode
+
+    with (
+        patch.object(start, "ROOT", newcomer.home / "checkout"),
+        patch.object(start, "has_screen", lambda _: False),
+        patch.object(start, "install_debian_packages", lambda *_: None),
+        patch.object(start, "install_python_packages", lambda **_: None),
+        patch.object(start, "run", run),
+    ):
+        (newcomer.home / "small.toml").write_text(SMALL)
+        assert start.start(["--study", "small.toml"]) == 0
+    assert list((newcomer.home / "checkout" / "rehearsals" / "first").glob("*.png"))
+    return newcomer.home
+
+
+@pytest.fixture
+def newcomer(begun: Path, tmp_path: Path) -> Newcomer:
+    """The same home for every row, so that none depends on what another one did."""
+    shutil.copytree(begun / "share", tmp_path / "share")
+    (tmp_path / "small.toml").write_text(SMALL)
+    return Newcomer(tmp_path)
+
+
+@pytest.mark.parametrize("row", rows())
+def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
+    typed, _, into = row.partition(" > ")
+    name, *arguments = shlex.split(typed)
+    assert name == "recollect"
+    command = arguments[0] if arguments else ""
+    if "study.toml" in row and not into:
+        (newcomer.home / "study.toml").write_text(WITH_PIN)
+    if command == "keep":
+        assert is_kept_up(newcomer, arguments)
+        return
+    has_a_window = command in {"", "replay"}
+    how = ("-c", LEFT_AT_ONCE) if has_a_window else ("-m", "kiosk")
+    done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, ())], how)
+    assert "Traceback" not in done.stderr
+    assert done.stdout.strip()
+    match command:
+        case "robot":
+            assert (done.returncode, done.stdout.startswith("NO  is it there")) == (1, True)
+        case "check":
+            # It depends on the machine that the tests run on.
+            assert done.returncode in {0, 1}
+        case _:
+            assert done.returncode == 0, done.stderr
+    if command in {"sittings", "events", "replay", "explain", "export", "backup", "verify", "withdraw"}:
+        assert f"the rehearsals in {newcomer.home / 'share' / 'recollect' / 'rehearsals'}" in done.stderr
+
+
+def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
+    """A row with something for all that stands in capitals, and a day of a booth that is over soon."""
+    rehearsals = newcomer.home / "share" / "recollect" / "rehearsals"
+    given = {"H": "127.0.0.1", "ALL": "all", "200": "2", "A": str(rehearsals), "B": str(newcomer.home / "other")}
+    if "CODE" in arguments:
+        listed = newcomer.run(["sittings", "--codes"]).stdout
+        (code,) = re.findall(r"\b[2-9A-Z]{7}\b", listed)
+        given["CODE"] = code
+        # Nobody can be asked here.
+        arguments = [*arguments, "--yes"]
+    if "B" in arguments:
+        with Recorder(Path(given["B"]), "B") as recorder:
+            recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=True), [StartTapped(at_ms=0)])
+    return [given.get(argument, argument) for argument in arguments]
+
+
+def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
+    """Whether a keeper brings a kiosk up, and ends with it."""
+    listener = SocketListener(newcomer.home)
+    command = [sys.executable, "-m", "kiosk", *arguments]
+    environment = newcomer.environment | listener.environment
+    with subprocess.Popen(command, cwd=newcomer.home, env=environment) as keeper:
+        while "READY" not in listener.hear(60):
+            assert keeper.poll() is None
+        keeper.terminate()
+    listener.close()
+    return keeper.returncode == 0
+
+
+def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path) -> None:
+    done = Newcomer(tmp_path).run(["sittings"])
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"recollect: there is no database in {tmp_path / 'share' / 'recollect'}\n"
+
+
+def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
+    # A kiosk that was opened and left has a database, and nobody in it.
+    assert newcomer.run([], ("-c", LEFT_AT_ONCE)).returncode == 0
+    assert "about the rehearsals" in newcomer.run(["sittings"]).stderr
+    assert newcomer.run(["verify"]).stderr == ""
+    with Recorder(newcomer.home / "share" / "recollect") as recorder:
+        recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=False), [StartTapped(at_ms=0)])
+    done = newcomer.run(["sittings", "--json"])
+    assert (done.stderr, done.stdout.count('"sitting": 1,')) == ("", 1)
