@@ -117,9 +117,6 @@ def look_over(app: App, look: Look) -> None:
         screens.board.mark(row, column)
         looked_at(app, look, f"game, a {name} is marked")
     screens.board.clear()
-    screens.attract.show_trial("Ctrl+Shift+F12")
-    screens.kiosk.show("attract")
-    looked_at(app, look, "attract, a trial")
     screens.kiosk.ask_still_there(asks=True)
     screens.kiosk.settle()
     looked_at(app, look, "still there")
@@ -127,8 +124,10 @@ def look_over(app: App, look: Look) -> None:
     screens.kiosk.show("pause")
     looked_at(app, look, "pause")
     screens.clear()
+    screens.attract.show_trial("Ctrl+Shift+F12")
     screens.kiosk.show("attract")
     screens.kiosk.settle()
+    looked_at(app, look, "attract, a trial")
 
 
 def look_behind(app: App, look: Look) -> None:
