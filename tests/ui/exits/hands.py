@@ -218,11 +218,15 @@ class Hands:
 
     def _over(self) -> list[int]:
         """The windows that lie over the kiosk's."""
-        outermost = self.window
-        while (parent := outermost.query_tree().parent).id != self.root.id:
-            outermost = parent
-        stack = self.root.query_tree().children
-        above = stack[[window.id for window in stack].index(outermost.id) + 1 :]
+        stack, ids, outermost = [], [], self.window
+        # A window that comes or goes meanwhile gets another frame, or none: then neither is true any more.
+        while outermost.id not in ids:
+            outermost = self.window
+            while (parent := outermost.query_tree().parent).id != self.root.id:
+                outermost = parent
+            stack = self.root.query_tree().children
+            ids = [window.id for window in stack]
+        above = stack[ids.index(outermost.id) + 1 :]
         return [window.id for window in above if self._seen(window)]
 
     def _seen(self, window: Window) -> bool:

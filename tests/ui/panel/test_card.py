@@ -266,7 +266,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_desk: MakeDesk) -> N
     assert desk.panel.is_open
     lines = desk.panel.property("health")["lines"]
     assert [line["words"] for line in lines if line["name"] == "PIN"] == [
-        "there is none: anybody who knows the keys can do everything"
+        "none is set: every sitting is a trial, and anybody who knows the keys can do everything"
     ]
 
 

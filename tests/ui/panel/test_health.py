@@ -65,7 +65,11 @@ def test_all_is_well_in_one_line_of_every_language(language: str) -> None:
             "Clock",
             "was set by -300 s since the start",
         ),
-        (replace(WELL, has_pin=False), "PIN", "there is none: anybody who knows the keys can do everything"),
+        (
+            replace(WELL, has_pin=False),
+            "PIN",
+            "none is set: every sitting is a trial, and anybody who knows the keys can do everything",
+        ),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
     ],
 )
