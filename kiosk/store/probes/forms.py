@@ -10,7 +10,7 @@ from pathlib import Path
 from kiosk import BadInput
 from kiosk.findings import Finding
 from kiosk.store.database import FILE, open_for_reading
-from kiosk.store.dataset.stored.followed import differences
+from kiosk.study.declared.differences import differences
 from kiosk.study.declared.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.study.plan import Plan
 

@@ -7,9 +7,10 @@ from functools import partial
 
 from kiosk.store.dataset.column import Cell, Column, Kind, Level, Variable
 from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.stored.followed import Asked, Followed, Scale, facts
+from kiosk.store.dataset.stored.followed import Asked, Followed, Scale
 from kiosk.store.dataset.tables.asked import asked
 from kiosk.store.dataset.tables.person import Person
+from kiosk.study.declared.differences import facts
 from kiosk.study.declared.information import PUBLISHING
 from kiosk.study.declared.labels import fold_name
 from kiosk.study.declared.questionnaire import Integer, Item, Multiple, Rating, ShortText, Single, TextPage
