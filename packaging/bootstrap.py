@@ -44,6 +44,9 @@ VOICE = "espeak-ng alsa-utils"
 VIRTUAL_SCREEN = "xvfb xauth xdotool openbox"
 BUILD = "binutils" + (f" libpython{VERSION}" if sys.base_prefix == "/usr" else "")
 
+# A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
+PARALLEL = ("-n", "auto", "--dist", "loadfile", "--benchmark-disable")
+
 CHECKS = (
     ("ruff", "check", "."),
     ("ruff", "format", "--check", "."),
@@ -98,7 +101,7 @@ def test(arguments: Sequence[str]) -> int:
         failed = [" ".join(check[:2]) for check in CHECKS if run(check, environment, ROOT, announced=True)]
         if failed:
             raise SetupFailed(f"The tests were not run, because these failed: {', '.join(failed)}.")
-        return run(["python", "-m", "pytest", *arguments], environment, ROOT, announced=True)
+        return run(["python", "-m", "pytest", *PARALLEL, *arguments], environment, ROOT, announced=True)
 
 
 def lock(_arguments: Sequence[str]) -> int:
