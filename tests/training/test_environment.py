@@ -145,7 +145,7 @@ def after_the_gate_opened() -> Assistance:
 
 
 @pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
-@pytest.mark.parametrize("action", NO_ACTIONS, ids=repr)
+@pytest.mark.parametrize("action", NO_ACTIONS, ids=lambda action: type(action).__name__)
 def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(
     at: Callable[[], Assistance], action: Any
 ) -> None:
