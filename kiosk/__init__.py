@@ -14,7 +14,7 @@ from pathlib import Path
 __version__ = "0.1.0"
 
 
-class BadInput(Exception):
+class UserInputError(Exception):
     """Something that was handed to Recollect cannot be used; each sentence says what and where.
 
     Mostly there is one; a file that is checked as a whole has one for everything that is wrong with it. At the command
@@ -61,10 +61,10 @@ def why(error: OSError) -> str:
     return DISK_FULL if error.errno in {errno.ENOSPC, errno.EDQUOT} else error.strerror or str(error)
 
 
-def unwritable(what: str, error: OSError) -> BadInput | StoreFailed:
+def unwritable(what: str, error: OSError) -> UserInputError | StoreFailed:
     """Return what to raise when a file cannot be written; on a full disk the same command may succeed later."""
     words = why(error)
-    return StoreFailed(f"{what}: {words}") if words == DISK_FULL else BadInput(f"{what}: {words}")
+    return StoreFailed(f"{what}: {words}") if words == DISK_FULL else UserInputError(f"{what}: {words}")
 
 
 def program(*arguments: str) -> tuple[str, ...]:

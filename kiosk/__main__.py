@@ -1,6 +1,6 @@
 """``python -m kiosk`` is ``recollect``."""
 
-from kiosk.cli.front import main
+from kiosk.cli.main import main
 
 __all__ = ["main"]
 

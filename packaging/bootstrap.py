@@ -1,9 +1,9 @@
 """The set-up of Recollect, in one file that needs Python 3.11 and nothing else.
 
-``start`` installs what is missing and opens the kiosk, or rehearses one sitting where there is no screen; ``test``
+``start`` installs what is missing and opens the kiosk, or rehearses one session where there is no screen; ``test``
 installs the development extras as well and runs every check; ``lock`` resolves the versions anew. This file changes
 ``.venv``, ``build`` and ``rehearsals`` in the checkout and, as root on Debian, the system's packages: nothing else.
-What it starts stores the sitting in the user's data folder, where the other commands look for it.
+What it starts stores the session in the user's data folder, where the other commands look for it.
 """
 
 import hashlib
@@ -76,13 +76,13 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def start(arguments: Sequence[str]) -> int:
-    """Open the kiosk or, where there is no screen, rehearse one sitting; further arguments go to ``recollect``."""
+    """Open the kiosk or, where there is no screen, rehearse one session; further arguments go to ``recollect``."""
     install_debian_packages(QT, WINDOW, VOICE)
     install_python_packages(extras=set())
     if has_screen(os.environ):
         say("Opening the kiosk.")
         return run(["recollect", *arguments], os.environ)
-    say("There is no screen here: rehearsing one sitting without it.")
+    say("There is no screen here: rehearsing one session without it.")
     shots = ROOT / "rehearsals" / "first"
     rehearsal = ["recollect", "rehearse", "--headless", "--seed", "1", "--shots", str(shots)]
     with runtime_folder(os.environ) as environment:

@@ -2,7 +2,7 @@
 
 import os
 
-from kiosk.__main__ import main
+from kiosk.cli.main import main
 
 # What we start of ourselves begins like any other start, and finds the build's libraries by itself.
 os.environ["PYINSTALLER_RESET_ENVIRONMENT"] = "1"

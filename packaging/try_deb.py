@@ -28,13 +28,13 @@ PIN = f"scrypt:{'0' * 32}:{'0' * 64}"
 KEEP = f"""
 printf '[experimenter]\npin = "{PIN}"\n' > study.toml
 recollect keep --json --data {DATA} -- --study study.toml > kept &
-keeper=$!
+supervisor=$!
 for _ in $(seq 300); do grep -q '"ready"' kept && break; sleep 0.1; done
 kill -9 $(pgrep -f '^[^ ]*recollect open')
 for _ in $(seq 300); do grep -c '"ready"' kept | grep -q 2 && break; sleep 0.1; done
-kill -TERM $keeper
-wait $keeper
-echo "the keeper ended with $?"
+kill -TERM $supervisor
+wait $supervisor
+echo "the supervisor ended with $?"
 cat kept
 grep -c '"ready"' kept | grep -q 2
 """

@@ -12,7 +12,7 @@ from pathlib import Path
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
 
-from kiosk.settings import ASSETS
+from kiosk.config import ASSETS
 
 LANGUAGE = "qps"
 """Of the codes that are reserved for private use, so that no real language is meant."""

@@ -6,16 +6,14 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from kiosk.assistant.gate import NO_GATE, Gate
-from kiosk.assistant.mdp import STATES, Action, State
-from kiosk.assistant.qtable import QTable
-from kiosk.assistant.wording import Catalogue
+from kiosk.assistance.policy import NO_GATE, STATES, Action, Gate, QTable, State
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS, STAGES, Settings
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.information import ConsentPage, Information, Page, Purpose
+from kiosk.experiment.questionnaire import Integer, Likert, Multiple, Option, Questionnaire, ShortText, Single
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Board
-from kiosk.settings import ASSETS, STAGES, Settings
-from kiosk.study.condition import Condition
-from kiosk.study.declared.information import ConsentPage, Information, Page, Purpose
-from kiosk.study.declared.questionnaire import Integer, Likert, Multiple, Option, Questionnaire, ShortText, Single
-from kiosk.study.plan import Plan
 
 SHORT = ("introduction", "game", "result", "questions")
 """The stages around a game, with nothing to be decided beforehand."""
@@ -98,9 +96,9 @@ def plan(
     policy: QTable | None = None,
     stages: tuple[str, ...] = SHORT,
     **settings: Any,
-) -> Plan:
-    """A plan for a sitting of these stages; ``settings`` are sections of the study file."""
-    return Plan(
+) -> SessionConfig:
+    """A plan for a session of these stages; ``settings`` are sections of the study file."""
+    return SessionConfig(
         settings=Settings(stages=stages, **settings),
         condition=condition,
         policy=policy or mixed(),
@@ -113,8 +111,8 @@ def plan(
     )
 
 
-def whole(condition: Condition = Condition.TOM, policy: QTable | None = None, **settings: Any) -> Plan:
-    """A plan for a sitting of all stages that there are."""
+def whole(condition: Condition = Condition.TOM, policy: QTable | None = None, **settings: Any) -> SessionConfig:
+    """A plan for a session of all stages that there are."""
     return plan(condition, policy, STAGES, **settings)
 
 

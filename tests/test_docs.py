@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.cli.front import recollect
-from kiosk.study.stages import diagram
+from kiosk.cli.main import recollect
+from kiosk.experiment.transitions import diagram
 
 ROOT = Path(__file__).parent.parent
 PAGES = [

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import pytest
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from kiosk.refusals import not_toml, refusals
+from kiosk.errors import toml_error_message, validation_messages
 
 
 class Round(BaseModel):
@@ -39,7 +39,7 @@ def said(given: Any) -> tuple[str, ...]:
     """What is said of this."""
     with pytest.raises(ValidationError) as found:
         Drawing.model_validate(given)
-    return refusals(found.value, given, Drawing)
+    return validation_messages(found.value, given, Drawing)
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_a_fault_in_what_a_kind_shares_is_told_once_and_there() -> None:
     merged = {"title": "a", "shapes": [{"kind": "round", "radius": 10}] * 2}
     with pytest.raises(ValidationError) as found:
         Drawing.model_validate(merged)
-    assert refusals(found.value, given, Drawing) == ("round.radius must be from 1 to 9, but it is 10",)
+    assert validation_messages(found.value, given, Drawing) == ("round.radius must be from 1 to 9, but it is 10",)
 
 
 def test_a_long_value_is_cut_short() -> None:
@@ -96,4 +96,4 @@ def test_a_long_value_is_cut_short() -> None:
     ],
 )
 def test_a_text_that_is_no_toml_is_told_in_words(error: str, meant: str) -> None:
-    assert not_toml(ValueError(error)) == meant
+    assert toml_error_message(ValueError(error)) == meant

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from kiosk import BadInput, settings
-from kiosk.refusals import refusals
-from kiosk.settings import ASSETS, POLICIES, Game, Keys, Settings, Timing, policy_path
+from kiosk import UserInputError, config
+from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, policy_path
+from kiosk.errors import validation_messages
 
 
 def written(folder: Path, content: str | bytes) -> Path:
@@ -24,7 +24,7 @@ def written(folder: Path, content: str | bytes) -> Path:
 
 def refusal(file: Path) -> str:
     """The sentence with which a study file is refused."""
-    with pytest.raises(BadInput) as refused:
+    with pytest.raises(UserInputError) as refused:
         Settings.read(file)
     assert str(refused.value).startswith(f"the study file {file}")
     return str(refused.value)
@@ -39,7 +39,7 @@ def test_an_empty_study_file_sets_what_the_study_set(tmp_path: Path) -> None:
 
 def test_a_study_file_sets_what_it_names_and_nothing_else(tmp_path: Path) -> None:
     read = Settings.read(written(tmp_path, 'languages = ["it"]\n[game]\nrows = 2\n[voice]\nvolume = 0\n'))
-    expected = Settings(languages=("it",), game=Game(rows=2), voice=settings.Voice(volume=0))
+    expected = Settings(languages=("it",), game=Game(rows=2), voice=config.VoiceConfig(volume=0))
     assert read.model_dump() == expected.model_dump()
 
 
@@ -67,7 +67,7 @@ def test_a_file_in_another_encoding_is_refused(tmp_path: Path) -> None:
 
 def test_what_cannot_be_set_is_refused_by_name_and_all_of_it(tmp_path: Path) -> None:
     file = written(tmp_path, "colour = 1\n[game]\nrows = 0\n[timing]\nmark_delay = -1")
-    with pytest.raises(BadInput) as refused:
+    with pytest.raises(UserInputError) as refused:
         Settings.read(file)
     assert [sentence.removeprefix(f"the study file {file}: ") for sentence in refused.value.sentences] == [
         "game.rows must be from 1 to 12, but it is 0",
@@ -89,15 +89,15 @@ def test_what_a_file_names_by_a_path_lies_beside_it(tmp_path: Path) -> None:
     assert Settings().find("cards", "toys") == Path("toys")
 
 
-@pytest.mark.parametrize("chord", ["", "F1", "Shift+F12", "Ctrl+P", "Shift+Ctrl+Alt+Space"])
-def test_an_experimenters_key_is_a_chord_a_function_key_or_none(chord: str) -> None:
-    assert Keys(panel=chord).panel == chord
+@pytest.mark.parametrize("shortcut", ["", "F1", "Shift+F12", "Ctrl+P", "Shift+Ctrl+Alt+Space"])
+def test_an_experimenters_key_is_a_shortcut_a_function_key_or_none(shortcut: str) -> None:
+    assert Keys(panel=shortcut).panel == shortcut
 
 
-@pytest.mark.parametrize("chord", ["P", "Shift+P", "Ctrl", "Ctrl+", "ctrl+P", "Ctrl P", "F0"])
-def test_what_a_visitor_may_type_is_no_experimenters_key(chord: str) -> None:
-    with pytest.raises(ValidationError, match="is no chord"):
-        Keys(panel=chord)
+@pytest.mark.parametrize("shortcut", ["P", "Shift+P", "Ctrl", "Ctrl+", "ctrl+P", "Ctrl P", "F0"])
+def test_what_a_visitor_may_type_is_no_experimenters_key(shortcut: str) -> None:
+    with pytest.raises(ValidationError, match="is no shortcut"):
+        Keys(panel=shortcut)
 
 
 def test_keys_that_are_switched_off_do_not_stand_twice() -> None:
@@ -106,8 +106,8 @@ def test_keys_that_are_switched_off_do_not_stand_twice() -> None:
 
 def sections() -> list[type[BaseModel]]:
     """Every part of the study file, and the whole."""
-    found = [kind for _, kind in inspect.getmembers(settings, inspect.isclass) if issubclass(kind, BaseModel)]
-    return [kind for kind in found if kind.__module__ == settings.__name__ and not kind.__name__.startswith("_")]
+    found = [kind for _, kind in inspect.getmembers(config, inspect.isclass) if issubclass(kind, BaseModel)]
+    return [kind for kind in found if kind.__module__ == config.__name__ and not kind.__name__.startswith("_")]
 
 
 @pytest.mark.parametrize("section", sections(), ids=lambda section: str(section.__name__))
@@ -146,7 +146,7 @@ def test_the_assets_are_found() -> None:
 
 
 def test_a_policy_goes_by_its_name_or_by_its_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settings, "POLICIES", tmp_path)
+    monkeypatch.setattr(config, "POLICIES", tmp_path)
     (tmp_path / "own.json").write_text("{}")
     assert policy_path("own") == tmp_path / "own.json"
     assert policy_path("other") == Path("other")
@@ -176,6 +176,6 @@ def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str
         given = {place[0]: given}
     with pytest.raises(ValidationError) as error:
         Settings.model_validate(given)
-    for sentence in refusals(error.value, given, Settings):
+    for sentence in validation_messages(error.value, given, Settings):
         assert sentence.startswith(".".join(place))
         assert re.search(r"must be (a whole number|from \S+ to \S+)", sentence), sentence

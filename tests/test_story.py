@@ -1,4 +1,4 @@
-"""One whole sitting, from the command line to the database, is the same to the byte as it always was."""
+"""One whole session, from the command line to the database, is the same to the byte as it always was."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from pathlib import Path
 from tests.golden import story
 from tests.golden.story import recollect
 
-RESULT = {"sitting", "status", "condition", "body", "flips", "moves", "pairs", "hints"}
+RESULT = {"session", "status", "condition", "body", "flips", "moves", "pairs", "hints"}
 
 
 def test_the_golden_story_is_told_again_to_the_byte() -> None:
     assert story.told() == story.FILE.read_text("utf-8")
 
 
-def test_a_rehearsal_prints_one_object_and_the_list_of_sittings_has_the_same(tmp_path: Path) -> None:
+def test_a_rehearsal_prints_one_object_and_the_list_of_sessions_has_the_same(tmp_path: Path) -> None:
     arguments = ("--data", str(tmp_path), "--json")
     played = json.loads(recollect("rehearse", "--headless", "--seed", "4", "--condition", "notom", *arguments))
-    (listed,) = json.loads(recollect("sittings", *arguments))
+    (listed,) = json.loads(recollect("sessions", *arguments))
     assert set(played) >= RESULT
     assert played["status"] == "completed"
     assert played["condition"] == "notom"

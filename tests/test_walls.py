@@ -14,60 +14,67 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "findings", "language_codes", "refusals", "settings", "units"}
-"""The package itself, the study file's types, how they refuse, what a look finds, codes of languages, and units: every
-room may know them, and they know no room."""
+BELOW_ALL = {"kiosk", "errors", "config", "language_codes", "preflight", "units"}
+"""The package itself, user errors, the study file's types, language codes, check results and units: every package may
+import them, and they import no package."""
 
 ROOMS: dict[str, set[str]] = {
     "kiosk": set(),
-    "findings": set(),
+    "errors": set(),
+    "config": set(),
     "language_codes": set(),
-    "refusals": set(),
-    "settings": set(),
+    "preflight": set(),
     "units": set(),
-    "keeping": set(),
+    "sd_notify": set(),
+    "supervisor": {"sd_notify"},
+    "autostart": set(),
     "game": set(),
-    "assistant": {"game"},
-    "study": {"game", "assistant"},
-    "robot": {"game", "assistant", "study"},
-    "store": {"game", "assistant", "study"},
-    "ui": {"game", "assistant", "study", "robot", "store", "keeping"},
-    "training": {"game", "assistant"},
-    "analysis": {"game", "assistant", "study", "robot", "store"},
-    "cli": {"game", "assistant", "study", "robot", "store", "ui", "training", "analysis", "keeping"},
+    "assistance": {"game"},
+    "experiment": {"game", "assistance"},
+    "study": {"game", "assistance", "experiment"},
+    "robots": {"game", "assistance", "experiment"},
+    "store": {"game", "assistance", "experiment"},
+    "export": {"game", "assistance", "experiment", "store"},
+    "ui": {"game", "assistance", "experiment", "robots", "store", "sd_notify", "supervisor"},
+    "training": {"game", "assistance"},
+    "analysis": {"game", "assistance", "experiment", "robots", "store", "export"},
+    "cli": {
+        *("game", "assistance", "experiment", "study", "robots", "store", "export", "ui", "training", "analysis"),
+        *("supervisor", "sd_notify", "autostart"),
+    },
     "__main__": {"cli"},
 }
-"""Which rooms a room may import from, besides itself and what is below all."""
+"""Which packages a package may import from, besides itself and what is below all."""
 
 OUTSIDE: dict[str, set[str]] = {
     "PySide6": {"ui"},
     "shiboken6": {"ui"},
     "sqlite3": {"store"},
     "sqlite_utils": {"store"},
-    "requests": {"robot"},
-    "urllib": {"robot"},
-    "urllib3": {"robot"},
-    "http": {"robot"},
-    "socket": {"robot", "keeping"},
-    "websocket": {"robot"},
-    "websockets": {"robot"},
-    "pyttsx3": {"robot"},
+    "requests": {"robots"},
+    "urllib": {"robots"},
+    "urllib3": {"robots"},
+    "http": {"robots"},
+    "socket": {"robots", "sd_notify"},
+    "websocket": {"robots"},
+    "websockets": {"robots"},
+    "pyttsx3": {"robots"},
     "scipy": {"analysis"},
     "matplotlib": {"analysis"},
     "pandas": {"analysis"},
-    "numpy": {"robot", "training", "analysis"},
+    "numpy": {"robots", "training", "analysis"},
     "numba": {"training"},
     "gymnasium": {"training"},
     "click": {"cli"},
     "rich": {"cli"},
 }
-"""What of the world outside belongs to some rooms only; anything else may be imported anywhere."""
+"""What of the world outside belongs to some packages only; anything else may be imported anywhere."""
 
 LOADED_ANYWAY = {"urllib", "http", "socket", "click", "rich"}
-"""Libraries load these on their own account, so having them in memory breaks no wall."""
+"""Libraries load these on their own account, so having them in memory breaks no rule."""
 
-BROUGHT_ALONG = {"store": {"numpy"}, "training": {"sqlite3"}}
-"""The same in one room only: sqlite_utils looks for numpy, numba for coverage, which keeps a database."""
+BROUGHT_ALONG = {"store": {"numpy"}, "export": {"numpy"}, "training": {"sqlite3"}}
+"""The same in one package only: sqlite_utils looks for numpy, numba for coverage, which keeps a database."""
 
 
 def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
@@ -170,14 +177,14 @@ def test_the_rooms_know_each_other_in_one_direction() -> None:
         for other in known:
             assert room not in ROOMS[other]
             assert ROOMS[other] <= known or room in {"__main__"}
-    for one, another in (("robot", "store"), ("ui", "training"), ("ui", "analysis"), ("training", "analysis")):
+    for one, another in (("robots", "store"), ("ui", "training"), ("ui", "analysis"), ("training", "analysis")):
         assert another not in ROOMS[one]
         assert one not in ROOMS[another]
 
 
 def test_tests_of_quiet_rooms_open_no_window_either() -> None:
     tests = Path(__file__).parent
-    for room in ("game", "assistant", "study", "store", "training"):
+    for room in ("game", "assistance", "experiment", "study", "store", "export", "training"):
         for file in (tests / room).glob("**/*.py"):
             names = {name.split(".")[0] for _, name in imported(f"tests.{room}.{file.stem}", file)}
             assert not names & {"PySide6", "pytestqt"}, file
@@ -189,21 +196,25 @@ def test_tests_of_quiet_rooms_open_no_window_either() -> None:
 @pytest.mark.parametrize(
     ("room", "planted", "cry"),
     [
-        ("game", "import kiosk.assistant.mdp", "game may not know assistant"),
-        ("game", "from kiosk import study", "game may not know study"),
-        ("assistant", "from kiosk.study.condition import Condition", "assistant may not know study"),
-        ("assistant", "from ..study import condition", "assistant may not know study"),
-        ("study", "def f():\n    from kiosk.store import recorder", "study may not know store"),
-        ("study", "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import kiosk.ui", "study may not know ui"),
-        ("store", "from kiosk.robot.body import Body", "store may not know robot"),
-        ("robot", "import kiosk.store", "robot may not know store"),
+        ("game", "import kiosk.assistance.policy", "game may not know assistance"),
+        ("game", "from kiosk import experiment", "game may not know experiment"),
+        ("assistance", "from kiosk.experiment.condition import Condition", "assistance may not know experiment"),
+        ("assistance", "from ..experiment import condition", "assistance may not know experiment"),
+        ("experiment", "def f():\n    from kiosk.store import recorder", "experiment may not know store"),
+        (
+            "experiment",
+            "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import kiosk.ui",
+            "experiment may not know ui",
+        ),
+        ("store", "from kiosk.robots.embodiment import Embodiment", "store may not know robots"),
+        ("robots", "import kiosk.store", "robots may not know store"),
         ("ui", "import kiosk.training", "ui may not know training"),
-        ("training", "from kiosk.study import session", "training may not know study"),
+        ("training", "from kiosk.experiment import session", "training may not know experiment"),
         ("analysis", "import kiosk.ui", "analysis may not know ui"),
-        ("analysis", "import kiosk.cli.front", "analysis may not know cli"),
-        ("study", "import kiosk.__main__", "study may not know __main__"),
+        ("analysis", "import kiosk.cli.main", "analysis may not know cli"),
+        ("experiment", "import kiosk.__main__", "experiment may not know __main__"),
         ("game", "import sqlite3", "sqlite3 does not belong in game"),
-        ("study", "import PySide6.QtCore", "PySide6 does not belong in study"),
+        ("experiment", "import PySide6.QtCore", "PySide6 does not belong in experiment"),
         ("store", "from PySide6.QtCore import QObject", "PySide6 does not belong in store"),
         ("ui", "import sqlite3 as database", "sqlite3 does not belong in ui"),
         ("store", "import urllib.request", "urllib does not belong in store"),
@@ -211,7 +222,7 @@ def test_tests_of_quiet_rooms_open_no_window_either() -> None:
         ("training", "import scipy.stats", "scipy does not belong in training"),
         ("store", "import click", "click does not belong in store"),
         ("game", "from importlib import import_module\nimport_module('numpy')", "numpy does not belong in game"),
-        ("study", "import importlib\nimportlib.import_module('kiosk.ui.app')", "study may not know ui"),
+        ("experiment", "import importlib\nimportlib.import_module('kiosk.ui.app')", "experiment may not know ui"),
         ("game", "__import__('kiosk.store')", "game may not know store"),
         ("attic", "", "the house has no room attic"),
     ],
@@ -229,10 +240,10 @@ def test_a_planted_import_is_found(tmp_path: Path, room: str, planted: str, cry:
 def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
     package = tmp_path / "kiosk"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
-    for name in ("__init__.py", "settings.py"):
+    for name in ("__init__.py", "config.py"):
         with (package / name).open("a") as file:
             file.write("\nimport kiosk.game\n")
     assert [line.split(": ")[1] for line in breaches(package)] == [
         "kiosk may not know game (kiosk.game)",
-        "settings may not know game (kiosk.game)",
+        "config may not know game (kiosk.game)",
     ]

@@ -10,8 +10,7 @@ import matplotlib as mpl
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from kiosk.assistant.mdp import Action, Outcome, Phase, State
-from kiosk.assistant.qtable import QTable
+from kiosk.assistance.policy import Action, Outcome, Phase, QTable, State
 
 COLOURS = ("#f2f0eb", "#bcd4e6", "#6fa3cc", "#1f5a8c")
 """No help, column, row, card: light to dark, as the help grows."""
@@ -27,7 +26,7 @@ GAMES_COLOURS = ("#b0552f", "#1f5a8c", "#5f8f4e")
 STYLE: dict[Any, Any] = {"svg.fonttype": "none", "svg.hashsalt": "recollect", "text.parse_math": False, "font.size": 9}
 
 
-class Sample(Protocol):
+class FigureSample(Protocol):
     """Moves of many games under a label, and the paper's mean and SD beside them."""
 
     @property
@@ -79,7 +78,7 @@ def _cell(axes: Any, y: int, state: State, policy: QTable, visits: Mapping[State
     axes.text(state.outcome, y, SIGNS[action], ha="center", va="center", color=ink)
 
 
-def distributions(samples: Sequence[Sample], ending: str) -> bytes:
+def distributions(samples: Sequence[FigureSample], ending: str) -> bytes:
     """Moves a game as histograms, one over the other; above them our mean and SD (full) beside the paper's."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.2), layout="constrained")
@@ -99,7 +98,7 @@ def distributions(samples: Sequence[Sample], ending: str) -> bytes:
         return _rendered(figure, ending)
 
 
-def _compared(axes: Any, y: float, sample: Sample, colour: str) -> None:
+def _compared(axes: Any, y: float, sample: FigureSample, colour: str) -> None:
     mean = sum(sample.moves) / len(sample.moves)
     sd = (sum((moves - mean) ** 2 for moves in sample.moves) / (len(sample.moves) - 1)) ** 0.5
     axes.errorbar([mean], [y + 0.15], xerr=[sd], fmt="o", color=colour, capsize=3)

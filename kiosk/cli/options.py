@@ -1,15 +1,24 @@
-"""Options that several commands share."""
+"""Options, progress bars and prompts that several commands share."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+import secrets
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import click
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from kiosk.cli.wiring import DATA
-from kiosk.store.database import has_database, has_sittings
+from kiosk import UserInputError
+from kiosk.assistance.wording import Catalogue
+from kiosk.cli.composition import DATA
+from kiosk.config import ASSETS
+from kiosk.experiment.experimenter import SALT_BYTES, hash_pin
+from kiosk.store.database import has_database, has_sessions
 
 REHEARSALS = DATA / "rehearsals"
 """Where rehearsals go unless told otherwise."""
@@ -45,7 +54,7 @@ def _stored_data_option(is_there: Callable[[Path], bool]) -> Callable[..., Any]:
     )
 
 
-sittings_data_option = _stored_data_option(has_sittings)
+sessions_data_option = _stored_data_option(has_sessions)
 database_data_option = _stored_data_option(has_database)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
 robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
@@ -54,3 +63,62 @@ study_option = click.option("--study", type=click.Path(path_type=Path), help="Th
 site_option = click.option(
     "--site", default="", help="Where this kiosk stands, if data of several will be merged: A, B, ROME."
 )
+
+
+class ProgressCallback(Protocol):
+    """Is told how much is done; of how much, where that was not known before."""
+
+    def __call__(self, done: int, of: int | None = None, /) -> None:
+        """Draw it."""
+        ...
+
+
+@contextmanager
+def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterator[ProgressCallback]:
+    """A bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
+    columns = (
+        TextColumn(what),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}"),
+        TimeRemainingColumn(),
+    )
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, disable=hidden or not console.is_terminal, transient=True) as bar:
+        task = bar.add_task(what, total=total, rate="")
+
+        def tell(done: int, of: int | None = None, /) -> None:
+            speed = bar.tasks[0].speed
+            bar.update(task, completed=done, total=of, rate=f"{speed:,.0f}/s" if speed else "")
+
+        yield tell
+
+
+@click.command()
+@json_option
+def set_pin_command(*, as_json: bool) -> None:
+    """Choose the experimenter's PIN, and print the line for the study file that keeps it."""
+    chosen = _ask("PIN (4 to 12 digits)")
+    if _ask("The same again") != chosen:
+        raise UserInputError("the two PINs are not the same; nothing was changed")
+    line = hash_pin(chosen, secrets.token_bytes(SALT_BYTES))
+    click.echo(json.dumps({"pin": line}) if as_json else f'[experimenter]\npin = "{line}"')
+
+
+def _ask(prompt: str) -> str:
+    """What was typed, unseen; what is asked goes where it is not taken for the answer."""
+    answer: str = click.prompt(prompt, hide_input=True, err=True, default="", show_default=False)
+    return answer
+
+
+def read_catalogue(language: str) -> Catalogue:
+    """The catalogue of a language; raises BadInput with all the languages there are."""
+    if language not in shipped_languages():
+        raise UserInputError(f"there is no language {language!r}; there are {', '.join(shipped_languages())}")
+    return Catalogue(ASSETS / "sentences" / language)
+
+
+def shipped_languages() -> tuple[str, ...]:
+    """Every language that has a folder of sentences, English first, as everything else is measured against it."""
+    names = sorted(folder.name for folder in (ASSETS / "sentences").iterdir() if folder.is_dir())
+    return tuple(sorted(names, key=lambda name: name != "en"))

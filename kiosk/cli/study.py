@@ -11,22 +11,19 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import BadInput, program
-from kiosk.cli.front import BAD_INPUT
-from kiosk.cli.options import json_option
-from kiosk.cli.pin import pin
-from kiosk.robot.kinds import robot_of
-from kiosk.settings import Settings
-from kiosk.store.dataset.stored.followed import Followed
-from kiosk.store.dataset.tables.every import renamed_items
-from kiosk.study.declared.checked.cautions import cautions, minutes
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.declared.imported.items import Heading, read_items
-from kiosk.study.declared.imported.writing import write_questionnaire
-from kiosk.study.declared.questionnaire import Order, Questionnaire, TextPage
-from kiosk.study.declared.reference import as_page, as_study_file
-from kiosk.study.plan import Source, Study
-from kiosk.ui.probes.pictures import CannotDraw, undrawn
+from kiosk import UserInputError, program
+from kiosk.cli.main import BAD_INPUT
+from kiosk.cli.options import json_option, set_pin_command
+from kiosk.config import Settings
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire, TextPage
+from kiosk.experiment.session_config import Source, StudyConfig
+from kiosk.export.records import StudyMaterials
+from kiosk.export.tables import renamed_items
+from kiosk.robots.registry import create_robot
+from kiosk.study.csv_import import Heading, read_items, write_questionnaire
+from kiosk.study.loader import expected_minutes, read_study, study_warnings
+from kiosk.study.reference import as_page, as_study_file
+from kiosk.ui.checks import CannotDraw, undrawn
 
 MOST_PER_PAGE = 8
 SHORT_SHA = 12
@@ -37,20 +34,20 @@ def study() -> None:
     """Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN."""
 
 
-study.add_command(pin)
+study.add_command(set_pin_command)
 
 
-@study.command()
+@study.command("check")
 @click.argument("file", type=click.Path(path_type=Path))
 @json_option
 @click.pass_context
-def check(context: click.Context, file: Path, *, as_json: bool) -> None:
+def study_check(context: click.Context, file: Path, *, as_json: bool) -> None:
     """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
     try:
         read = read_study(Settings.read(file))
         _check_robot(read.settings)
         untried = check_pictures(read)
-    except BadInput as refusal:
+    except UserInputError as refusal:
         if not as_json:
             raise
         click.echo(json.dumps({"faults": refusal.sentences}))
@@ -71,26 +68,26 @@ def check(context: click.Context, file: Path, *, as_json: bool) -> None:
         click.echo(f"caution: {caution}")
 
 
-def check_pictures(read: Study) -> list[str]:
+def check_pictures(read: StudyConfig) -> list[str]:
     """Raise BadInput if a picture of the study's own cannot be drawn; say so if none can be tried here."""
     try:
         faults = tuple(undrawn(program("display", "pictures"), read.own_pictures))
     except CannotDraw as error:
         return [f"the pictures were not tried: {error}"]
     if faults:
-        raise BadInput(*faults)
+        raise UserInputError(*faults)
     return []
 
 
 def _check_robot(settings: Settings) -> None:
     """Raise BadInput if what its robot needs is not installed; it is not looked for."""
     try:
-        robot_of(settings.robot, settings.language_codes[0])
-    except BadInput as refusal:
-        raise BadInput(f"{settings.name}: robot.kind: {refusal}") from refusal
+        create_robot(settings.robot, settings.language_codes[0])
+    except UserInputError as refusal:
+        raise UserInputError(f"{settings.name}: robot.kind: {refusal}") from refusal
 
 
-def summarised(read: Study) -> dict[str, Any]:
+def summarised(read: StudyConfig) -> dict[str, Any]:
     """What a study is, for people and programs."""
     settings, plan = read.settings, read.plans[0]
     return {
@@ -101,9 +98,9 @@ def summarised(read: Study) -> dict[str, Any]:
         "block": settings.allocation.block if settings.allocation.quotas else None,
         "policy": f"{plan.policy.name} {plan.policy.sha256[:8]}",
         "items": {asked.id: _questions(asked) for asked in (plan.about_you, *plan.questionnaires)},
-        "minutes": max(round(minutes(plan)) for plan in read.plans),
+        "minutes": max(round(expected_minutes(plan)) for plan in read.plans),
         "sources": [_described(source) for source in read.sources],
-        "cautions": [*cautions(read), *_renamed(read)],
+        "cautions": [*study_warnings(read), *_renamed(read)],
     }
 
 
@@ -127,9 +124,9 @@ def _came_from(source: Source) -> str:
     return f"{source.key}: {source.name!r} is {kind}: {source.path}{version}, sha256 {source.sha256[:SHORT_SHA]}"
 
 
-def _renamed(read: Study) -> Iterator[str]:
+def _renamed(read: StudyConfig) -> Iterator[str]:
     """The items whose columns in a data set are called otherwise."""
-    for item, column in renamed_items(Followed(read.plans)).items():
+    for item, column in renamed_items(StudyMaterials(read.plans)).items():
         yield f"about_you: the item {item!r} will be the column {column!r}, as the data set's own has that name"
 
 
@@ -149,14 +146,14 @@ def _told(value: object) -> str:
     return str(value)
 
 
-@study.command()
-def example() -> None:
+@study.command("example")
+def study_example() -> None:
     """Print a study file with every key as it is without one, each with its sentence."""
     click.echo(as_study_file(Settings()), nl=False)
 
 
-@study.command()
-def reference() -> None:
+@study.command("reference")
+def study_reference() -> None:
     """Print the reference of every key of a study file (Markdown)."""
     click.echo(as_page(Settings), nl=False)
 
@@ -169,9 +166,11 @@ def reference() -> None:
 @click.option("--note", help="Where its wording is from.")
 @click.option("--per-page", type=click.IntRange(1, MOST_PER_PAGE), default=1, show_default=True, help="Items a page.")
 @click.option("--shuffled", is_flag=True, help="Shuffle its items anew for every visitor.")
-def bring_in(csv: Path, name: str, version: str, out: Path, note: str | None, per_page: int, *, shuffled: bool) -> None:
+def study_import(
+    csv: Path, name: str, version: str, out: Path, note: str | None, per_page: int, *, shuffled: bool
+) -> None:
     """Make a questionnaire of a CSV table, one row per item; docs/extend.md names the columns."""
-    order = Order.SHUFFLED if shuffled else Order.FIXED
+    order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(
         id=name, version=version, note=note or f"Brought in from {csv.name}.", per_page=per_page, order=order
     )

@@ -1,24 +1,21 @@
-"""Connections to a database file: for writing, for reading, and from memory where SQLite cannot open it itself.
-
-A reader opens the file read only and as SQLite wants it, with its logs and its locks. It never says that the file does
-not change (``immutable``): between the steps of a checkpoint a file makes sense only together with its log.
-"""
+"""Connections to a database file, and folders that are written whole or not at all."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import sqlite3
 import sys
 import time
-from collections.abc import Callable
-from contextlib import closing, suppress
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 from weakref import WeakSet
 
-from kiosk import DISK_FULL, BadInput, StoreFailed, is_nearly_full, why
+from kiosk import DISK_FULL, StoreFailed, UserInputError, is_nearly_full, unwritable, why
 
 PRIVATE = 0o600
 """What people said is for the user who runs the kiosk alone. SQLite gives its logs the mode of the database."""
@@ -139,11 +136,11 @@ def reason(error: BaseException, folder: Path) -> str:
     return str(error)
 
 
-def failure(what: str, error: sqlite3.Error | OSError, folder: Path) -> BadInput | StoreFailed:
+def failure(what: str, error: sqlite3.Error | OSError, folder: Path) -> UserInputError | StoreFailed:
     """Return what to raise when a database cannot be written: StoreFailed where it may be possible later."""
     words = reason(error, folder)
     passing = words == DISK_FULL or primary_code(error) in _PASSING
-    return StoreFailed(f"{what}: {words}") if passing else BadInput(f"{what}: {words}")
+    return StoreFailed(f"{what}: {words}") if passing else UserInputError(f"{what}: {words}")
 
 
 def _beside(path: Path, log: str) -> Path:
@@ -231,3 +228,29 @@ def _replay_logs(name: str, content: dict[str, bytes], memory: Connection) -> No
             # A copy of nothing would be a database with a page.
             if together.execute("PRAGMA page_count").fetchone()[0]:
                 together.backup(memory)
+
+
+UNFINISHED = ".unfinished"
+
+
+@contextmanager
+def atomic_directory(out: Path) -> Iterator[Path]:
+    """A new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
+
+    Raises BadInput if it cannot be made, or if there is one already, which the end of the program cut off: it may hold
+    what people said, so somebody should know of it. Raises OSError if the disk does not take all of it.
+    """
+    made = out.with_name(out.name + UNFINISHED)
+    if made.exists():
+        raise UserInputError(f"{made} was left unfinished; remove it first")
+    try:
+        made.mkdir(mode=0o700, parents=True)
+    except OSError as error:
+        raise unwritable(f"the folder {out} cannot be used", error) from error
+    try:
+        yield made
+        if out.exists():
+            out.rmdir()
+        made.rename(out)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)

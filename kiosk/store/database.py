@@ -1,15 +1,17 @@
-"""Opening the one database file: created, migrated, or refused in words and left as it is."""
+"""Open the database of a data folder: created, migrated, or refused in one sentence."""
 
 from __future__ import annotations
 
+import hashlib
 import sqlite3
 from contextlib import closing
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from kiosk import BadInput
+from kiosk import UserInputError
 from kiosk.store.connecting import (
     Connection,
     failure,
@@ -20,7 +22,216 @@ from kiosk.store.connecting import (
     primary_code,
     reason,
 )
-from kiosk.store.migrations import MIGRATIONS, SCHEMA
+
+
+@dataclass(frozen=True)
+class Migration:
+    """One step: statements that bring a database of the step before to this one."""
+
+    number: int
+    name: str
+    statements: tuple[str, ...]
+
+    @property
+    def sha256(self) -> str:
+        """The hash of its statements, for the receipt."""
+        return hashlib.sha256("\n".join(self.statements).encode()).hexdigest()
+
+
+_TABLES = (
+    """
+    CREATE TABLE migration (
+        number INTEGER PRIMARY KEY,
+        name TEXT NOT NULL,
+        sha256 TEXT NOT NULL,
+        applied_at TEXT NOT NULL
+    ) STRICT
+    """,
+    # The files that a session follows are kept once, under their hash, so that it can be replayed without them.
+    """
+    CREATE TABLE source (
+        sha256 TEXT PRIMARY KEY,
+        content TEXT NOT NULL
+    ) STRICT, WITHOUT ROWID
+    """,
+    # The slots of a list are fixed before its first visitor; a later list of a site continues its earlier one.
+    """
+    CREATE TABLE allocation (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        site TEXT NOT NULL,
+        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        seed INTEGER NOT NULL,
+        block INTEGER NOT NULL,
+        quotas TEXT NOT NULL CHECK (json_valid(quotas)),
+        places TEXT NOT NULL CHECK (json_valid(places)),
+        fixed_at TEXT NOT NULL
+    ) STRICT
+    """,
+    """
+    CREATE TABLE session (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        started_at TEXT NOT NULL,
+        seed INTEGER NOT NULL,
+        condition TEXT NOT NULL,
+        body TEXT NOT NULL,
+        language TEXT NOT NULL,
+        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        version TEXT NOT NULL,
+        code_commit TEXT NOT NULL,
+        deck TEXT NOT NULL,
+        policy_sha256 TEXT NOT NULL,
+        settings_sha256 TEXT NOT NULL REFERENCES source (sha256),
+        policy_source TEXT NOT NULL REFERENCES source (sha256),
+        questionnaire_source TEXT NOT NULL REFERENCES source (sha256),
+        sentences_source TEXT NOT NULL REFERENCES source (sha256),
+        site TEXT NOT NULL DEFAULT '',
+        list INTEGER REFERENCES allocation (id),
+        place INTEGER CHECK ((place IS NULL) = (list IS NULL)),
+        allotted TEXT
+            CHECK (allotted IN ('list', 'override', 'beyond') AND (allotted IS 'list') = (place IS NOT NULL)),
+        information_source TEXT REFERENCES source (sha256),
+        about_you_source TEXT REFERENCES source (sha256),
+        practice_deck TEXT
+    ) STRICT
+    """,
+    # at_ms counts from the start of the session; wall_ms is the time of day at which it was written, ms since 1970.
+    """
+    CREATE TABLE event (
+        session INTEGER NOT NULL REFERENCES session (id),
+        seq INTEGER NOT NULL,
+        at_ms INTEGER NOT NULL,
+        origin TEXT NOT NULL CHECK (origin IN ('world', 'session', 'recovery')),
+        type TEXT NOT NULL,
+        body TEXT NOT NULL CHECK (json_valid(body)),
+        wall_ms INTEGER,
+        PRIMARY KEY (session, seq)
+    ) STRICT, WITHOUT ROWID
+    """,
+    # Every session that begins asks who finished a game.
+    "CREATE INDEX game_finished ON event (session) WHERE type = 'GameFinished'",
+    # Each kind of session has numbers of its own, so that a rehearsal uses up no participant's number.
+    """
+    CREATE TABLE participant (
+        session INTEGER PRIMARY KEY REFERENCES session (id),
+        site TEXT NOT NULL,
+        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        number INTEGER NOT NULL,
+        code TEXT NOT NULL UNIQUE,
+        UNIQUE (site, simulated, number)
+    ) STRICT
+    """,
+    # Visitors who are not stored are only counted: a time would tell them apart.
+    """
+    CREATE TABLE visit (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        why TEXT NOT NULL CHECK (why IN ('declined', 'under_age', 'left')),
+        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2))
+    ) STRICT
+    """,
+    # What stays of a session that was withdrawn, so that counts still add up.
+    """
+    CREATE TABLE tombstone (
+        session INTEGER PRIMARY KEY,
+        site TEXT NOT NULL,
+        number INTEGER NOT NULL,
+        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        condition TEXT NOT NULL,
+        list INTEGER REFERENCES allocation (id),
+        place INTEGER,
+        allotted TEXT,
+        status TEXT NOT NULL,
+        game_completed INTEGER NOT NULL CHECK (game_completed IN (0, 1)),
+        withdrawn_at TEXT NOT NULL,
+        UNIQUE (site, simulated, number)
+    ) STRICT
+    """,
+    # What experimenters did outside sessions.
+    """
+    CREATE TABLE booth_event (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        wall_ms INTEGER NOT NULL,
+        type TEXT NOT NULL,
+        body TEXT NOT NULL CHECK (json_valid(body))
+    ) STRICT
+    """,
+    # A row comes with its tombstone and goes once no file of the folder holds the participant's data. Its hash checks a
+    # code that is entered again; the code itself is gone.
+    """
+    CREATE TABLE unfinished_withdrawal (
+        session INTEGER PRIMARY KEY REFERENCES tombstone (session),
+        code_sha256 TEXT NOT NULL
+    ) STRICT
+    """,
+)
+
+_NEVER_CHANGED = {
+    "source": ("update", "delete"),
+    "migration": ("update", "delete"),
+    "allocation": ("update", "delete"),
+    "visit": ("update", "delete"),
+    "tombstone": ("update", "delete"),
+    "booth_event": ("update", "delete"),
+    "session": ("update",),
+    "event": ("update",),
+    "participant": ("update",),
+}
+"""The statements that no row of a table takes."""
+
+_IN_ITS_WAY = {
+    "event": "session = NEW.session AND seq = NEW.seq",
+    "session": "id = NEW.id",
+    "source": "sha256 = NEW.sha256 AND content IS NOT NEW.content",
+    "migration": "number = NEW.number",
+    "allocation": "id = NEW.id",
+    "visit": "id = NEW.id",
+    "booth_event": "id = NEW.id",
+    "participant": "session = NEW.session OR code = NEW.code"
+    " OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
+    "tombstone": "session = NEW.session OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
+}
+"""Which row a new one would replace: INSERT OR REPLACE deletes it without asking the triggers on delete."""
+
+_GONE_WHEN_WITHDRAWN = {"event": "session", "session": "id", "participant": "session"}
+"""Tables whose rows may be deleted once there is a tombstone of their session, which this column names."""
+
+_TRIGGERS = (
+    *(
+        f"""
+        CREATE TRIGGER {table}_is_never_{change}d BEFORE {change} ON {table}
+        BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+        """
+        for table, changes in _NEVER_CHANGED.items()
+        for change in changes
+    ),
+    *(
+        f"""
+        CREATE TRIGGER {table}_is_never_replaced BEFORE INSERT ON {table}
+        WHEN EXISTS (SELECT 1 FROM {table} WHERE {in_its_way})
+        BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+        """  # noqa: S608 - the names are ours
+        for table, in_its_way in _IN_ITS_WAY.items()
+    ),
+    *(
+        f"""
+        CREATE TRIGGER {table}_is_deleted_only_when_withdrawn BEFORE delete ON {table}
+        WHEN NOT EXISTS (SELECT 1 FROM tombstone WHERE session = OLD.{column})
+        BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+        """  # noqa: S608 - the names are ours
+        for table, column in _GONE_WHEN_WITHDRAWN.items()
+    ),
+    """
+    CREATE TRIGGER session_that_was_withdrawn_stays_so BEFORE INSERT ON session
+    WHEN EXISTS (SELECT 1 FROM tombstone WHERE session = NEW.id)
+    BEGIN SELECT RAISE(ABORT, 'what was withdrawn does not come back'); END
+    """,
+)
+
+MIGRATIONS: tuple[Migration, ...] = (Migration(1, "the tables of 0.2", (*_TABLES, *_TRIGGERS)),)
+"""Every step so far, the first one creates the database; a step that was released never changes."""
+
+SCHEMA = MIGRATIONS[-1].number
+"""The newest step this program knows."""
+
 
 FILE = "recollect.db"
 LOCK = "recollect.lock"
@@ -34,15 +245,15 @@ BUSY = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 """What SQLite answers where another connection holds the database."""
 
 
-class Foreign(BadInput):
+class Foreign(UserInputError):
     """A file in the place of the database that no Recollect made."""
 
 
-class Newer(BadInput):
+class Newer(UserInputError):
     """A database that a newer Recollect wrote."""
 
 
-def lock(folder: Path) -> FileLock:
+def lock_folder(folder: Path) -> FileLock:
     """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
 
     It comes before the database is opened: a newer program must not migrate it under a kiosk that runs. Raises
@@ -55,7 +266,7 @@ def lock(folder: Path) -> FileLock:
         held.acquire(timeout=LOCK_WAIT_S)
         give_to_owner_of_folder(folder / LOCK)
     except Timeout as error:
-        raise BadInput(f"another Recollect is writing in {folder}") from error
+        raise UserInputError(f"another Recollect is writing in {folder}") from error
     except OSError as error:
         raise failure(f"the data folder {folder} cannot be used", error, folder) from error
     return held
@@ -86,7 +297,7 @@ def open_for_writing(folder: Path) -> Connection:
         _make(folder)
         if path.exists():
             if not path.is_file():
-                raise BadInput(f"the database {path} cannot be used: it is not a file")
+                raise UserInputError(f"the database {path} cannot be used: it is not a file")
             _ours(path).close()
         connection = for_writing(path)
         try:
@@ -126,14 +337,14 @@ def has_database(folder: Path) -> bool:
     return (folder / FILE).is_file()
 
 
-def has_sittings(folder: Path) -> bool:
-    """Tell whether a data folder has stored sittings, or a database that cannot be looked into."""
+def has_sessions(folder: Path) -> bool:
+    """Tell whether a data folder has stored sessions, or a database that cannot be looked into."""
     if not has_database(folder):
         return False
     try:
         with closing(open_for_reading(folder)) as connection:
-            return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM sitting)").fetchone()[0])
-    except (BadInput, sqlite3.Error):
+            return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM session)").fetchone()[0])
+    except (UserInputError, sqlite3.Error):
         return True
 
 
@@ -141,7 +352,7 @@ def open_as_it_is(folder: Path) -> Connection:
     """The same, but an older one is opened as it was written."""
     path = folder / FILE
     if not path.is_file():
-        raise BadInput(f"there is no database in {folder}")
+        raise UserInputError(f"there is no database in {folder}")
     try:
         connection = _ours(path)
         try:
@@ -154,27 +365,27 @@ def open_as_it_is(folder: Path) -> Connection:
     return connection
 
 
-def unreadable(error: OSError | sqlite3.Error, folder: Path) -> BadInput:
+def unreadable(error: OSError | sqlite3.Error, folder: Path) -> UserInputError:
     """Return what to raise when the database of a folder cannot be read."""
-    return BadInput(f"the database {folder / FILE} cannot be read: {reason(error, folder)}")
+    return UserInputError(f"the database {folder / FILE} cannot be read: {reason(error, folder)}")
 
 
 def _make(folder: Path) -> None:
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except FileExistsError as error:
-        raise BadInput(f"the data folder {folder} cannot be used: it is a file") from error
+        raise UserInputError(f"the data folder {folder} cannot be used: it is a file") from error
 
 
 def _prepare(connection: sqlite3.Connection) -> None:
     _migrate(connection)
-    durable(connection)
+    make_durable(connection)
     connection.execute("PRAGMA foreign_keys = ON")
     # It only ever adds rows: the usual cache of 2 MB would fill over a day and look like a leak.
     connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
 
 
-def durable(connection: sqlite3.Connection) -> None:
+def make_durable(connection: sqlite3.Connection) -> None:
     """Have every transaction of a connection on the disk when it is committed."""
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = FULL")

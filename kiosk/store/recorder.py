@@ -1,4 +1,4 @@
-"""The one writer: a sitting's row and its events, on the disk before anybody is shown what they lead to."""
+"""How rows are written, and how a session that was cut off gets its end; whoever asks has a transaction open."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import hashlib
 import json
 import logging
 import sqlite3
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,19 +15,102 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from kiosk import BadInput, StoreFailed, __version__
-from kiosk.store.care.withdraw import finish_cut_off, is_unfinished
+from kiosk import StoreFailed, UserInputError, __version__
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
+from kiosk.experiment.questionnaire import QUESTIONNAIRES
+from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.store.connecting import failure, primary_code, reason
-from kiosk.store.database import BUSY, lock, open_for_writing
-from kiosk.store.people.lists import Lists, check_not_given_out_again
-from kiosk.store.people.participants import Participant, checked_site, enrol, participant_of
-from kiosk.store.rows import insert, insert_events, interrupted_at, json_text, mark_interrupted, now_ms
-from kiosk.study.allocation import Allotted, Place
-from kiosk.study.condition import Condition
-from kiosk.study.declared.questionnaire import QUESTIONNAIRES
-from kiosk.study.events import Event, Unstored
-from kiosk.study.plan import Plan
-from kiosk.study.session_kind import SessionKind
+from kiosk.store.database import BUSY, lock_folder, open_for_writing
+from kiosk.store.participants import (
+    AllocationLists,
+    Participant,
+    check_not_given_out_again,
+    checked_site,
+    enrol,
+    participant_of,
+)
+from kiosk.store.withdrawal import finish_cut_off, is_unfinished
+
+
+def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | None]) -> int:
+    """Write one row, told by its columns' names; returns its number."""
+    marks = ", ".join("?" * len(row))
+    columns = ", ".join(row)
+    cursor = connection.execute(
+        f"INSERT INTO {table} ({columns}) VALUES ({marks})",  # noqa: S608 - the names are ours
+        tuple(row.values()),
+    )
+    return cursor.lastrowid or 0
+
+
+def insert_events(connection: sqlite3.Connection, session: int, first_seq: int, events: Sequence[Event]) -> None:
+    """Write the next events of a session."""
+    written_ms = now_ms()
+    connection.executemany(
+        _INSERT_EVENT,
+        (
+            (session, seq, event.at_ms, _origin(event), *_type_and_body(event), written_ms)
+            for seq, event in enumerate(events, first_seq)
+        ),
+    )
+
+
+def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
+    """End every session whose last event is not its end, where that event left it; returns their numbers."""
+    open_sessions = connection.execute(
+        """
+        SELECT session.id, last.seq, last.at_ms FROM session JOIN event AS last ON last.session = session.id
+        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = session.id)
+        WHERE last.type <> 'SessionEnded' ORDER BY session.id
+        """
+    ).fetchall()
+    for session, seq, at_ms in open_sessions:
+        end = SessionEnded(at_ms=at_ms, status=Status.INTERRUPTED)
+        connection.execute(_INSERT_EVENT, (session, seq + 1, at_ms, "recovery", *_type_and_body(end), now_ms()))
+    return tuple(session for session, *_ in open_sessions)
+
+
+def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
+    """The seq of the end of a session that was interrupted; raises BadInput if it was not."""
+    last = connection.execute(
+        "SELECT seq, type, body FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
+    ).fetchone()
+    if last is None:
+        raise UserInputError(f"there is no session {session}")
+    seq, kind, body = last
+    if kind != SessionEnded.__name__ or json.loads(body)["status"] != Status.INTERRUPTED.value:
+        raise UserInputError(f"session {session} was not interrupted, so it cannot be gone on with")
+    return int(seq)
+
+
+def json_text(record: Mapping[str, Any]) -> str:
+    """A record as it stands in the database."""
+    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"))
+    # What the system says may hold lone surrogates, which no file can; written out, they are JSON's own escapes.
+    return text.encode("utf-8", "backslashreplace").decode()
+
+
+def now_ms() -> int:
+    """The wall's clock, in ms since 1970; it may be set back, so nothing is ever sorted by it."""
+    return time.time_ns() // 1_000_000
+
+
+_INSERT_EVENT = "INSERT INTO event (session, seq, at_ms, origin, type, body, wall_ms) VALUES (?, ?, ?, ?, ?, ?, ?)"
+
+
+def _origin(event: Event) -> str:
+    return "world" if isinstance(event, WorldEvent) else "session"
+
+
+def _type_and_body(event: Event) -> tuple[str, str]:
+    """An event's class, and its own fields as JSON; the time and the class have columns of their own."""
+    record = to_record(event)
+    kind = str(record.pop("type"))
+    del record["at_ms"]
+    return kind, json_text(record)
+
 
 _log = logging.getLogger(__name__)
 
@@ -37,16 +121,16 @@ class StoreBusy(StoreFailed):
 
 @dataclass(frozen=True)
 class Provenance:
-    """All that a sitting followed and came from, so that it can be replayed and defended."""
+    """All that a session followed and came from, so that it can be replayed and defended."""
 
-    plan: Plan
+    plan: SessionConfig
     seed: int
     body: str
     code_commit: str
     simulated: bool | SessionKind
-    place: Place | None = None
+    slot: AllocationSlot | None = None
     """The place that it takes in the list that the recorder fixed; given if, and only if, it was allotted by it."""
-    allotted: Allotted | None = None
+    allocation_source: AllocationSource | None = None
 
 
 OPENING_WAIT_MS = 5_000
@@ -57,7 +141,7 @@ class Recorder:
     """Writes one data folder; a second one on the same folder is refused in words."""
 
     def __init__(self, folder: Path, site: str = "", *, wait_ms: int = 0) -> None:
-        """Open the folder's database, and mark the sittings and finish the withdrawals that a crash cut off.
+        """Open the folder's database, and mark the sessions and finish the withdrawals that a crash cut off.
 
         Raises BadInput if the folder cannot be used, StoreFailed if the disk does not take it, as when it is full.
         ``site`` stands before the participants' numbers and codes, where data of several places will be merged. Once
@@ -66,11 +150,11 @@ class Recorder:
         """
         self.folder = folder
         self._site = checked_site(site)
-        self._lock = lock(folder)
-        self._sitting = 0
+        self._lock = lock_folder(folder)
+        self._session = 0
         self._next_seq = 1
-        self.begun = 0
-        """How many sittings were begun with this recorder."""
+        self.sessions_begun = 0
+        """How many sessions were begun with this recorder."""
         try:
             self._connection = self._open()
         except BaseException:
@@ -79,7 +163,7 @@ class Recorder:
         self.wait_ms = wait_ms
         """How long each method that writes waits for another program."""
         try:
-            with self.waiting(OPENING_WAIT_MS), self._transaction():
+            with self.retrying(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
         except StoreFailed as error:
             self._close()
@@ -97,7 +181,7 @@ class Recorder:
         self._close()
 
     @contextmanager
-    def waiting(self, wait_ms: int) -> Iterator[None]:
+    def retrying(self, wait_ms: int) -> Iterator[None]:
         """Wait so long for another program that holds the database, in place of the usual time."""
         self._set_wait(max(wait_ms, self.wait_ms))
         try:
@@ -107,73 +191,75 @@ class Recorder:
 
     # The list of places
 
-    def fix_list(
+    def create_allocation_list(
         self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, simulated: bool | SessionKind
-    ) -> tuple[Place, ...]:
+    ) -> tuple[AllocationSlot, ...]:
         """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
 
         Without a seed one is drawn and stored. Raises BadInput if the list that is fixed is another one, or if there
         is no such list; StoreFailed if the disk does not take it. It waits for another program, as opening does.
         """
-        with self.waiting(OPENING_WAIT_MS), self._transaction():
-            return self._lists(simulated=simulated).fix(quotas, block, seed)
+        with self.retrying(OPENING_WAIT_MS), self._transaction():
+            return self._lists(simulated=simulated).create(quotas, block, seed)
 
-    def next_place(self, *, simulated: bool | SessionKind) -> Place | None:
+    def next_slot(self, *, simulated: bool | SessionKind) -> AllocationSlot | None:
         """The first place of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
 
         It is computed from what is stored and nothing else. It only reads, so a program that writes is no hindrance.
         """
         with self._transaction("DEFERRED"):
-            return self._lists(simulated=simulated).next_place()
+            return self._lists(simulated=simulated).next_slot()
 
-    # Sittings
+    # Sessions
 
     def begin(self, provenance: Provenance, events: Sequence[Event]) -> Participant:
-        """Write a sitting's row with its first events, in one transaction; returns who the visitor is from here on.
+        """Write a session's row with its first events, in one transaction; returns who the visitor is from here on.
 
-        A sitting that never got its end, because the disk failed it, is marked as interrupted on the way.
+        A session that never got its end, because the disk failed it, is marked as interrupted on the way.
         """
         with self._transaction():
             mark_interrupted(self._connection)
-            sitting = self._insert_sitting(provenance)
-            insert_events(self._connection, sitting, 1, events)
-            participant = enrol(self._connection, sitting)
-        self._sitting = sitting
+            session = self._insert_session(provenance)
+            insert_events(self._connection, session, 1, events)
+            participant = enrol(self._connection, session)
+        self._session = session
         self._next_seq = 1 + len(events)
-        self.begun += 1
+        self.sessions_begun += 1
         return participant
 
     def resume(self, number: int) -> Participant:
-        """Go on with a sitting that was interrupted: the next events follow its last one.
+        """Go on with a session that was interrupted: the next events follow its last one.
 
-        Raises BadInput if there is no such sitting, or if it ended in another way.
+        Raises BadInput if there is no such session, or if it ended in another way.
         """
         with self._transaction():
             mark_interrupted(self._connection)
             seq = interrupted_at(self._connection, number)
             participant = participant_of(self._connection, number)
             if participant is None:
-                raise BadInput(f"sitting {number} is from before people were numbered, so it cannot be gone on with")
+                raise UserInputError(
+                    f"session {number} is from before people were numbered, so it cannot be gone on with"
+                )
             check_not_given_out_again(self._connection, number)
-        self._sitting = number
+        self._session = number
         self._next_seq = 1 + seq
         return participant
 
     def append(self, events: Sequence[Event]) -> None:
-        """Write the sitting's next events, in one transaction; raises StoreFailed if the disk does not take them."""
+        """Write the session's next events, in one transaction; raises StoreFailed if the disk does not take them."""
         with self._transaction():
-            insert_events(self._connection, self._sitting, self._next_seq, events)
+            insert_events(self._connection, self._session, self._next_seq, events)
         self._next_seq += len(events)
 
-    # Outside sittings
+    # Outside sessions
 
-    def count_visit(self, why: Unstored, *, simulated: bool | SessionKind) -> None:
+    def count_visit(self, why: NotRecordedReason, *, simulated: bool | SessionKind) -> None:
         """Count somebody who played without being stored; nothing else of them is kept, not even when."""
         with self._transaction():
             insert(self._connection, "visit", {"why": why.value, "simulated": int(simulated)})
 
-    def note(self, kind: str, body: Mapping[str, Any], wall_ms: int | None = None) -> None:
-        """Write down what an experimenter did outside a sitting; ``body`` holds JSON values.
+    def add_audit_event(self, kind: str, body: Mapping[str, Any], wall_ms: int | None = None) -> None:
+        """Write down what an experimenter did outside a session; ``body`` holds JSON values.
 
         ``wall_ms`` is when that was, in ms since 1970; by default now.
         """
@@ -197,8 +283,8 @@ class Recorder:
             _log.error("%s", failed)
         return open_for_writing(self.folder)
 
-    def _lists(self, *, simulated: bool | SessionKind) -> Lists:
-        return Lists(self._connection, self._site, simulated=simulated)
+    def _lists(self, *, simulated: bool | SessionKind) -> AllocationLists:
+        return AllocationLists(self._connection, self._site, simulated=simulated)
 
     def _close(self) -> None:
         self._connection.close()
@@ -222,11 +308,11 @@ class Recorder:
             if self._connection.in_transaction:
                 self._connection.execute("ROLLBACK")
 
-    def _insert_sitting(self, provenance: Provenance) -> int:
+    def _insert_session(self, provenance: Provenance) -> int:
         plan = provenance.plan
         return insert(
             self._connection,
-            "sitting",
+            "session",
             {
                 "started_at": datetime.now(UTC).isoformat(timespec="milliseconds"),
                 "seed": provenance.seed,
@@ -242,8 +328,8 @@ class Recorder:
             },
         )
 
-    def _sources(self, plan: Plan) -> dict[str, str]:
-        """Keep what the sitting follows; returns the columns that point there."""
+    def _sources(self, plan: SessionConfig) -> dict[str, str]:
+        """Keep what the session follows; returns the columns that point there."""
         return {
             "deck": json.dumps(plan.deck),
             "policy_sha256": plan.policy.sha256,
@@ -257,16 +343,16 @@ class Recorder:
         }
 
     def _allotment(self, provenance: Provenance) -> dict[str, str | int | None]:
-        """How the sitting came to its condition, as columns."""
-        place, allotted = provenance.place, provenance.allotted
-        if (place is not None) is not (allotted is Allotted.LIST):
-            raise ValueError(f"a sitting that was allotted by {allotted} cannot take {place}")
+        """How the session came to its condition, as columns."""
+        place, allotted = provenance.slot, provenance.allocation_source
+        if (place is not None) is not (allotted is AllocationSource.LIST):
+            raise ValueError(f"a session that was allotted by {allotted} cannot take {place}")
         if place is None:
             return {"allotted": allotted.value if allotted else None}
         if place.condition is not provenance.plan.condition:
             raise ValueError(f"{place} is not one for {provenance.plan.condition}")
         list_id = self._lists(simulated=provenance.simulated).list_with(place)
-        return {"allotted": Allotted.LIST.value, "list": list_id, "place": place.number}
+        return {"allotted": AllocationSource.LIST.value, "list": list_id, "place": place.number}
 
     def _keep_source(self, content: str) -> str:
         sha256 = hashlib.sha256(content.encode()).hexdigest()

@@ -6,7 +6,7 @@ from enum import Enum
 from numbers import Integral, Real
 from typing import TypeVar
 
-from kiosk import BadInput
+from kiosk import UserInputError
 
 Member = TypeVar("Member", bound=Enum)
 
@@ -17,18 +17,18 @@ def check_between(name: str, value: object, low: float, high: float) -> None:
     number = isinstance(value, Real) and not isinstance(value, bool)
     if not number or not low <= float(value) <= high:  # type: ignore[arg-type]  # a number has a float
         shown = f"{value:g}" if number else repr(value)
-        raise BadInput(f"{name} must be a number from {low:g} to {high:g}, not {shown}")
+        raise UserInputError(f"{name} must be a number from {low:g} to {high:g}, not {shown}")
 
 
 def whole(name: str, value: object) -> int:
     """Return a whole number of any type as Python's own; refuse everything else, such as 2.0 and True."""
     if isinstance(value, Integral) and not isinstance(value, bool):
         return int(value)
-    raise BadInput(f"{name} must be a whole number, not {value!r}")
+    raise UserInputError(f"{name} must be a whole number, not {value!r}")
 
 
 def one_of(name: str, value: object, kind: type[Member]) -> Member:
     """Return a member of ``kind``; refuse everything else, also the text that stands for a member in a file."""
     if isinstance(value, kind):
         return value
-    raise BadInput(f"{name} must be one of {', '.join(map(str, kind))}, not {value!r}")
+    raise UserInputError(f"{name} must be one of {', '.join(map(str, kind))}, not {value!r}")

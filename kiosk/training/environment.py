@@ -12,11 +12,15 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from kiosk import BadInput
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mentaliser import TargetRule
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Gate
 from kiosk.training.arguments import one_of
-from kiosk.training.kernel import (
+from kiosk.training.learning import THE_GATE
+from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
+from kiosk.training.simulated_players import MemoryPlayer, SimulatedPlayer
+from kiosk.training.simulation import lay, playing, start, take
+from kiosk.training.vectorised_game import (
     ACTIONS,
     CARDS,
     COLUMNS,
@@ -32,15 +36,11 @@ from kiosk.training.kernel import (
     ROWS,
     STATES,
     floats,
+    gate_plan,
     is_open,
     new_game,
-    plan,
     state,
 )
-from kiosk.training.learning import THE_GATE
-from kiosk.training.players import MemoryPlayer, Player
-from kiosk.training.rewards import PURSE, REWARDS, Reward, coming, pay
-from kiosk.training.simulation import lay, playing, start, take
 
 ENVIRONMENT = "recollect/Assistance-v0"
 """The name under which ``gymnasium.make`` finds it once this module is imported."""
@@ -48,7 +48,7 @@ SEEDS = 1 << 62
 NO_ACTION = -1
 
 
-class Assistance(gym.Env[int, int]):
+class AssistanceEnv(gym.Env[int, int]):
     """A robot helps a simulated player through a game of Concentration with 24 cards.
 
     ## Description
@@ -92,7 +92,7 @@ class Assistance(gym.Env[int, int]):
     def __init__(
         self,
         *,
-        player: Player | None = None,
+        player: SimulatedPlayer | None = None,
         reward: Reward = Reward.RETRIEVAL,
         target: TargetRule = TargetRule.MOST_FLIPPED,
         gate: Gate = THE_GATE,
@@ -100,11 +100,11 @@ class Assistance(gym.Env[int, int]):
     ) -> None:
         """Seat the player; ``reset`` deals."""
         if render_mode not in (None, *self.metadata["render_modes"]):
-            raise BadInput(f"render_mode must be None or 'ansi', not {render_mode!r}")
+            raise UserInputError(f"render_mode must be None or 'ansi', not {render_mode!r}")
         self.action_space = gym.spaces.Discrete(ACTIONS)  # type: ignore[assignment]  # its values are numpy's numbers
         self.observation_space = gym.spaces.Discrete(STATES)  # type: ignore[assignment]  # as above
         self.render_mode = render_mode
-        self._table = lay(player or MemoryPlayer((0.1, 0.45)), plan(gate, one_of("target", target, TargetRule)), 0)
+        self._table = lay(player or MemoryPlayer((0.1, 0.45)), gate_plan(gate, one_of("target", target, TargetRule)), 0)
         self._reward = REWARDS.index(one_of("reward", reward, Reward))
         self._purse = floats([PURSE])
         self._dealt = False
@@ -128,8 +128,8 @@ class Assistance(gym.Env[int, int]):
         self._check_under_way()
         game = self._table.game
         taken = asked if is_open(game, self._table.plan) else NO_HELP
-        seen = coming(game, taken)
-        paid = pay(self._reward, seen, take(self._table, taken), self._purse)
+        seen = reward_flip(game, taken)
+        paid = reward_of(self._reward, seen, take(self._table, taken), self._purse)
         over = bool(game[PAIRS_FOUND] == PAIRS)
         given_up = not over and not playing(game)
         self._over = over or given_up
@@ -183,4 +183,4 @@ def _action(action: object) -> int:
     return number
 
 
-gym.register(ENVIRONMENT, entry_point="kiosk.training.environment:Assistance")
+gym.register(ENVIRONMENT, entry_point="kiosk.training.environment:AssistanceEnv")

@@ -11,33 +11,43 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, NamedTuple
 
-from kiosk import BadInput, __version__
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mdp import STATES as ALL_STATES
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
+from kiosk import UserInputError, __version__
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import STATES as ALL_STATES
+from kiosk.assistance.policy import Gate, QTable
 from kiosk.training.arguments import check_between, one_of, whole
-from kiosk.training.kernel import (
+from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
+from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, SimulatedPlayer
+from kiosk.training.simulation import (
+    BATCH,
+    T_FLIPS,
+    GameTable,
+    Progress,
+    greedy,
+    lay,
+    playing,
+    refuse_endless,
+    start,
+    take,
+)
+from kiosk.training.vectorised_game import (
     ACTIONS,
     NO_HELP,
     STATES,
     Floats,
     Ints,
     below,
+    compiled_rule,
     floats,
+    gate_plan,
     ints,
     is_open,
-    plan,
-    rule,
     state,
     unit,
 )
-from kiosk.training.players import ChancePlayer, MemoryPlayer, Player
-from kiosk.training.rewards import PURSE, REWARDS, Reward, coming, pay
-from kiosk.training.simulation import BATCH, T_FLIPS, Progress, Table, greedy, lay, playing, refuse_endless, start, take
 
 
-class Epsilon(Enum):
+class Exploration(Enum):
     """How often the learner tries an action at random, in episode e of E (from 0)."""
 
     FLOORED = "floored"
@@ -48,7 +58,7 @@ class Epsilon(Enum):
     """1 / (1 + .01 e)."""
 
 
-class Alpha(Enum):
+class LearningRate(Enum):
     """The learning rate: how far a value moves towards a new sample, in episode e of E (from 0)."""
 
     VISITS = "visits"
@@ -61,14 +71,14 @@ class Alpha(Enum):
     """.1."""
 
 
-_FORMULAS: dict[Epsilon | Alpha, str] = {
-    Epsilon.FLOORED: "max(.1, 1 / (1 + .01 e)) in episode e from 0",
-    Epsilon.PAPER: "1 - .9 e / E in episode e of E from 0",
-    Epsilon.RELEASED: "1 / (1 + .01 e) in episode e from 0",
-    Alpha.VISITS: "N(s, a)^-.6",
-    Alpha.PAPER: ".1 + .85 e / E in episode e of E from 0",
-    Alpha.RELEASED: "min(.96, .1 (1 + .001 e)) in episode e from 0",
-    Alpha.CONSTANT: ".1",
+_FORMULAS: dict[Exploration | LearningRate, str] = {
+    Exploration.FLOORED: "max(.1, 1 / (1 + .01 e)) in episode e from 0",
+    Exploration.PAPER: "1 - .9 e / E in episode e of E from 0",
+    Exploration.RELEASED: "1 / (1 + .01 e) in episode e from 0",
+    LearningRate.VISITS: "N(s, a)^-.6",
+    LearningRate.PAPER: ".1 + .85 e / E in episode e of E from 0",
+    LearningRate.RELEASED: "min(.96, .1 (1 + .001 e)) in episode e from 0",
+    LearningRate.CONSTANT: ".1",
 }
 
 
@@ -93,9 +103,9 @@ class Decisions(Enum):
 FLOORED, LINEAR_EPSILON, HYPERBOLIC = range(3)
 MOST_EPISODES = 1_000_000_000
 """More would take days; a number beyond what the kernel can count is a slip of the keyboard."""
-EPSILONS = (Epsilon.FLOORED, Epsilon.PAPER, Epsilon.RELEASED)
+EPSILONS = (Exploration.FLOORED, Exploration.PAPER, Exploration.RELEASED)
 VISITS, LINEAR_ALPHA, RISING, CONSTANT = range(4)
-ALPHAS = (Alpha.VISITS, Alpha.PAPER, Alpha.RELEASED, Alpha.CONSTANT)
+ALPHAS = (LearningRate.VISITS, LearningRate.PAPER, LearningRate.RELEASED, LearningRate.CONSTANT)
 FLOOR, DECAY = 0.1, 0.01
 FIRST_ALPHA, LAST_ALPHA, TOP_ALPHA, ALPHA_RISE = 0.1, 0.95, 0.96, 0.001
 POWER = -0.6
@@ -108,8 +118,8 @@ DECISIONS_AN_EPISODE = 24
 
 _KINDS: dict[str, type[Enum]] = {
     "reward": Reward,
-    "epsilon": Epsilon,
-    "alpha": Alpha,
+    "epsilon": Exploration,
+    "alpha": LearningRate,
     "averaging": Averaging,
     "decisions": Decisions,
     "target": TargetRule,
@@ -121,11 +131,11 @@ class Recipe:
     """All that fixes a table: the same recipe and the same version of the program give the same file."""
 
     reward: Reward
-    player: Player
+    player: SimulatedPlayer
     episodes: int
     seed: int
-    epsilon: Epsilon
-    alpha: Alpha
+    epsilon: Exploration
+    alpha: LearningRate
     averaging: Averaging
     decisions: Decisions
     target: TargetRule
@@ -140,9 +150,9 @@ class Recipe:
         object.__setattr__(self, "episodes", whole("the number of episodes", self.episodes))
         object.__setattr__(self, "seed", whole("the seed", self.seed))
         if not 0 <= self.episodes <= MOST_EPISODES:
-            raise BadInput(f"the number of episodes must be 0 to {MOST_EPISODES:,}, not {self.episodes}")
+            raise UserInputError(f"the number of episodes must be 0 to {MOST_EPISODES:,}, not {self.episodes}")
         if self.seed < 0:
-            raise BadInput(f"the seed must be 0 or more, not {self.seed}")
+            raise UserInputError(f"the seed must be 0 or more, not {self.seed}")
         check_between("gamma", self.gamma, 0, 1)
 
     def training(self, command: str) -> dict[str, Any]:
@@ -168,8 +178,8 @@ _RETRIEVAL = Recipe(
     player=MemoryPlayer((0.1, 0.45)),
     episodes=25_000,
     seed=1,
-    epsilon=Epsilon.FLOORED,
-    alpha=Alpha.VISITS,
+    epsilon=Exploration.FLOORED,
+    alpha=LearningRate.VISITS,
     averaging=Averaging.LAST_HALF,
     decisions=Decisions.WHERE_OPEN,
     target=TargetRule.MOST_FLIPPED,
@@ -180,8 +190,8 @@ RECIPES: dict[Reward, Recipe] = {
         _RETRIEVAL,
         reward=Reward.PAPER,
         player=ChancePlayer(),
-        epsilon=Epsilon.PAPER,
-        alpha=Alpha.PAPER,
+        epsilon=Exploration.PAPER,
+        alpha=LearningRate.PAPER,
         averaging=Averaging.NONE,
         target=TargetRule.RANDOM,
     ),
@@ -190,8 +200,8 @@ RECIPES: dict[Reward, Recipe] = {
         reward=Reward.RELEASED,
         player=ChancePlayer(),
         episodes=100_000,
-        epsilon=Epsilon.RELEASED,
-        alpha=Alpha.RELEASED,
+        epsilon=Exploration.RELEASED,
+        alpha=LearningRate.RELEASED,
         averaging=Averaging.NONE,
         decisions=Decisions.EVERY_FLIP,
         target=TargetRule.RANDOM,
@@ -204,7 +214,7 @@ REWARD, DECISIONS, EPSILON, ALPHA, EPISODES = range(5)
 DECIDED = 1
 
 
-class Lesson(NamedTuple):
+class LearnerState(NamedTuple):
     """What is learnt and how, as the rules read it; values, mean and visits have an entry per state and action."""
 
     plan: Ints
@@ -217,7 +227,7 @@ class Lesson(NamedTuple):
     choices: Ints
 
 
-@rule
+@compiled_rule
 def epsilon_at(lesson: Ints, episode: int) -> float:
     """The chance of a random action; see ``Epsilon``."""
     if lesson[EPSILON] == LINEAR_EPSILON:
@@ -226,8 +236,8 @@ def epsilon_at(lesson: Ints, episode: int) -> float:
     return max(FLOOR, falling) if lesson[EPSILON] == FLOORED else falling
 
 
-@rule
-def alpha_at(lesson: Lesson, episode: int, visits: int) -> float:
+@compiled_rule
+def alpha_at(lesson: LearnerState, episode: int, visits: int) -> float:
     """The learning rate; see ``Alpha``."""
     if lesson.plan[ALPHA] == VISITS:
         return lesson.rates[min(visits, len(lesson.rates) - 1)]
@@ -238,15 +248,15 @@ def alpha_at(lesson: Lesson, episode: int, visits: int) -> float:
     return FIRST_ALPHA
 
 
-@rule
-def learn(lesson: Lesson, episode: int, entry: int, sample: float) -> None:
+@compiled_rule
+def update_value(lesson: LearnerState, episode: int, entry: int, sample: float) -> None:
     """Move one value towards a sample of what it should be."""
     lesson.visits[entry] += 1
     lesson.q[entry] += alpha_at(lesson, episode, lesson.visits[entry]) * (sample - lesson.q[entry])
 
 
-@rule
-def study(table: Table, lesson: Lesson, episode: int) -> None:
+@compiled_rule
+def learn_episode(table: GameTable, lesson: LearnerState, episode: int) -> None:
     """One episode: a game with epsilon-greedy help, and a step of Q-learning after each decision."""
     game, gate = table.game, table.plan
     start(table)
@@ -262,21 +272,21 @@ def study(table: Table, lesson: Lesson, episode: int) -> None:
         if opened or lesson.plan[DECISIONS] == DECIDED:
             if entry >= 0:
                 best = lesson.q[row * ACTIONS + greedy(lesson.q, row)]
-                learn(lesson, episode, entry, gained + discount * best)
+                update_value(lesson, episode, entry, gained + discount * best)
             entry, gained, discount = row * ACTIONS + action, 0.0, 1.0
-        seen = coming(game, action)
-        gained += discount * pay(lesson.plan[REWARD], seen, take(table, action), lesson.purse)
+        seen = reward_flip(game, action)
+        gained += discount * reward_of(lesson.plan[REWARD], seen, take(table, action), lesson.purse)
         discount *= lesson.gamma[0]
     if entry >= 0:
-        learn(lesson, episode, entry, gained)
+        update_value(lesson, episode, entry, gained)
 
 
-@rule
-def study_all(table: Table, lesson: Lesson, first: int, stop: int) -> None:
+@compiled_rule
+def learn_episodes(table: GameTable, lesson: LearnerState, first: int, stop: int) -> None:
     """The episodes from ``first`` up to ``stop``; in the last half the mean of the values goes along."""
     half = lesson.plan[EPISODES] // 2
     for episode in range(first, stop):
-        study(table, lesson, episode)
+        learn_episode(table, lesson, episode)
         if episode >= half:
             for entry in range(STATES * ACTIONS):
                 lesson.mean[entry] += (lesson.q[entry] - lesson.mean[entry]) / (episode - half + 1)
@@ -289,7 +299,7 @@ class Learner:
         """Know nothing yet: every value is 0."""
         self.recipe = recipe
         self.episodes = 0
-        self._table = lay(recipe.player, plan(recipe.gate, recipe.target), recipe.seed)
+        self._table = lay(recipe.player, gate_plan(recipe.gate, recipe.target), recipe.seed)
         self._lesson = _lesson(recipe)
 
     def study(self, progress: Progress = lambda _: None, stopped: Callable[[], bool] = lambda: False) -> None:
@@ -300,7 +310,7 @@ class Learner:
         """
         while self.episodes < self.recipe.episodes and not stopped():
             stop = min(self.episodes + BATCH, self.recipe.episodes)
-            study_all(self._table, self._lesson, self.episodes, stop)
+            learn_episodes(self._table, self._lesson, self.episodes, stop)
             refuse_endless(int(self._table.tally[T_FLIPS]))
             self.episodes = stop
             progress(stop)
@@ -319,7 +329,7 @@ class Learner:
         return {at.label: int(n) for at, n in zip(ALL_STATES, self._lesson.choices, strict=True) if n}
 
 
-def _lesson(recipe: Recipe) -> Lesson:
+def _lesson(recipe: Recipe) -> LearnerState:
     numbers = [
         REWARDS.index(recipe.reward),
         DECIDED if recipe.decisions is Decisions.EVERY_FLIP else 0,
@@ -328,7 +338,7 @@ def _lesson(recipe: Recipe) -> Lesson:
         recipe.episodes,
     ]
     blank = [0.0] * (STATES * ACTIONS)
-    return Lesson(
+    return LearnerState(
         ints(numbers),
         floats([recipe.gamma]),
         floats(_rates(recipe)),
@@ -342,5 +352,5 @@ def _lesson(recipe: Recipe) -> Lesson:
 
 def _rates(recipe: Recipe) -> list[float]:
     """The decreasing learning rate, worked out beforehand: a power may differ in its last bit when compiled."""
-    longest = min(recipe.episodes * DECISIONS_AN_EPISODE, LONGEST_MEMORY) if recipe.alpha is Alpha.VISITS else 0
+    longest = min(recipe.episodes * DECISIONS_AN_EPISODE, LONGEST_MEMORY) if recipe.alpha is LearningRate.VISITS else 0
     return [1.0] + [count**POWER for count in range(1, longest + 1)]

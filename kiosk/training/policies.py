@@ -10,23 +10,21 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from kiosk import BadInput, unwritable
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mdp import STATES, Action, Outcome, Phase, State
-from kiosk.assistant.qtable import QTable
+from kiosk import UserInputError, unwritable
+from kiosk.assistance.policy import STATES, Action, Gate, Outcome, Phase, QTable, State
 
 
 def check_writable(path: Path) -> Path:
     """Where a file is to be written, links followed; raises BadInput for what no file can take the place of."""
     place = path.resolve()
     if place.exists() and not place.is_file():
-        raise BadInput(f"{path} cannot be written: it is not a file")
+        raise UserInputError(f"{path} cannot be written: it is not a file")
     if not place.parent.is_dir():
-        raise BadInput(f"{path} cannot be written: there is no folder {place.parent}")
+        raise UserInputError(f"{path} cannot be written: there is no folder {place.parent}")
     return place
 
 
-def write(path: Path, content: str | bytes) -> None:
+def write_policy(path: Path, content: str | bytes) -> None:
     """Put a file in its place whole, or raise BadInput and leave what was there untouched."""
     path = check_writable(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.new")
@@ -69,7 +67,7 @@ class Comparison:
         return 1 - len(self.different) / len(self.compared) if self.compared else 1.0
 
 
-def compare(one: QTable, other: QTable) -> Comparison:
+def compare_policies(one: QTable, other: QTable) -> Comparison:
     """Compare the greedy actions and the values of two tables."""
     both = [state for state in STATES if _known(one, state) and _known(other, state)]
     different = [state for state in both if one.action(state) is not other.action(state)]
@@ -83,30 +81,30 @@ def _known(policy: QTable, state: State) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Sentence:
+class PolicyClaim:
     """One sentence of the paper about its policy, and whether a table does so."""
 
     text: str
     holds: bool
 
 
-def sentences(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[Sentence, ...]:
+def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[PolicyClaim, ...]:
     """The paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
     levels = {phase: _level(policy, [s for s in STATES if s.game is phase and _known(policy, s)]) for phase in Phase}
     well = _firsts(policy, Outcome.F_CORRECT)
     wrong = _firsts(policy, Outcome.F_WRONG)
     falls = levels[Phase.BEGINNING] >= levels[Phase.MIDDLE] >= levels[Phase.END]
     return (
-        Sentence(
+        PolicyClaim(
             "on the first card it does not step in while the player does well",
             policy.gate.patience >= Gate().patience or not well,
         ),
-        Sentence("on the first card it helps once mistakes have been made", wrong > 0),
-        Sentence(
+        PolicyClaim("on the first card it helps once mistakes have been made", wrong > 0),
+        PolicyClaim(
             "it helps more at the beginning and less as pairs are found",
             falls and levels[Phase.BEGINNING] > levels[Phase.END],
         ),
-        Sentence("it helps more often on the second card", hint_rate_second > hint_rate_first),
+        PolicyClaim("it helps more often on the second card", hint_rate_second > hint_rate_first),
     )
 
 

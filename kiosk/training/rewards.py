@@ -8,8 +8,8 @@ from __future__ import annotations
 from enum import Enum
 from typing import NamedTuple
 
-from kiosk.game.board import CARDS_IN_A_PAIR
-from kiosk.training.kernel import (
+from kiosk.game import CARDS_IN_A_PAIR
+from kiosk.training.vectorised_game import (
     FIRST,
     FLIPS,
     HELP,
@@ -21,8 +21,8 @@ from kiosk.training.kernel import (
     SUG_CARD,
     Floats,
     Ints,
+    compiled_rule,
     phase,
-    rule,
 )
 
 
@@ -52,7 +52,7 @@ COST = 5
 """The default reward's price of one hint is a share (COST - g) / (2 nf) of the match."""
 
 
-class Flip(NamedTuple):
+class RewardFlip(NamedTuple):
     """One flip as a reward sees it; ``nf`` is the number of flips since the last match, this one included.
 
     ``second`` is 1 for a second card, ``before`` the help with the flip before it, ``g`` 3, 2, 1 by phase, ``early``
@@ -67,16 +67,16 @@ class Flip(NamedTuple):
     early: int
 
 
-@rule
-def coming(game: Ints, action: int) -> Flip:
+@compiled_rule
+def reward_flip(game: Ints, action: int) -> RewardFlip:
     """The next flip of ``game``, with this help."""
     second = 0 if game[FIRST] == NOWHERE else 1
     early = 1 if game[PAIRS_FOUND] == 0 else 0
-    return Flip(second, game[HELP], action, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
+    return RewardFlip(second, game[HELP], action, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
 
 
-@rule
-def pay(reward: int, flip: Flip, matched: int, purse: Floats) -> float:
+@compiled_rule
+def reward_of(reward: int, flip: RewardFlip, matched: int, purse: Floats) -> float:
     """What this flip is worth."""
     if reward == PAPER:
         return weighed(flip)
@@ -85,14 +85,14 @@ def pay(reward: int, flip: Flip, matched: int, purse: Floats) -> float:
     return released(flip, matched, purse)
 
 
-@rule
-def hints(flip: Flip) -> int:
+@compiled_rule
+def hints(flip: RewardFlip) -> int:
     """How many of the two cards of a move were hinted, before its second card is flipped."""
     return (0 if flip.before == NO_HELP else 1) + (0 if flip.action == NO_HELP else 1)
 
 
-@rule
-def retrieved(flip: Flip) -> float:
+@compiled_rule
+def retrieved(flip: RewardFlip) -> float:
     """How much of a match was the player's own: all of it without a hint, a share of it with one, none with two."""
     if hints(flip) == 0:
         return 1.0
@@ -101,8 +101,8 @@ def retrieved(flip: Flip) -> float:
     return 1.0 - (COST - flip.g) / (2.0 * flip.nf)
 
 
-@rule
-def weighed(flip: Flip) -> float:
+@compiled_rule
+def weighed(flip: RewardFlip) -> float:
     """The paper's formulas: a / nf on a first card, a / (nf g) without help on a second, a nf g with help."""
     if flip.second == 0:
         return WEIGHTS[flip.action] / flip.nf
@@ -111,8 +111,8 @@ def weighed(flip: Flip) -> float:
     return WEIGHTS[flip.action] * (flip.nf * flip.g)
 
 
-@rule
-def released(flip: Flip, matched: int, purse: Floats) -> float:
+@compiled_rule
+def released(flip: RewardFlip, matched: int, purse: Floats) -> float:
     """A purse that grows on first cards and is paid out in full; the paper's formula for a match with one hint at most.
 
     A match, or a miss after a first-card hint, sets the purse back.

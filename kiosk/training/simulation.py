@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from kiosk import BadInput
-from kiosk.assistant.mdp import Action
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Action, QTable
 from kiosk.training.arguments import one_of, whole
-from kiosk.training.kernel import (
+from kiosk.training.simulated_players import SimulatedPlayer, choose, prepare
+from kiosk.training.vectorised_game import (
     ACTIONS,
     COLUMNS,
     ENDLESS,
@@ -28,19 +28,18 @@ from kiosk.training.kernel import (
     TARGET,
     Floats,
     Ints,
+    compiled_rule,
     deal,
     flip,
     floats,
+    gate_plan,
     ints,
     is_open,
     mark_candidates,
     new_game,
     pick,
-    plan,
-    rule,
     state,
 )
-from kiosk.training.players import Player, choose, prepare
 
 # One game's tally, in whole numbers.
 T_FLIPS, T_FIRST, T_SECOND, T_COL, T_ROW, T_CARD, T_FOLLOWED_FIRST, T_FOLLOWED_SECOND, T_LED = range(9)
@@ -54,7 +53,7 @@ Progress = Callable[[int], None]
 """Told, now and then, how many games or episodes have been played so far."""
 
 
-class Table(NamedTuple):
+class GameTable(NamedTuple):
     """A game, all that plays it, and its tally, as the rules read them."""
 
     game: Ints
@@ -64,16 +63,16 @@ class Table(NamedTuple):
     tally: Ints
 
 
-def lay(player: Player, policy_plan: Ints, seed: int) -> Table:
+def lay(player: SimulatedPlayer, policy_plan: Ints, seed: int) -> GameTable:
     """A table with a player at it; the games that follow are fixed by ``seed``."""
     seed = whole("the seed", seed)
     if seed < 0:
-        raise BadInput(f"the seed must be 0 or more, not {seed}")
+        raise UserInputError(f"the seed must be 0 or more, not {seed}")
     numbers, odds = player.numbers()
-    return Table(new_game(seed), policy_plan, ints(numbers), floats(odds), ints([0] * TALLY))
+    return GameTable(new_game(seed), policy_plan, ints(numbers), floats(odds), ints([0] * TALLY))
 
 
-@rule
+@compiled_rule
 def greedy(q: Floats, row: int) -> int:
     """The action with the highest value; ties go to the lowest, as ``QTable.action``."""
     best = 0
@@ -83,7 +82,7 @@ def greedy(q: Floats, row: int) -> int:
     return best
 
 
-@rule
+@compiled_rule
 def follows(action: int, target: int, place: int) -> bool:
     """Whether flipping ``place`` follows the hint; as ``Hint.followed_by``."""
     if action == SUG_COL:
@@ -93,8 +92,8 @@ def follows(action: int, target: int, place: int) -> bool:
     return place // COLUMNS == target // COLUMNS
 
 
-@rule
-def start(table: Table) -> None:
+@compiled_rule
+def start(table: GameTable) -> None:
     """Deal, and begin a new tally."""
     deal(table.game)
     prepare(table.game, table.odds)
@@ -102,8 +101,8 @@ def start(table: Table) -> None:
         table.tally[entry] = 0
 
 
-@rule
-def take(table: Table, action: int) -> int:
+@compiled_rule
+def take(table: GameTable, action: int) -> int:
     """Give the help, let the player flip, and count; 1 if the flip completes a match."""
     game, tally = table.game, table.tally
     second = game[FIRST] != NOWHERE
@@ -119,14 +118,14 @@ def take(table: Table, action: int) -> int:
     return 1 if flip(game, place) else 0
 
 
-@rule
+@compiled_rule
 def playing(game: Ints) -> bool:
     """Whether the game goes on."""
     return game[PAIRS_FOUND] < PAIRS and game[FLIPS] < ENDLESS
 
 
-@rule
-def play(table: Table, q: Floats) -> None:
+@compiled_rule
+def play(table: GameTable, q: Floats) -> None:
     """One game under the frozen table."""
     start(table)
     followed, led = 0, False
@@ -140,8 +139,8 @@ def play(table: Table, q: Floats) -> None:
             table.tally[T_LED] += matched
 
 
-@rule
-def play_all(table: Table, q: Floats, tallies: Ints) -> None:
+@compiled_rule
+def play_all(table: GameTable, q: Floats, tallies: Ints) -> None:
     """As many games as there is room for in ``tallies``."""
     for row in range(0, len(tallies), TALLY):
         play(table, q)
@@ -167,7 +166,7 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Games:
+class GameResults:
     """What came of many games: one tally a game, in the order in which they were played."""
 
     tallies: tuple[tuple[int, ...], ...]
@@ -235,26 +234,31 @@ def _share(part: int, whole: int) -> float | None:
     return part / whole if whole else None
 
 
-def simulate(  # noqa: PLR0913, PLR0917 - an experiment is all of these
-    policy: QTable, player: Player, target: TargetRule, games: int, seed: int, progress: Progress = lambda _: None
-) -> Games:
+def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
+    policy: QTable,
+    player: SimulatedPlayer,
+    target: TargetRule,
+    games: int,
+    seed: int,
+    progress: Progress = lambda _: None,
+) -> GameResults:
     """Play ``games`` games (2 or more) of ``player`` helped by ``policy``; fixed by ``seed``.
 
     Raises BadInput if there are too few games, or a game does not end.
     """
     games = whole("the number of games", games)
     if games < 2:  # noqa: PLR2004 - a spread needs two
-        raise BadInput(f"there must be at least 2 games, not {games}")
-    table = lay(player, plan(policy.gate, one_of("target", target, TargetRule)), seed)
+        raise UserInputError(f"there must be at least 2 games, not {games}")
+    table = lay(player, gate_plan(policy.gate, one_of("target", target, TargetRule)), seed)
     q = floats([value for row in policy.values for value in row])
     tallies: list[tuple[int, ...]] = []
     while len(tallies) < games:
         tallies.extend(_batch(table, q, min(BATCH, games - len(tallies))))
         progress(len(tallies))
-    return Games(tuple(tallies))
+    return GameResults(tuple(tallies))
 
 
-def _batch(table: Table, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
+def _batch(table: GameTable, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
     tallies = ints([0] * (games * TALLY))
     play_all(table, q, tallies)
     numbers = [int(number) for number in tallies]
@@ -266,4 +270,4 @@ def _batch(table: Table, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
 def refuse_endless(flips: int) -> None:
     """Refuse, with BadInput, a game that was given up."""
     if flips >= ENDLESS:
-        raise BadInput(f"this player does not finish: a game was given up after {ENDLESS:,} flips")
+        raise UserInputError(f"this player does not finish: a game was given up after {ENDLESS:,} flips")

@@ -1,6 +1,6 @@
 """The voice as the interface sees it: sentences in, three signals out. It may be missing, hang or die at any moment.
 
-The speech engine runs in a process of its own (kiosk/robot/speech.py) and is spoken to without ever being waited for.
+The speech engine runs in a process of its own (kiosk/robots/tts_worker.py) that is never waited for.
 A sentence that does not start in time ends the process, which is started again for the next one.
 """
 
@@ -15,9 +15,9 @@ from typing import Any
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
 from kiosk import program
-from kiosk.robot.body import Health
-from kiosk.settings import Voice as VoiceSettings
-from kiosk.ui.clock import Clock, Wait
+from kiosk.config import VoiceConfig as VoiceSettings
+from kiosk.robots.embodiment import Health
+from kiosk.ui.event_loop import Clock, TimerWait
 
 START_DEADLINE_MS = 2_000
 """A sentence that has not begun after this time never will: rendering takes 9 to 44 ms, starting the process 300."""
@@ -33,7 +33,7 @@ MAX_FAILURES = 3
 
 QUIT_MS = 500
 
-NOT_HEARD = Health(well=False, words="sentences are only shown: the sound cannot be played")
+NOT_HEARD = Health(is_ok=False, message="sentences are only shown: the sound cannot be played")
 
 _log = logging.getLogger(__name__)
 
@@ -46,10 +46,10 @@ class Voice(QObject):
     finished = Signal(int)
     failed = Signal(int, str)
 
-    def speak(self, language: str) -> None:
+    def set_language(self, language: str) -> None:
         """Speak this language from the next sentence on."""
 
-    def turn(self, volume: float) -> None:
+    def set_volume(self, volume: float) -> None:
         """Speak so loud, 0 to 1, from the next sentence on."""
 
     def say(self, number: int, sentence: str) -> None:
@@ -69,7 +69,7 @@ class Voice(QObject):
     @property
     def health(self) -> Health:
         """Whether sentences are heard, in words for the experimenter."""
-        return Health(well=True, words="the voice is silent on purpose")
+        return Health(is_ok=True, message="the voice is silent on purpose")
 
     def close(self) -> None:
         """Be silent for good."""
@@ -96,7 +96,7 @@ class SilentVoice(Voice):
         """Take the time from this clock."""
         super().__init__(parent)
         self._clock = clock
-        self._wait: Wait | None = None
+        self._wait: TimerWait | None = None
 
     def say(self, number: int, sentence: str) -> None:
         """Begin to be silent about a sentence."""
@@ -129,12 +129,12 @@ class EngineVoice(Voice):
         self._start_deadline_ms = start_deadline_ms
         self._end_grace_ms = end_grace_ms
         self._language = language
-        self._health = Health(well=True, words="the voice is starting")
+        self._health = Health(is_ok=True, message="the voice is starting")
         self._ready = False
         self._name: object = None
         self._audible = True
         self._saying: int | None = None
-        # Every sitting counts its sentences from 1; what comes late of the last one must not be taken for this one's.
+        # Every session counts its sentences from 1; what comes late of the last one must not be taken for this one's.
         self._requests = count(1)
         self._request = 0
         self._failures = 0
@@ -144,13 +144,13 @@ class EngineVoice(Voice):
         self._process: QProcess | None = None
         self._start()
 
-    def speak(self, language: str) -> None:
+    def set_language(self, language: str) -> None:
         """End the process that speaks another language, and start one that speaks this one."""
         if language != self._language:
             self._language = language
             self._start_anew()
 
-    def turn(self, volume: float) -> None:
+    def set_volume(self, volume: float) -> None:
         """End the process that speaks louder or softer, and start one that speaks so loud."""
         if volume != self._settings.volume:
             self._settings = self._settings.model_copy(update={"volume": volume})
@@ -243,12 +243,12 @@ class EngineVoice(Voice):
             self._ready = True
             self._name = event.get("voice")
             self._health = _found(self._language, self._name, plays=event.get("player") is True)
-            if not self._health.well:
-                _log.warning("%s", self._health.words)
+            if not self._health.is_ok:
+                _log.warning("%s", self._health.message)
         if kind == "unavailable":
             _log.warning("there is no voice: %s", event.get("why"))
             self._failures = MAX_FAILURES
-            self._health = Health(well=False, words=f"sentences are only shown: {event.get('why')}")
+            self._health = Health(is_ok=False, message=f"sentences are only shown: {event.get('why')}")
             self._give_up(str(event.get("why")))
         if event.get("id") != self._request or self._saying is None:
             return
@@ -270,7 +270,7 @@ class EngineVoice(Voice):
         self._audible = audible
         self._health = _found(self._language, self._name, plays=True) if audible else NOT_HEARD
         if not audible:
-            _log.warning("%s", NOT_HEARD.words)
+            _log.warning("%s", NOT_HEARD.message)
 
     def _done(self) -> None:
         number, self._saying = self._saying, None
@@ -308,7 +308,7 @@ class EngineVoice(Voice):
         if self._failures < MAX_FAILURES:
             self._start()
         else:
-            self._health = Health(well=False, words="sentences are only shown: the voice failed again and again")
+            self._health = Health(is_ok=False, message="sentences are only shown: the voice failed again and again")
 
     def _give_up(self, why: str) -> None:
         number, self._saying = self._saying, None
@@ -320,7 +320,7 @@ class EngineVoice(Voice):
 def _found(language: str, voice: object, *, plays: bool) -> Health:
     """What an engine that is ready can do."""
     if voice is None:
-        return Health(well=False, words=f"sentences are only shown: no installed voice speaks {language!r}")
+        return Health(is_ok=False, message=f"sentences are only shown: no installed voice speaks {language!r}")
     if not plays:
-        return Health(well=False, words="sentences are only shown: there is no program that plays sound")
-    return Health(well=True, words=f"the voice {voice} speaks")
+        return Health(is_ok=False, message="sentences are only shown: there is no program that plays sound")
+    return Health(is_ok=True, message=f"the voice {voice} speaks")

@@ -7,19 +7,21 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-# PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import BadInput
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.plan import Study
-from kiosk.ui.held_keys import HeldKeys
+from kiosk import UserInputError
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.ui.input import HeldKeys
 from kiosk.ui.qt_platform import obstacle
-from kiosk.ui.replaying.bar import ReplayBar
-from kiosk.ui.screens.every import Screens
+from kiosk.ui.replay_controls import ReplayControls
+from kiosk.ui.screens.registry import ScreenSet
+
+# PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
+
 
 QML = Path(__file__).parent / "qml" / "Main.qml"
 FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
@@ -27,7 +29,7 @@ MOTION_MS = 220
 """How long a card takes to turn and a screen to fade; 0 without motion."""
 
 
-class Pace(Enum):
+class ClockMode(Enum):
     """How time passes."""
 
     WALL = "wall"
@@ -36,7 +38,7 @@ class Pace(Enum):
     """From one wait to the next, as fast as the machine allows, in silence and without motion."""
 
 
-class Display(Enum):
+class WindowMode(Enum):
     """Where the window is."""
 
     FULL_SCREEN = "full screen"
@@ -46,38 +48,38 @@ class Display(Enum):
 
 
 @dataclass(frozen=True)
-class Mode:
+class RunMode:
     """How the kiosk runs."""
 
-    display: Display = Display.FULL_SCREEN
-    pace: Pace = Pace.WALL
+    display: WindowMode = WindowMode.FULL_SCREEN
+    pace: ClockMode = ClockMode.WALL
     speed: float = 1.0
 
 
 class Window:
     """All that can be seen. Only one can be in a process."""
 
-    def __init__(self, study: Study, mode: Mode) -> None:
+    def __init__(self, study: StudyConfig, mode: RunMode) -> None:
         """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
         self.application = application(mode.display)
         self._engine = QQmlApplicationEngine()
         # A child of the engine goes after the windows, which look at the screens up to their own end.
         self.owner = QObject(self._engine)
         """What belongs to the window lives as long as this."""
-        self.screens = Screens.of(study, self.owner)
+        self.screens = ScreenSet.of(study, self.owner)
         self.shown = self._load(study.settings, mode)
         """Qt's own window."""
         self._held_keys = HeldKeys(self.shown, self.owner)
 
-    def show(self, display: Display = Display.WINDOW) -> None:
+    def show(self, display: WindowMode = WindowMode.WINDOW) -> None:
         """Show it as a window that can be left, over the full screen or not."""
-        if display is Display.FULL_SCREEN:
+        if display is WindowMode.FULL_SCREEN:
             self.shown.showFullScreen()
         else:
             self.shown.show()
         self.shown.requestActivate()
 
-    def drive_by(self, bar: ReplayBar | None) -> None:
+    def set_replay(self, bar: ReplayControls | None) -> None:
         """Show this bar below the screens, or none."""
         self.shown.setProperty("replay", bar)
 
@@ -88,8 +90,8 @@ class Window:
         self._engine.deleteLater()
         QCoreApplication.sendPostedEvents(self._engine, QEvent.Type.DeferredDelete)
 
-    def _load(self, settings: Settings, mode: Mode) -> QQuickWindow:
-        moving = settings.screen.motion and mode.pace is Pace.WALL
+    def _load(self, settings: Settings, mode: RunMode) -> QQuickWindow:
+        moving = settings.screen.motion and mode.pace is ClockMode.WALL
         self._engine.setInitialProperties(
             {
                 **self.screens.by_name,
@@ -108,18 +110,18 @@ class Window:
         return window
 
 
-def check_screen(display: Display) -> None:
+def check_screen(display: WindowMode) -> None:
     """Raise BadInput where no window can be opened; Qt itself would end the process."""
-    found = None if display is Display.NOWHERE else obstacle()
+    found = None if display is WindowMode.NOWHERE else obstacle()
     if found is not None:
-        raise BadInput(str(found))
+        raise UserInputError(str(found))
 
 
-def application(display: Display) -> QGuiApplication:
+def application(display: WindowMode) -> QGuiApplication:
     """The application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
     os.environ.setdefault("QT_QUICK_BACKEND", "software")
     os.environ.setdefault("QSG_RENDER_LOOP", "basic")
-    if display is Display.NOWHERE:
+    if display is WindowMode.NOWHERE:
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     existing = QGuiApplication.instance()
     application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])

@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from kiosk.analysis.policy_figures import distributions, heat_map
-from kiosk.assistant.mdp import STATES, Action
-from kiosk.cli.learning.evidence import Sample
+from kiosk.assistance.policy import STATES, Action
+from kiosk.cli.evidence import MoveSample
 from tests.samples import always, policy_that
 
 
@@ -28,7 +28,7 @@ def test_states_that_were_never_met_carry_a_dot() -> None:
 def test_the_same_numbers_give_the_same_file() -> None:
     table = always(Action.SUG_CARD)
     assert heat_map(table, {}, "svg") == heat_map(table, {}, "svg")
-    samples = [Sample(label, (20.0, 21.5, 23.0), (22.0, 1.0)) for label in ("one", "two", "three")]
+    samples = [MoveSample(label, (20.0, 21.5, 23.0), (22.0, 1.0)) for label in ("one", "two", "three")]
     assert distributions(samples, "svg") == distributions(samples, "svg")
     assert distributions(samples, "png").startswith(b"\x89PNG")
     assert all(label in distributions(samples, "svg").decode() for label in ("one", "two", "three"))

@@ -15,28 +15,28 @@ from typing import Any
 import pytest
 from pytestqt.qtbot import QtBot
 
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import EmbodimentName
 from kiosk.store.recorder import Recorder
-from kiosk.study import commands as do
-from kiosk.study import events as happened
-from kiosk.study.events import BodyName
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.window import Display, Mode, Pace
-from tests.robot.furhat_fake import FurhatFake
-from tests.robot.furhat_fake import Mode as Fault
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from tests.robots.furhat_fake import FurhatFake
+from tests.robots.furhat_fake import Mode as Fault
 from tests.ui.headless import headless, short
 
-SITTINGS = 5
+SESSIONS = 5
 LOSSES = 20
 FAR_TOO_LONG_MS = 500
 """Well above what any machine needs, and below what any visitor would call waiting."""
 
 
 @contextmanager
-def kiosk(data: Path, pace: Pace, fake: FurhatFake) -> Iterator[App]:
+def kiosk(data: Path, pace: ClockMode, fake: FurhatFake) -> Iterator[App]:
     """A kiosk with this robot, which is tried again soon after a loss."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "retry_first": 5, "retry_longest": 5}
-    with headless(short(robot=robot), data, mode=Mode(Display.NOWHERE, pace)) as app:
+    with headless(short(robot=robot), data, mode=RunMode(WindowMode.NOWHERE, pace)) as app:
         yield app
 
 
@@ -81,18 +81,18 @@ def test_from_a_hint_to_the_robot_and_from_its_last_word_to_the_open_board(
 
         monkeypatch.setattr(fake, "answer", answered)
         monkeypatch.setattr(Recorder, "append", noting(Recorder.append, decide))
-        with kiosk(tmp_path, Pace.VIRTUAL, fake) as app:
-            for seed in range(SITTINGS):
+        with kiosk(tmp_path, ClockMode.VIRTUAL, fake) as app:
+            for seed in range(SESSIONS):
                 rehearsal = Rehearsal(app, seed)
-                watch = app.conductor.witness
+                watch = app.runner.on_event
                 assert watch is not None
 
                 def look(event: Any, commands: Any, stage: Any, watch: Any = watch) -> None:
-                    if isinstance(event, happened.SpeechFinished) and do.OpenBoard() in commands:
+                    if isinstance(event, happened.SpeechFinished) and do.UnlockBoard() in commands:
                         opened.append(monotonic() - ended[-1])
                     watch(event, commands, stage)
 
-                app.conductor.witness = look
+                app.runner.on_event = look
                 rehearsal.run()
     told("hint decided to request at the robot", [1000 * seconds for seconds in asked])
     told("end of the robot's speech to board open", [1000 * seconds for seconds in opened])
@@ -102,20 +102,21 @@ def test_from_a_failure_to_the_avatars_voice(qtbot: QtBot, tmp_path: Path) -> No
     lost: list[float] = []
     spoke: list[float] = []
     taken: list[float] = []
-    with FurhatFake() as fake, kiosk(tmp_path, Pace.WALL, fake) as app:
-        app.conductor.robot_lost = noting(app.conductor.robot_lost, lambda _: lost.append(monotonic()))  # type: ignore[method-assign]
-        app.conductor.speech_started = noting(  # type: ignore[method-assign]
-            app.conductor.speech_started, lambda _: spoke.append(monotonic())
+    with FurhatFake() as fake, kiosk(tmp_path, ClockMode.WALL, fake) as app:
+        app.runner.robot_lost = noting(app.runner.robot_lost, lambda _: lost.append(monotonic()))  # type: ignore[method-assign]
+        app.runner.speech_started = noting(  # type: ignore[method-assign]
+            app.runner.speech_started, lambda _: spoke.append(monotonic())
         )
         for _ in range(LOSSES):
             fake.mode = Fault.WELL
             qtbot.waitUntil(
-                lambda: app.bodies.current is not None and app.bodies.current.name is BodyName.FURHAT, timeout=10_000
+                lambda: app.embodiments.current is not None and app.embodiments.current.name is EmbodimentName.FURHAT,
+                timeout=10_000,
             )
             fake.mode = Fault.RESET
             lost.clear()
             app.screens.attract.start("en")
             qtbot.waitUntil(lambda: bool(lost and spoke and spoke[-1] > lost[-1]), timeout=10_000)
             taken.append(spoke[-1] - lost[-1])
-            app.conductor.close()
+            app.runner.close()
     told("failure noticed to avatar speaking", [1000 * seconds for seconds in taken])

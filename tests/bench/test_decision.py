@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from kiosk.assistant.assistant import Assistant
-from kiosk.assistant.mdp import Action
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.wording import Wording
+from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Action
+from kiosk.assistance.wording import Wording
+from kiosk.experiment.condition import Condition, help_in
 from kiosk.game import Board, Concentration
-from kiosk.study.condition import Condition, help_in
 from tests.bench.percentiles import tell_percentiles
 from tests.samples import ANIMALS, ENGLISH, always
 

@@ -17,14 +17,14 @@ from typing import Any
 
 import pytest
 
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
-from kiosk.settings import POLICIES
-from kiosk.training.kernel import COMPILED
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import QTable
+from kiosk.config import POLICIES
 from kiosk.training.learning import RECIPES, Learner
-from kiosk.training.players import MemoryPlayer
 from kiosk.training.rewards import Reward
-from kiosk.training.simulation import simulate
+from kiosk.training.simulated_players import MemoryPlayer
+from kiosk.training.simulation import simulate_games
+from kiosk.training.vectorised_game import COMPILED
 from tests.training.reference import WithMemory, learn, play
 
 Benchmark = Any
@@ -42,7 +42,7 @@ def measured(benchmark: Benchmark, what: Callable[[], object], number: int, roun
 
 def games(number: int) -> None:
     """Games of the memory player under the default table."""
-    simulate(QTable.named("default"), MemoryPlayer((0.2, 0.2)), TargetRule.MOST_FLIPPED, number, 1)
+    simulate_games(QTable.named("default"), MemoryPlayer((0.2, 0.2)), TargetRule.MOST_FLIPPED, number, 1)
 
 
 def episodes(number: int) -> None:

@@ -15,8 +15,8 @@ from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPoint, Qt
 from PySide6.QtQuick import QQuickView, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.settings import Settings
-from kiosk.ui.rehearsing.hand import find, lay_out, middle
+from kiosk.config import Settings
+from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from tests.bench.percentiles import tell_percentiles
 from tests.ui.headless import headless
 
@@ -39,17 +39,17 @@ KIOSK = """
     import sys
     from pathlib import Path
 
-    from kiosk.cli.wiring import code_commit, read_settings
+    from kiosk.cli.composition import code_commit, read_settings
     from kiosk.store.recorder import Recorder
-    from kiosk.study.declared.checked.whole import read_study
+    from kiosk.study.loader import read_study
     from kiosk.ui.app import App
-    from kiosk.ui.desk import Desk, Origin
-    from kiosk.ui.window import Display, Mode
+    from kiosk.ui.session_runner import ConditionAssigner, RunContext
+    from kiosk.ui.window import RunMode, WindowMode
 
     study = read_study(read_settings(None))
-    origin = Origin(code_commit(), simulated=True, seed=lambda: 1)
+    origin = RunContext(code_commit(), simulated=True, seed=lambda: 1)
     with Recorder(Path(sys.argv[1])) as recorder:
-        with App(Mode(Display.NOWHERE), recorder, Desk(study, recorder, origin)) as app:
+        with App(RunMode(WindowMode.NOWHERE), recorder, ConditionAssigner(study, recorder, origin)) as app:
             app.window.frameSwapped.connect(app.quit)
             app.window.update()
             app.run()
@@ -103,11 +103,11 @@ def test_tap_to_first_changed_frame(benchmark: Any, tmp_path: Path) -> None:
     with headless(Settings(), tmp_path) as app:
         app.screens.board.deal(4, 6, 12, "animals")
         app.screens.kiosk.show("game")
-        app.screens.kiosk.settle()
+        app.screens.kiosk.end_input_guard()
         lay_out(app.window)
-        card = find(app.window.contentItem(), "card-9")
+        card = find_item(app.window.contentItem(), "card-9")
         assert card is not None
-        place = middle(card)
+        place = item_centre(card)
         benchmark.pedantic(
             press_and_wait(app.window, place), teardown=lambda: release(app.window), rounds=60, warmup_rounds=3
         )

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from functools import reduce
 from pathlib import Path
 
-from kiosk.settings import ASSETS, STAGES, Settings
-from kiosk.study.condition import Condition
-from kiosk.study.declared.checked.alike import ONE_NAME
-from kiosk.study.declared.labels import MISSING, NUMBER, TRUTH
-from kiosk.study.declared.questionnaire import KINDS
+from kiosk.config import ASSETS, STAGES, Settings
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.labels import MISSING, NUMBER, TRUTH
+from kiosk.experiment.questionnaire import KINDS
+from kiosk.study.loader import ONE_NAME
 
 KNOWN = {
     "{assets}": str(ASSETS),
@@ -210,18 +210,18 @@ STUDIES: dict[str, Bad] = {
         ("{study}: robot.board_middle, number 1 must be a number, but it is 'left'",),
     ),
     "key without a modifier": Bad(
-        "[keys]\npanel = 'p'", ("{study}: keys.panel: 'p' is no chord, such as 'Ctrl+Shift+P', and no function key",)
+        "[keys]\npanel = 'p'", ("{study}: keys.panel: 'p' is no shortcut, such as 'Ctrl+Shift+P', and no function key",)
     ),
-    "misspelt chord": Bad(
+    "misspelt shortcut": Bad(
         "[keys]\nend = 'Ctrl+Shfit+E'",
-        ("{study}: keys.end: 'Ctrl+Shfit+E' is no chord, such as 'Ctrl+Shift+P', and no function key",),
+        ("{study}: keys.end: 'Ctrl+Shfit+E' is no shortcut, such as 'Ctrl+Shift+P', and no function key",),
     ),
     "key twice": Bad(
         "[keys]\nquiet = 'Shift+Ctrl+P'", ("{study}: keys: 'Shift+Ctrl+P' stands for 'panel' and for 'quiet'",)
     ),
     "bare PIN": Bad(
         "[experimenter]\npin = '1234'",
-        ("{study}: experimenter.pin: this is no hashed PIN, such as 'recollect study pin' prints",),
+        ("{study}: experimenter.pin: this is no hashed PIN, such as 'recollect study set-pin' prints",),
     ),
     "everything at once": Bad(
         "title = 5\n[game]\nrows = 0\n[voice]\nloud = 1",

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import BadInput, StoreFailed
-from kiosk.cli.front import recollect
-from kiosk.store.care import withdraw as withdrawing
-from kiosk.store.care.backup import FOLDER, backups
+from kiosk import StoreFailed, UserInputError
+from kiosk.cli.main import recollect
+from kiosk.store import withdrawal as withdrawing
 from kiosk.store.database import FILE
+from kiosk.store.maintenance import FOLDER, list_backups
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 from tests.store.visitors import BEGUN, a_day, rows
@@ -48,25 +48,25 @@ def code_of(folder: Path, number: int) -> str:
     return str(code)
 
 
-# sittings
+# sessions
 
 
 def test_the_list_says_who_it_was_where_it_ended_and_how_it_was_allotted(day: Path) -> None:
-    listed = run("sittings", "--data", day).output
+    listed = run("sessions", "--data", day).output
     header, first, *_ = [line.split() for line in listed.splitlines()]
-    assert header[:2] == ["sitting", "participant"]
+    assert header[:2] == ["session", "participant"]
     assert {"stage", "allotted"} <= set(header)
     assert first[:2] == ["1", "MI-1"]
     assert "list" in first
-    (one, *_) = said("sittings", "--data", day)
+    (one, *_) = said("sessions", "--data", day)
     assert (one["participant"], one["allotted"], one["stage"]) == ("MI-1", "list", None)
 
 
 def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:
     code = code_of(day, 1)
-    for words in (["sittings"], ["sittings", "--json"], ["events", "1"]):
+    for words in (["sessions"], ["sessions", "--json"], ["events", "1"]):
         assert code not in run(*words, "--data", day).output
-    for words in (["sittings", "--codes"], ["sittings", "--codes", "--json"]):
+    for words in (["sessions", "--codes"], ["sessions", "--codes", "--json"]):
         assert code in run(*words, "--data", day).output
 
 
@@ -75,7 +75,7 @@ def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:
 
 def test_a_backup_says_where_it_is(day: Path, tmp_path: Path) -> None:
     told = said("backup", "--data", day)
-    assert [str(copy) for copy in backups(day / FOLDER)] == [told["backup"]]
+    assert [str(copy) for copy in list_backups(day / FOLDER)] == [told["backup"]]
     assert told["bytes"] == Path(told["backup"]).stat().st_size
     told = said("backup", "--data", day, "--to", tmp_path / "stick", "--keep", 2)
     assert Path(told["backup"]).parent == tmp_path / "stick"
@@ -104,7 +104,7 @@ def test_what_is_sound_ends_with_0(day: Path) -> None:
 def test_what_is_wrong_is_told_and_ends_with_1(day: Path) -> None:
     with closing(sqlite3.connect(day / FILE)) as connection, connection:
         connection.execute("DROP TRIGGER event_is_never_updated")
-        connection.execute("UPDATE event SET at_ms = -5 WHERE seq = 1 AND sitting = 1")
+        connection.execute("UPDATE event SET at_ms = -5 WHERE seq = 1 AND session = 1")
     result = run("verify", "--data", day, "--json")
     assert result.exit_code == 1
     told = json.loads(result.stdout)
@@ -122,7 +122,7 @@ def test_a_withdrawal_says_what_goes_and_asks(day: Path) -> None:
     code = code_of(day, 1)
     result = run("withdraw", code, "--data", day, answer="n\n")
     assert result.exit_code == 1
-    assert "Participant MI-1, sitting 1, begun " in result.output
+    assert "Participant MI-1, session 1, begun " in result.output
     assert "4 events will be deleted for ever" in result.output
     assert rows(day, "SELECT * FROM tombstone") == []
     result = run("withdraw", code, "--data", day, answer="y\n")
@@ -138,7 +138,7 @@ def test_with_yes_nothing_is_asked(day: Path) -> None:
 def test_while_a_kiosk_is_writing_it_is_refused_before_anything_is_asked(day: Path) -> None:
     with Recorder(day):
         result = run("withdraw", code_of(day, 1), "--data", day)
-    assert isinstance(result.exception, BadInput)
+    assert isinstance(result.exception, UserInputError)
     assert "a kiosk is writing in" in str(result.exception)
     assert result.output == ""
 
@@ -177,12 +177,12 @@ def test_the_same_command_finishes_a_withdrawal_that_was_cut_off(day: Path, monk
 def test_folders_are_merged(day: Path, tmp_path: Path) -> None:
     a_day(tmp_path / "other", PEOPLE, "GI", seed=2)
     told = said("merge", day, tmp_path / "other", "--out", tmp_path / "all")
-    assert told == {"out": str(tmp_path / "all"), "folders": 2, "sittings": 8}
-    assert len(said("sittings", "--data", tmp_path / "all")) == 8
+    assert told == {"out": str(tmp_path / "all"), "folders": 2, "sessions": 8}
+    assert len(said("sessions", "--data", tmp_path / "all")) == 8
 
 
 def test_what_clashes_is_refused(day: Path, tmp_path: Path) -> None:
     a_day(tmp_path / "other", PEOPLE, "MI", seed=2)
     result = run("merge", day, tmp_path / "other", "--out", tmp_path / "all")
-    assert isinstance(result.exception, BadInput)
+    assert isinstance(result.exception, UserInputError)
     assert "participant MI-1 stands in" in str(result.exception)

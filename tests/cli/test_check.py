@@ -12,18 +12,17 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from kiosk.cli.booth import check as command
-from kiosk.cli.booth.checking.machine import BUSY, LEAST_MIB, Load, log, machine, program
-from kiosk.cli.booth.checking.together import look
-from kiosk.cli.front import main
-from kiosk.cli.wiring import LOG, LOG_BYTES, code_commit, code_made
-from kiosk.findings import Finding, Probe, State
+from kiosk.cli import check as command
+from kiosk.cli.check import BUSY, LEAST_MIB, Load, log_check, machine_check, program_check, run_checks
+from kiosk.cli.composition import LOG, LOG_BYTES, code_commit, code_made
+from kiosk.cli.main import main
+from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.store.recorder import Recorder
 
 GOOD, WARNING, BAD = (
-    Finding.good("a", "fine"),
-    Finding.warning("b", "so-so [1]", "mend"),
-    Finding.bad("c", "no", "mend"),
+    CheckResult.good("a", "fine"),
+    CheckResult.warning("b", "so-so [1]", "mend"),
+    CheckResult.bad("c", "no", "mend"),
 )
 
 
@@ -58,8 +57,8 @@ def recollect(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
 def finding(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     """Have these be found, in place of all that is really there."""
 
-    def find(*findings: Finding) -> None:
-        monkeypatch.setattr(command, "probes", lambda _: [Probe("all", lambda: findings)])
+    def find(*findings: CheckResult) -> None:
+        monkeypatch.setattr(command, "all_checks", lambda _: [Check("all", lambda: findings)])
 
     return find
 
@@ -118,11 +117,11 @@ def test_what_cannot_be_used_is_refused_with_its_name(
     [
         ([GOOD], (0, "to see to: nothing")),
         ([GOOD, WARNING, WARNING], (0, "to see to: 2")),
-        ([GOOD, WARNING, BAD], (1, "No sitting can be held")),
+        ([GOOD, WARNING, BAD], (1, "No session can be held")),
     ],
 )
-def test_a_sitting_can_be_held_with_warnings_and_not_with_anything_bad(
-    findings: list[Finding],
+def test_a_session_can_be_held_with_warnings_and_not_with_anything_bad(
+    findings: list[CheckResult],
     verdict: tuple[int, str],
     recollect: Recollect,
     finding: Callable[..., None],
@@ -164,11 +163,11 @@ def test_a_kiosk_that_is_open_on_the_folder_is_known(
 ) -> None:
     seen: list[bool] = []
 
-    def probes(booth: Any) -> Iterable[Probe]:
+    def probes(booth: Any) -> Iterable[Check]:
         seen.append(booth.busy)
         return []
 
-    monkeypatch.setattr(command, "probes", probes)
+    monkeypatch.setattr(command, "all_checks", probes)
     recollect("--data", tmp_path / "data")
     with Recorder(tmp_path / "data"):
         recollect("--data", tmp_path / "data")
@@ -182,43 +181,43 @@ def test_a_kiosk_that_is_open_on_the_folder_is_known(
 def test_a_look_that_hangs_is_left_behind_and_the_others_keep_their_order() -> None:
     hang = threading.Event()
 
-    def hanging() -> Iterator[Finding]:
+    def hanging() -> Iterator[CheckResult]:
         hang.wait()
         yield GOOD
 
     probes = [
-        Probe("a", lambda: [GOOD]),
-        Probe("stuck", hanging, 0.2, State.BAD),
-        Probe("b", lambda: [WARNING, BAD]),
+        Check("a", lambda: [GOOD]),
+        Check("stuck", hanging, 0.2, Severity.BAD),
+        Check("b", lambda: [WARNING, BAD]),
     ]
-    found = look(probes, untold)
+    found = run_checks(probes, untold)
     hang.set()
     assert [each.what for each in found] == ["a", "stuck", "b", "c"]
-    assert (found[1].state, found[1].words) == (State.BAD, "no answer within 0.2 s")
+    assert (found[1].state, found[1].words) == (Severity.BAD, "no answer within 0.2 s")
 
 
 def test_looks_do_not_wait_for_each_other() -> None:
     together = threading.Barrier(3)
 
-    def meeting() -> Iterator[Finding]:
+    def meeting() -> Iterator[CheckResult]:
         together.wait(10)
         yield GOOD
 
-    assert look([Probe("a", meeting) for _ in range(3)], untold) == (GOOD,) * 3
+    assert run_checks([Check("a", meeting) for _ in range(3)], untold) == (GOOD,) * 3
 
 
 def test_a_fault_of_ours_is_not_taken_for_one_of_the_booth() -> None:
-    def faulty() -> Iterator[Finding]:
+    def faulty() -> Iterator[CheckResult]:
         raise ZeroDivisionError
         yield GOOD
 
     with pytest.raises(ZeroDivisionError):
-        look([Probe("a", faulty), Probe("b", lambda: [GOOD])], untold)
+        run_checks([Check("a", faulty), Check("b", lambda: [GOOD])], untold)
 
 
 def test_how_far_it_is_is_told() -> None:
     told: list[int] = []
-    look([Probe("a", lambda: [GOOD])] * 3, lambda done, _of=None, /: told.append(done))
+    run_checks([Check("a", lambda: [GOOD])] * 3, lambda done, _of=None, /: told.append(done))
     assert told == sorted(told)
     assert told[-1] == 3
 
@@ -229,21 +228,21 @@ def test_how_far_it_is_is_told() -> None:
 @pytest.mark.parametrize(
     ("load", "state"),
     [
-        (Load(LEAST_MIB, 2, 2 * BUSY), State.GOOD),
-        (Load(LEAST_MIB - 1, 2, 0.0), State.WARNING),
-        (Load(4096, 1, BUSY + 0.1), State.WARNING),
+        (Load(LEAST_MIB, 2, 2 * BUSY), Severity.GOOD),
+        (Load(LEAST_MIB - 1, 2, 0.0), Severity.WARNING),
+        (Load(4096, 1, BUSY + 0.1), Severity.WARNING),
     ],
 )
-def test_a_machine_that_others_keep_busy_is_told_of(load: Load, state: State) -> None:
-    (found,) = machine(load)
+def test_a_machine_that_others_keep_busy_is_told_of(load: Load, state: Severity) -> None:
+    (found,) = machine_check(load)
     assert found.state is state
 
 
 def test_a_program_that_was_changed_since_its_commit_is_told_of() -> None:
-    (clean,) = program("0123456789abcdef")
-    (dirty,) = program("0123456789abcdef-dirty")
-    (released,) = program("released")
-    assert [each.state for each in (clean, dirty, released)] == [State.GOOD, State.WARNING, State.GOOD]
+    (clean,) = program_check("0123456789abcdef")
+    (dirty,) = program_check("0123456789abcdef-dirty")
+    (released,) = program_check("released")
+    assert [each.state for each in (clean, dirty, released)] == [Severity.GOOD, Severity.WARNING, Severity.GOOD]
     assert clean.words.endswith("01234567")
     assert "released" in released.words
 
@@ -256,12 +255,17 @@ def test_a_program_was_made_before_it_runs_and_has_a_commit() -> None:
 def test_a_log_that_cannot_be_written_or_is_never_renewed_is_told_of(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (none,) = log(tmp_path / "new")
+    (none,) = log_check(tmp_path / "new")
     (tmp_path / LOG).write_text("a line\n")
-    (small,) = log(tmp_path)
+    (small,) = log_check(tmp_path)
     with (tmp_path / LOG).open("r+b") as file:
         file.truncate(LOG_BYTES * 20)
-    (large,) = log(tmp_path)
+    (large,) = log_check(tmp_path)
     monkeypatch.setattr(os, "access", lambda *_: False)
-    (closed,) = log(tmp_path)
-    assert [each.state for each in (none, small, large, closed)] == [State.GOOD, State.GOOD, State.WARNING, State.BAD]
+    (closed,) = log_check(tmp_path)
+    assert [each.state for each in (none, small, large, closed)] == [
+        Severity.GOOD,
+        Severity.GOOD,
+        Severity.WARNING,
+        Severity.BAD,
+    ]

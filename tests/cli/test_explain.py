@@ -11,9 +11,8 @@ from typing import Any
 
 import pytest
 
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mdp import Action, Card
-from kiosk.cli.front import main
+from kiosk.assistance.policy import Action, FlipInMove, Gate
+from kiosk.cli.main import main
 from kiosk.game import Board, Concentration
 from tests.samples import ANIMALS, CATALOGUES, always
 
@@ -184,7 +183,7 @@ def test_nothing_the_case_does_not_say_is_made_up(explain: Explain) -> None:
         game.flip(game.board.position(location))
         game.turn_back()
     told = explain(flips=flips)
-    assert Card.coming(game) is Card.SECOND
+    assert FlipInMove.coming(game) is FlipInMove.SECOND
     assert told["target"]["location"] == 8
     assert told["counts"] == {"target": flips.count(8), "other": flips.count(20)}
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import BadInput
-from kiosk.cli.front import recollect
-from kiosk.study.session_kind import SessionKind
-from tests.store.dataset.conftest import rows_of
-from tests.store.dataset.visitors import store, unsharing, visitor
+from kiosk import UserInputError
+from kiosk.cli.main import recollect
+from kiosk.experiment.session_config import SessionKind
+from tests.export.conftest import rows_of
+from tests.export.visitors import store, unsharing, visitor
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def run(*arguments: object) -> Result:
 
 def test_it_says_how_many_are_in_the_data_set(data: Path, tmp_path: Path) -> None:
     done = run("--data", data, "--out", tmp_path / "out")
-    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 sittings.\n")
+    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 sessions.\n")
     assert len(rows_of(tmp_path / "out", "participants")) == 1
 
 
@@ -43,11 +43,11 @@ def test_it_says_how_many_were_trials(tmp_path: Path) -> None:
     store(tmp_path / "data", [(visitor(2), 2), (visitor(3), 3)], simulated=SessionKind.TRIAL)
     done = run("--data", tmp_path / "data", "--out", tmp_path / "out")
     assert done.output.splitlines() == [
-        f"The data set in {tmp_path / 'out'} holds 1 sittings.",
+        f"The data set in {tmp_path / 'out'} holds 1 sessions.",
         "Left out, as no PIN was set, so that they were trials: 2.",
     ]
     done = run("--data", tmp_path / "data", "--out", tmp_path / "all", "--with-trials")
-    assert done.output == f"The data set in {tmp_path / 'all'} holds 3 sittings.\n"
+    assert done.output == f"The data set in {tmp_path / 'all'} holds 3 sessions.\n"
 
 
 def test_it_tells_programs_the_same(data: Path, tmp_path: Path) -> None:
@@ -74,5 +74,5 @@ def test_names_like_those_of_bids_are_an_option(data: Path, tmp_path: Path) -> N
 
 def test_a_folder_that_is_not_empty_is_refused(data: Path, tmp_path: Path) -> None:
     done = run("--data", data, "--out", tmp_path)
-    assert isinstance(done.exception, BadInput)
+    assert isinstance(done.exception, UserInputError)
     assert "is not empty" in str(done.exception)

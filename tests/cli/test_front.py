@@ -7,14 +7,14 @@ import os
 
 import pytest
 
-from kiosk import BadInput, StoreFailed
-from kiosk.cli import front
+from kiosk import StoreFailed, UserInputError
+from kiosk.cli import main
 
 
 @pytest.mark.parametrize(
     ("failure", "code", "said"),
     [
-        (BadInput("one", "two"), 2, "recollect: one\nrecollect: two\n"),
+        (UserInputError("one", "two"), 2, "recollect: one\nrecollect: two\n"),
         (
             StoreFailed("it cannot be used: disk full"),
             1,
@@ -35,9 +35,9 @@ def test_a_refusal_and_a_full_disk_end_with_a_sentence_and_their_own_codes(
     def fail() -> None:
         raise failure
 
-    monkeypatch.setattr(front, "recollect", fail)
+    monkeypatch.setattr(main, "recollect", fail)
     with pytest.raises(SystemExit) as end:
-        front.main()
+        main.main()
     assert end.value.code == code
     assert capsys.readouterr().err == said
 
@@ -46,6 +46,6 @@ def test_a_fault_of_ours_is_not_called_a_full_disk(monkeypatch: pytest.MonkeyPat
     def fail() -> None:
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
-    monkeypatch.setattr(front, "recollect", fail)
+    monkeypatch.setattr(main, "recollect", fail)
     with pytest.raises(PermissionError):
-        front.main()
+        main.main()

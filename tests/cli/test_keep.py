@@ -21,19 +21,19 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for pr
 
 
 class Kept:
-    """A keeper at work."""
+    """A supervisor at work."""
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self.process = process
 
     def wait_for(self, what: str) -> dict[str, Any]:
-        """The next happening of this kind; fails if the keeper ends before."""
+        """The next happening of this kind; fails if the supervisor ends before."""
         assert self.process.stdout is not None
         for line in self.process.stdout:
             happening: dict[str, Any] = json.loads(line)
             if happening["what"] == what:
                 return happening
-        pytest.fail(f"the keeper ended without {what!r}")
+        pytest.fail(f"the supervisor ended without {what!r}")
 
     def kiosk(self) -> int:
         """The process of the kiosk."""
@@ -43,7 +43,7 @@ class Kept:
 
 @contextmanager
 def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Kept]:
-    """A keeper with this data folder and these options; ``before`` is a command that starts it."""
+    """A supervisor with this data folder and these options; ``before`` is a command that starts it."""
     command = (*before, *program("keep", "--json", "--data", str(data), *options))
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
@@ -56,28 +56,28 @@ def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Ke
 def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
-    with kept(tmp_path, "--", "--study", str(study)) as keeper:
-        keeper.wait_for("ready")
-        os.kill(keeper.kiosk(), signal.SIGKILL)
-        assert keeper.wait_for("died")["detail"] == "signal 9"
-        again = keeper.wait_for("ready")
+    with kept(tmp_path, "--", "--study", str(study)) as supervisor:
+        supervisor.wait_for("ready")
+        os.kill(supervisor.kiosk(), signal.SIGKILL)
+        assert supervisor.wait_for("died")["detail"] == "signal 9"
+        again = supervisor.wait_for("ready")
         assert (again["start"], again["away_s"] > 0) == (2, True)
-        assert keeper.wait_for("shows")["detail"] == "attract"
-        keeper.process.send_signal(signal.SIGTERM)
-        keeper.wait_for("told to end")
-        assert keeper.process.wait(20) == 0
+        assert supervisor.wait_for("shows")["detail"] == "attract"
+        supervisor.process.send_signal(signal.SIGTERM)
+        supervisor.wait_for("told to end")
+        assert supervisor.process.wait(20) == 0
     log = (tmp_path / "recollect.log").read_text().splitlines()
     # What the kiosk itself logs depends on the machine: whether it has a bus, say.
-    died, ready = (line for line in log if "kiosk.cli.booth.keep" in line)
-    assert died.endswith("WARNING kiosk.cli.booth.keep: start 1 of the kiosk: died: signal 9")
-    assert "WARNING kiosk.cli.booth.keep: start 2 of the kiosk: ready (" in ready
+    died, ready = (line for line in log if "kiosk.cli.run" in line)
+    assert died.endswith("WARNING kiosk.cli.run: start 1 of the kiosk: died: signal 9")
+    assert "WARNING kiosk.cli.run: start 2 of the kiosk: ready (" in ready
 
 
-def test_a_study_file_that_cannot_be_used_ends_the_keeper_in_words(tmp_path: Path) -> None:
-    with kept(tmp_path, "--", "--study", str(tmp_path / "none.toml")) as keeper:
-        keeper.wait_for("refused")
-        _, said = keeper.process.communicate()
-        assert keeper.process.returncode == 2
+def test_a_study_file_that_cannot_be_used_ends_the_supervisor_in_words(tmp_path: Path) -> None:
+    with kept(tmp_path, "--", "--study", str(tmp_path / "none.toml")) as supervisor:
+        supervisor.wait_for("refused")
+        _, said = supervisor.process.communicate()
+        assert supervisor.process.returncode == 2
     assert "none.toml cannot be read: No such file or directory" in said
     assert said.splitlines()[-1] == "recollect: the kiosk refused what it was given, so it is not started again"
 
@@ -92,14 +92,14 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
 
 
-def test_a_disk_that_takes_nothing_does_not_end_the_keeper(tmp_path: Path) -> None:
+def test_a_disk_that_takes_nothing_does_not_end_the_supervisor(tmp_path: Path) -> None:
     # No file may grow beyond a few bytes, so the kiosk starts and cannot make its database.
     limit = "import os, resource as r, sys; r.setrlimit(r.RLIMIT_FSIZE, (64, 64)); os.execv(sys.argv[1], sys.argv[1:])"
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
-    with kept(tmp_path, "--", "--study", str(study), before=(sys.executable, "-c", limit)) as keeper:
-        assert keeper.wait_for("died")["detail"] == "exit code 1"
-        assert keeper.wait_for("died")["start"] == 2
+    with kept(tmp_path, "--", "--study", str(study), before=(sys.executable, "-c", limit)) as supervisor:
+        assert supervisor.wait_for("died")["detail"] == "exit code 1"
+        assert supervisor.wait_for("died")["start"] == 2
 
 
 @pytest.mark.parametrize("study", ["", "[experimenter]\nbackups = 3\n", None], ids=["empty", "no PIN", "no file"])
@@ -111,16 +111,16 @@ def test_a_study_without_a_pin_is_not_kept_up(study: str | None, tmp_path: Path)
     done = subprocess.run(program("keep", "--data", str(data), *options), capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("recollect: no PIN is set, so the kiosk is not started unattended: ")
-    assert "recollect study pin" in done.stderr
+    assert "recollect study set-pin" in done.stderr
     assert len(done.stderr.splitlines()) == 1
     assert not data.exists()
 
 
 def test_a_kiosk_that_is_started_again_unattended_needs_its_pin_still(tmp_path: Path) -> None:
-    """The study file may have changed since the keeper looked at it."""
+    """The study file may have changed since the supervisor looked at it."""
     command = program("open", "--unattended", "--data", str(tmp_path / "data"))
     done = subprocess.run(
         command, env=os.environ | {"QT_QPA_PLATFORM": "offscreen"}, capture_output=True, text=True, check=False
     )
-    assert (done.returncode, "recollect study pin" in done.stderr) == (2, True)
+    assert (done.returncode, "recollect study set-pin" in done.stderr) == (2, True)
     assert not (tmp_path / "data").exists()

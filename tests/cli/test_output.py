@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from kiosk import DISK_FULL, program
+from kiosk.experiment.events import SessionStarted
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.events import StartTapped
 from tests.samples import plan
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices as Unix has them")
@@ -23,10 +23,10 @@ ENCODINGS = ("ascii", "cp1252")
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A sitting."""
+    """A session."""
     folder = tmp_path_factory.mktemp("data")
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [StartTapped(at_ms=0)])
+        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [SessionStarted(at_ms=0)])
     return folder
 
 
@@ -41,7 +41,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def command(name: str, data: Path, study: Path) -> tuple[str, ...]:
     """A command that prints something."""
     return {
-        "sittings": program("sittings", "--data", str(data)),
+        "sessions": program("sessions", "--data", str(data)),
         "events": program("events", "1", "--data", str(data), "--json"),
         "study check": program("study", "check", str(study)),
         "study check --json": program("study", "check", str(study), "--json"),
@@ -63,7 +63,7 @@ def test_what_the_terminal_has_no_character_for_is_printed_all_the_same(
         assert json.loads(done.stdout)["title"] == TITLE
 
 
-@pytest.mark.parametrize("name", ["sittings", "events", "help"])
+@pytest.mark.parametrize("name", ["sessions", "events", "help"])
 def test_a_reader_who_goes_away_leaves_no_traceback(name: str, data: Path, study: Path) -> None:
     reads, writes = os.pipe()
     os.close(reads)
@@ -73,7 +73,7 @@ def test_a_reader_who_goes_away_leaves_no_traceback(name: str, data: Path, study
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is always full")
-@pytest.mark.parametrize("name", ["sittings", "events", "help"])
+@pytest.mark.parametrize("name", ["sessions", "events", "help"])
 def test_output_that_finds_no_room_ends_in_a_sentence(name: str, data: Path, study: Path) -> None:
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         done = subprocess.run(command(name, data, study), stdout=full, stderr=subprocess.PIPE, text=True, check=False)
@@ -84,6 +84,6 @@ def test_output_that_finds_no_room_ends_in_a_sentence(name: str, data: Path, stu
 def test_a_path_that_is_no_text_is_told_all_the_same(tmp_path: Path) -> None:
     strange = os.fsencode(tmp_path) + b"/\xe9"
     done = subprocess.run(
-        [*map(os.fsencode, program("sittings", "--data")), strange], capture_output=True, text=True, check=False
+        [*map(os.fsencode, program("sessions", "--data")), strange], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (2, f"recollect: there is no database in {tmp_path}/\\udce9\n")

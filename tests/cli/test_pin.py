@@ -8,10 +8,10 @@ import tomllib
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import BadInput
-from kiosk.cli.front import recollect
-from kiosk.settings import Settings
-from kiosk.study.booth.pin import matches
+from kiosk import UserInputError
+from kiosk.cli.main import recollect
+from kiosk.config import Settings
+from kiosk.experiment.experimenter import pin_matches
 
 
 def choose(*typed: str, options: tuple[str, ...] = ()) -> Result:
@@ -23,7 +23,7 @@ def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
     told = choose("2580", "2580")
     assert told.exit_code == 0
     settings = Settings.model_validate(tomllib.loads(told.stdout))
-    assert matches("2580", settings.experimenter.pin)
+    assert pin_matches("2580", settings.experimenter.pin)
     assert "2580" not in told.output.replace(settings.experimenter.pin, "")
 
 
@@ -35,6 +35,6 @@ def test_two_of_the_same_pin_have_lines_of_their_own() -> None:
 @pytest.mark.parametrize(("typed", "why"), [(("2580", "2581"), "not the same"), (("12", "12"), "4 to 12 digits")])
 def test_a_slip_and_what_is_no_pin_are_refused(typed: tuple[str, str], why: str) -> None:
     told = choose(*typed)
-    assert isinstance(told.exception, BadInput)
+    assert isinstance(told.exception, UserInputError)
     assert why in str(told.exception)
     assert told.stdout == ""

@@ -17,9 +17,9 @@ from unittest.mock import patch
 
 import pytest
 
-from kiosk.keeping.notice import SocketListener
+from kiosk.experiment.events import SessionStarted
+from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.events import StartTapped
 from tests.samples import WITH_PIN, plan
 
 ROOT = Path(__file__).parents[2]
@@ -41,13 +41,13 @@ LESS = {
 LEFT_AT_ONCE = """
 import sys
 from PySide6.QtCore import QTimer
-from kiosk.cli.front import main
-from kiosk.ui.loop import Loop
-run = Loop.run
+from kiosk.cli.main import main
+from kiosk.ui.event_loop import EventLoop
+run = EventLoop.run
 def leave(loop):
     QTimer.singleShot(0, loop.quit)
     run(loop)
-Loop.run = leave
+EventLoop.run = leave
 main()
 """
 """The program, with somebody who leaves every window as soon as it is there."""
@@ -158,7 +158,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
             assert done.returncode in {0, 1}
         case _:
             assert done.returncode == 0, done.stderr
-    if command in {"sittings", "events", "replay", "explain", "export", "backup", "verify", "withdraw"}:
+    if command in {"sessions", "events", "replay", "explain", "export", "backup", "verify", "withdraw"}:
         assert f"the rehearsals in {newcomer.home / 'share' / 'recollect' / 'rehearsals'}" in done.stderr
 
 
@@ -167,32 +167,32 @@ def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
     rehearsals = newcomer.home / "share" / "recollect" / "rehearsals"
     given = {"H": "127.0.0.1", "ALL": "all", "200": "2", "A": str(rehearsals), "B": str(newcomer.home / "other")}
     if "CODE" in arguments:
-        listed = newcomer.run(["sittings", "--codes"]).stdout
+        listed = newcomer.run(["sessions", "--codes"]).stdout
         (code,) = re.findall(r"\b[2-9A-Z]{7}\b", listed)
         given["CODE"] = code
         # Nobody can be asked here.
         arguments = [*arguments, "--yes"]
     if "B" in arguments:
         with Recorder(Path(given["B"]), "B") as recorder:
-            recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=True), [StartTapped(at_ms=0)])
+            recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=True), [SessionStarted(at_ms=0)])
     return [given.get(argument, argument) for argument in arguments]
 
 
 def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
-    """Whether a keeper brings a kiosk up, and ends with it."""
-    listener = SocketListener(newcomer.home)
+    """Whether a supervisor brings a kiosk up, and ends with it."""
+    listener = NotifySocketListener(newcomer.home)
     command = [sys.executable, "-m", "kiosk", *arguments]
     environment = newcomer.environment | listener.environment
-    with subprocess.Popen(command, cwd=newcomer.home, env=environment) as keeper:
+    with subprocess.Popen(command, cwd=newcomer.home, env=environment) as supervisor:
         while "READY" not in listener.hear(60):
-            assert keeper.poll() is None
-        keeper.terminate()
+            assert supervisor.poll() is None
+        supervisor.terminate()
     listener.close()
-    return keeper.returncode == 0
+    return supervisor.returncode == 0
 
 
 def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path) -> None:
-    done = Newcomer(tmp_path).run(["sittings"])
+    done = Newcomer(tmp_path).run(["sessions"])
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"recollect: there is no database in {tmp_path / 'share' / 'recollect'}\n"
 
@@ -200,9 +200,9 @@ def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path) -> None:
 def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
     # A kiosk that was opened and left has a database, and nobody in it.
     assert newcomer.run([], ("-c", LEFT_AT_ONCE)).returncode == 0
-    assert "about the rehearsals" in newcomer.run(["sittings"]).stderr
+    assert "about the rehearsals" in newcomer.run(["sessions"]).stderr
     assert newcomer.run(["verify"]).stderr == ""
     with Recorder(newcomer.home / "share" / "recollect") as recorder:
-        recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=False), [StartTapped(at_ms=0)])
-    done = newcomer.run(["sittings", "--json"])
-    assert (done.stderr, done.stdout.count('"sitting": 1,')) == ("", 1)
+        recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=False), [SessionStarted(at_ms=0)])
+    done = newcomer.run(["sessions", "--json"])
+    assert (done.stderr, done.stdout.count('"session": 1,')) == ("", 1)

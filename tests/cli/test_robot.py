@@ -1,4 +1,4 @@
-"""``recollect robot`` tries a robot step by step and says what it found; ``rehearse`` plays a sitting with one."""
+"""``recollect robot`` tries a robot step by step and says what it found; ``rehearse`` plays a session with one."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from kiosk.cli.front import recollect
-from tests.robot.furhat_fake import FurhatFake, Mode
-from tests.robot.realtime_fake import RealtimeFake
+from kiosk.cli.main import recollect
+from tests.robots.furhat_fake import FurhatFake, Mode
+from tests.robots.realtime_fake import RealtimeFake
 
 
 def tried(*arguments: object) -> tuple[int, dict[str, Any]]:

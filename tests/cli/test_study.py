@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import pytest
 
-from kiosk.cli.front import main
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.declared.questionnaire import Order, Questionnaire
-from kiosk.study.declared.reference import as_page, as_study_file
+from kiosk.cli.main import main
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
+from kiosk.study.loader import read_study
+from kiosk.study.reference import as_page, as_study_file
 from tests.cli.bad_studies import OWN, QUESTIONS, SENTENCES, SHEETS, STUDIES, TOLD, Bad, asset
 
 PAPER = ASSETS / "studies" / "paper.toml"
@@ -142,7 +142,7 @@ def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recol
     assert said.code == 0
     cautions = json.loads(said.out)["cautions"]
     assert [caution.split(":")[0] for caution in cautions] == [
-        "without the stage 'consent', nobody is asked before their sitting is stored",
+        "without the stage 'consent', nobody is asked before their session is stored",
         "without the stage 'age', nobody is asked whether they are old enough",
         "without the stage 'debrief', nobody sees the code with which to withdraw",
         "consent.text",
@@ -279,7 +279,7 @@ def test_a_table_becomes_a_questionnaire(tmp_path: Path, recollect: Recollect) -
     assert said == Called(0, f"1 item written to {out}\n", "")
     read = Questionnaire.read(out)
     assert (read.id, read.version, read.note) == ("own", "3", "Brought in from table.csv.")
-    assert (read.per_page, read.order) == (4, Order.SHUFFLED)
+    assert (read.per_page, read.order) == (4, ItemOrder.SHUFFLED)
     assert read.items[0].text == {"en": "How?"}
     assert set(files(tmp_path)) == {tmp_path / "table.csv", out}
 

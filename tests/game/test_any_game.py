@@ -10,7 +10,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from kiosk.game import Board, Concentration, IllegalFlip, Position, Refusal
+from kiosk.game import Board, Concentration, FlipRejection, IllegalFlip, Position
 from tests.samples import ANIMALS
 
 NEAR = st.builds(Position, st.integers(-1, 4), st.integers(-1, 6))
@@ -32,16 +32,16 @@ class AnyGame(RuleBasedStateMachine):
     def deal(self, seed: int, shape: tuple[int, int]) -> None:
         self.game = Concentration(Board.deal(*shape, ANIMALS, Random(seed)))
 
-    def why_not(self, position: Position) -> Refusal | None:
+    def why_not(self, position: Position) -> FlipRejection | None:
         """The rules once more, in the order in which a person would explain them."""
         board = self.game.board
         if not (position.row in range(board.rows) and position.column in range(board.columns)):
-            return Refusal.OUTSIDE
+            return FlipRejection.OUTSIDE
         if len(self.open) == 2:
-            return Refusal.TURNING_BACK
+            return FlipRejection.TURNING_BACK
         if position in self.found:
-            return Refusal.FOUND
-        return Refusal.OPEN if position in self.open else None
+            return FlipRejection.FOUND
+        return FlipRejection.OPEN if position in self.open else None
 
     @rule(position=NEAR | FAR)
     def flip(self, position: Position) -> None:

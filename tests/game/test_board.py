@@ -41,7 +41,7 @@ def test_two_seeds_deal_two_boards() -> None:
 
 
 def test_a_seed_deals_the_same_board_for_ever() -> None:
-    """Stored sittings are replayed from their seed: this board may not change with a later version."""
+    """Stored sessions are replayed from their seed: this board may not change with a later version."""
     assert "".join(Board.deal(4, 6, "abcdefghijkl", Random(7)).cards) == "cjlhdhlkdjgieaefbibakgcf"
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from kiosk.game import Concentration, Flip, IllegalFlip, Position, Refusal
+from kiosk.game import Concentration, Flip, FlipRejection, IllegalFlip, Position
 from tests.samples import board_of
 
 A, B, C = Position(0, 0), Position(0, 1), Position(0, 2)
@@ -112,7 +112,7 @@ def test_a_game_is_over_when_every_pair_is_found(game: Concentration) -> None:
 def test_a_card_that_is_open_may_not_be_flipped(game: Concentration) -> None:
     game.flip(A)
     refused = refusal(game, A)
-    assert refused.refusal is Refusal.OPEN
+    assert refused.refusal is FlipRejection.OPEN
     assert str(refused) == "the card at row 1, column 1 may not be flipped: already open"
 
 
@@ -120,26 +120,26 @@ def test_a_card_that_is_found_may_not_be_flipped(game: Concentration) -> None:
     game.flip(A)
     game.flip(A2)
     refused = refusal(game, A2)
-    assert (refused.refusal, refused.position) == (Refusal.FOUND, A2)
+    assert (refused.refusal, refused.position) == (FlipRejection.FOUND, A2)
     assert str(refused) == "the card at row 2, column 2 may not be flipped: already found"
 
 
 @pytest.mark.parametrize("place", [(2, 0), (0, 3), (-1, 0), (0, -1)])
 def test_a_place_outside_the_board_may_not_be_flipped(game: Concentration, place: tuple[int, int]) -> None:
-    assert refusal(game, Position(*place)).refusal is Refusal.OUTSIDE
+    assert refusal(game, Position(*place)).refusal is FlipRejection.OUTSIDE
 
 
 @pytest.mark.parametrize("position", [A, B, C, B2])
 def test_no_card_may_be_flipped_while_two_are_turning_back(game: Concentration, position: Position) -> None:
     game.flip(A)
     game.flip(B)
-    assert refusal(game, position).refusal is Refusal.TURNING_BACK
+    assert refusal(game, position).refusal is FlipRejection.TURNING_BACK
 
 
 def test_outside_is_outside_whatever_else_is_going_on(game: Concentration) -> None:
     game.flip(A)
     game.flip(B)
-    assert refusal(game, Position(9, 9)).refusal is Refusal.OUTSIDE
+    assert refusal(game, Position(9, 9)).refusal is FlipRejection.OUTSIDE
 
 
 def test_an_illegal_second_flip_leaves_the_move_open_to_a_legal_one(game: Concentration) -> None:

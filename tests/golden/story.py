@@ -1,4 +1,4 @@
-"""The golden story: one sitting, rehearsed without a screen from the command line, event by event.
+"""The golden story: one session, rehearsed without a screen from the command line, event by event.
 
 ``python -m tests.golden.story`` tells it anew, for a change that is meant to change it; read the difference before you
 commit it.

@@ -1,4 +1,4 @@
-"""The builds are made and started: what is in them plays the same sitting as the checkout, and speaks, and is kept up.
+"""The builds are made and started: what is in them plays the same session as the checkout, and speaks, and is kept up.
 
 The slowest of all tests, half a minute and more. A pytest file rather than a step of the set-up, so that it runs alone.
 """
@@ -19,8 +19,8 @@ from typing import Any
 import pytest
 
 from kiosk import program
-from kiosk.cli.wiring import code_commit
-from kiosk.store.reading import archive
+from kiosk.cli.composition import code_commit
+from kiosk.store.queries import open_repository
 from tests.samples import WITH_PIN
 
 ROOT = Path(__file__).parents[2]
@@ -66,13 +66,13 @@ def rehearse(command: tuple[str, ...], data: Path) -> dict[str, Any]:
     return told
 
 
-def test_a_built_folder_plays_the_very_sitting_that_the_checkout_plays(folder: Path, tmp_path: Path) -> None:
+def test_a_built_folder_plays_the_very_session_that_the_checkout_plays(folder: Path, tmp_path: Path) -> None:
     built = rehearse((str(folder / "recollect"),), tmp_path / "built")
     assert built == rehearse(program(), tmp_path / "checkout")
-    with archive(tmp_path / "built") as one, archive(tmp_path / "checkout") as other:
+    with open_repository(tmp_path / "built") as one, open_repository(tmp_path / "checkout") as other:
         assert one.events(1) == other.events(1)
     with closing(sqlite3.connect(tmp_path / "built" / "recollect.db")) as database:
-        assert database.execute("SELECT code_commit FROM sitting").fetchone() == (code_commit(),)
+        assert database.execute("SELECT code_commit FROM session").fetchone() == (code_commit(),)
 
 
 def test_the_voice_of_a_build_answers(folder: Path) -> None:
@@ -96,7 +96,7 @@ def test_a_command_that_needs_the_full_install_says_so_in_a_sentence(folder: Pat
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_an_unpacked_package_plays_a_sitting_by_its_name_on_the_path(unpacked: Path, tmp_path: Path) -> None:
+def test_an_unpacked_package_plays_a_session_by_its_name_on_the_path(unpacked: Path, tmp_path: Path) -> None:
     assert rehearse((str(unpacked / "usr/bin/recollect"),), tmp_path / "data")["status"] == "completed"
 
 
@@ -115,12 +115,12 @@ def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
         str(study),
     ]
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as keeper:
-        assert keeper.stdout is not None
-        happenings = iter(keeper.stdout)
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as supervisor:
+        assert supervisor.stdout is not None
+        happenings = iter(supervisor.stdout)
         what = next(told["what"] for line in happenings if (told := json.loads(line))["what"] not in {"started"})
-        keeper.send_signal(signal.SIGTERM)
-        assert (what, keeper.wait(LONG)) == ("ready", 0)
+        supervisor.send_signal(signal.SIGTERM)
+        assert (what, supervisor.wait(LONG)) == ("ready", 0)
         assert json.loads(list(happenings)[-1])["what"] == "told to end"
 
 

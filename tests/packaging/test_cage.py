@@ -1,4 +1,4 @@
-"""What started ``recollect-cage`` learns how the keeper ended, though cage forgets it."""
+"""What started ``recollect-cage`` learns how the supervisor ended, though cage forgets it."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="cage is for Lin
 
 
 @pytest.mark.parametrize(
-    ("keeper", "code"),
+    ("supervisor", "code"),
     [("exit 0", 0), ("exit 2", 2), ("exit 1", 1), ("kill -9 $$", 137), ('[ "$1$2$3$4" = "keep----studya b" ]', 0)],
 )
-def test_the_keepers_exit_code_is_told(tmp_path: Path, keeper: str, code: int) -> None:
-    assert ended(tmp_path, CAGE, keeper) == code
+def test_the_keepers_exit_code_is_told(tmp_path: Path, supervisor: str, code: int) -> None:
+    assert ended(tmp_path, CAGE, supervisor) == code
 
 
 def test_a_cage_that_breaks_is_no_good_end(tmp_path: Path) -> None:
     assert ended(tmp_path, "#!/bin/sh\nkill -9 $$\n", "exit 0") == 1
 
 
-def ended(folder: Path, cage: str, keeper: str) -> int:
-    """The exit code with this cage, and this keeper inside."""
-    for name, text in (("cage", cage), ("recollect", f"#!/bin/sh\n{keeper}\n")):
+def ended(folder: Path, cage: str, supervisor: str) -> int:
+    """The exit code with this cage, and this supervisor inside."""
+    for name, text in (("cage", cage), ("recollect", f"#!/bin/sh\n{supervisor}\n")):
         (folder / name).write_text(text)
         (folder / name).chmod(0o755)
     environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "TMPDIR": str(folder)}

@@ -1,4 +1,4 @@
-"""A data folder, and a sitting to write into it."""
+"""A data folder, and a session to write into it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from kiosk.store.recorder import Provenance
+from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
-from tests.study.driver import Driver, with_memory
 
 ROOT = Path(__file__).parents[2]
 
@@ -24,21 +24,21 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def provenance() -> Provenance:
-    """What a sitting follows."""
+    """What a session follows."""
     return Provenance(plan=plan(policy=mixed(4)), seed=4, body="avatar", code_commit="abc123", simulated=True)
 
 
 @pytest.fixture
 def played(provenance: Provenance) -> Driver:
-    """A whole sitting that follows it."""
+    """A whole session that follows it."""
     driver = Driver(provenance.plan, provenance.seed)
-    driver.whole_sitting(with_memory(4))
+    driver.whole_session(with_memory(4))
     return driver
 
 
 @pytest.fixture(scope="module")
 def writer() -> Iterator[subprocess.Popen[str]]:
-    """A program that has sittings written by processes that do not stop."""
+    """A program that has sessions written by processes that do not stop."""
     with subprocess.Popen(
         [sys.executable, "-m", "tests.store.writer"],
         cwd=ROOT,

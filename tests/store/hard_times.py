@@ -31,18 +31,18 @@ import click
 from rich.progress import track
 
 from kiosk import DISK_FULL, StoreFailed, program
-from kiosk.findings import State
-from kiosk.store.care.backup import back_up
-from kiosk.store.care.verify import verify
+from kiosk.experiment.events import Event, SessionStarted, SpeechFailed
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
+from kiosk.preflight import Severity
+from kiosk.store.checks import database_check
 from kiosk.store.database import FILE, open_for_reading
-from kiosk.store.dataset.export import export
-from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.layouts.psych_ds import PsychDs
-from kiosk.store.glance import glance
-from kiosk.store.probes.database import database
-from kiosk.store.reading import archive
+from kiosk.store.maintenance import back_up
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.events import Event, SpeechFailed, StartTapped
+from kiosk.store.snapshot import read_snapshot
+from kiosk.store.verify import verify
 from tests.samples import plan
 from tests.store.visitors import COMPLETED
 
@@ -53,7 +53,7 @@ FOLDERS_OF = 10
 """So many kills in a row strike one data folder."""
 
 DISK_MIB = 3
-BEGUN = (StartTapped(at_ms=0),)
+BEGUN = (SessionStarted(at_ms=0),)
 ENDED = "ended"
 
 
@@ -66,7 +66,7 @@ def work() -> None:
         order = json.loads(line)
         writer = os.fork()
         if writer == 0:
-            _DEEDS[order.pop("deed")](**order)
+            _ACTIONS[order.pop("action")](**order)
             os._exit(0)
         _, status = os.waitpid(writer, 0)
         say(ENDED, signal=os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0)
@@ -84,27 +84,27 @@ def words(chance: Random) -> Event:
 
 
 def begin(recorder: Recorder, seed: int) -> int:
-    """Begin a sitting and acknowledge it."""
-    sitting = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), BEGUN).sitting
-    say("written", sitting=sitting, events=len(BEGUN))
-    return sitting
+    """Begin a session and acknowledge it."""
+    session = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), BEGUN).session
+    say("written", session=session, events=len(BEGUN))
+    return session
 
 
-def append(recorder: Recorder, sitting: int, chance: Random, written: int) -> int:
+def append(recorder: Recorder, session: int, chance: Random, written: int) -> int:
     """Go on with it, acknowledge that, and return how many events it has."""
     recorder.append([words(chance)])
-    say("written", sitting=sitting, events=written + 1)
+    say("written", session=session, events=written + 1)
     return written + 1
 
 
 def die_in_a_checkpoint(folder: str, seed: int) -> None:
-    """Write a sitting, and be killed by the system at some page of the checkpoint that closing makes."""
+    """Write a session, and be killed by the system at some page of the checkpoint that closing makes."""
     chance = Random(seed)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with Recorder(Path(folder)) as recorder:
-        sitting, written = begin(recorder, seed), len(BEGUN)
+        session, written = begin(recorder, seed), len(BEGUN)
         for _ in range(chance.randint(1, 30)):
-            written = append(recorder, sitting, chance, written)
+            written = append(recorder, session, chance, written)
         # The first page comes first, so that anything later is in the middle.
         page = chance.choice(logged_pages(Path(folder, f"{FILE}-wal"))[1:])
         # Python ignores this signal by default.
@@ -123,10 +123,10 @@ def fill_the_disk(folder: str, seed: int, *, killed: bool) -> None:
     """Write until the disk takes no more, and be killed there or close."""
     chance = Random(seed)
     with Recorder(Path(folder)) as recorder:
-        sitting, written = begin(recorder, seed), len(BEGUN)
+        session, written = begin(recorder, seed), len(BEGUN)
         try:
             while True:
-                written = append(recorder, sitting, chance, written)
+                written = append(recorder, session, chance, written)
         except StoreFailed as failure:
             say("failed", words=str(failure))
         if killed:
@@ -138,16 +138,16 @@ def write_and_checkpoint(folder: str, seed: int) -> None:
     chance = Random(seed)
     for number in count(seed):
         with Recorder(Path(folder)) as recorder:
-            sitting, written = begin(recorder, number), len(BEGUN)
+            session, written = begin(recorder, number), len(BEGUN)
             for _ in range(chance.randint(1, 20)):
-                written = append(recorder, sitting, chance, written)
+                written = append(recorder, session, chance, written)
                 if chance.random() < 0.5:
                     kind = chance.choice(("PASSIVE", "FULL", "RESTART", "TRUNCATE"))
                     recorder._connection.execute(f"PRAGMA wal_checkpoint({kind})")
             recorder.append(COMPLETED[1:])
 
 
-_DEEDS: dict[str, Callable[..., None]] = {
+_ACTIONS: dict[str, Callable[..., None]] = {
     "die": die_in_a_checkpoint,
     "fill": fill_the_disk,
     "write": write_and_checkpoint,
@@ -180,10 +180,10 @@ class Worker:
         """Talk to this process."""
         self._process = process
 
-    def order(self, deed: str, **more: Any) -> None:
+    def order(self, action: str, **more: Any) -> None:
         """Have a writer forked."""
         assert self._process.stdin is not None
-        self._process.stdin.write(json.dumps({"deed": deed} | more) + "\n")
+        self._process.stdin.write(json.dumps({"action": action} | more) + "\n")
         self._process.stdin.flush()
 
     def hear(self) -> Iterator[dict[str, Any]]:
@@ -217,7 +217,7 @@ def kills(times: int, seed: int, place: Path) -> Tally:
             folder = place / f"data-{number // FOLDERS_OF}"
             writers.order("die", folder=str(folder), seed=seed + number)
             reports = list(writers.hear())
-            written = {report["sitting"]: report["events"] for report in reports if report["what"] == "written"}
+            written = {report["session"]: report["events"] for report in reports if report["what"] == "written"}
             tally.times += 1
             tally.acknowledged += sum(written.values())
             tally.more["killed inside"] += reports[-1]["signal"] == signal.SIGXFSZ
@@ -242,14 +242,16 @@ def faults(folder: Path, written: dict[int, int], out: Path) -> Iterator[str]:
     """Return what is wrong with a data folder after its writer's end, and with what a new one makes of it."""
     looks: dict[str, Callable[[], object]] = {
         "verify": lambda: refuse_any(verify(folder)),
-        "sittings": lambda: compare(folder, written),
-        "glance": lambda: glance(folder, 0, simulated=True),
-        "check": lambda: refuse_any([each for each in database(folder, busy=False) if each.state is State.BAD]),
+        "sessions": lambda: compare(folder, written),
+        "glance": lambda: read_snapshot(folder, 0, simulated=True),
+        "check": lambda: refuse_any(
+            [each for each in database_check(folder, busy=False) if each.state is Severity.BAD]
+        ),
         "backup": lambda: back_up(folder, out / "copies"),
-        "export": lambda: export(folder, out / "data-set", PsychDs, frozenset(Extra)),
+        "export": lambda: export_dataset(folder, out / "data-set", PsychDs, frozenset(ExportOption)),
         "open": lambda: Recorder(folder).__exit__(None, None, None),
         "verify again": lambda: refuse_any(verify(folder)),
-        "sittings again": lambda: compare(folder, written),
+        "sessions again": lambda: compare(folder, written),
     }
     for name, look in looks.items():
         try:
@@ -265,9 +267,9 @@ def refuse_any(found: list[Any]) -> None:
 
 def compare(folder: Path, written: dict[int, int]) -> None:
     """Raise AssertionError if an event is not there that was acknowledged."""
-    with archive(folder) as stored:
-        for sitting, events in written.items():
-            there = len(stored.events(sitting))
+    with open_repository(folder) as stored:
+        for session, events in written.items():
+            there = len(stored.events(session))
             assert there >= events, f"of {events} acknowledged events {there} are there"
 
 
@@ -301,8 +303,8 @@ def wrong_with_an_open(folder: Path, last: dict[str, Any]) -> Iterator[str]:
     """Return the false alarm, if there is one, or that events are missing."""
     try:
         with closing(open_for_reading(folder)) as connection:
-            query = "SELECT count(*) FROM event WHERE sitting = ?"
-            there = connection.execute(query, (last["sitting"],)).fetchone()[0]
+            query = "SELECT count(*) FROM event WHERE session = ?"
+            there = connection.execute(query, (last["session"],)).fetchone()[0]
     except Exception as fault:  # noqa: BLE001 - whatever it is, it is a false alarm
         yield f"{type(fault).__name__}: {fault}"
     else:
@@ -351,12 +353,12 @@ def full_disk(writers: Worker, disk: Path, seed: int, tally: Tally, *, commands:
     ballast.write_bytes(bytes(chance.randrange(DISK_MIB << 19, (DISK_MIB + 1) << 19)))
     writers.order("fill", folder=str(folder), seed=seed, killed=bool(seed % 2))
     reports = list(writers.hear())
-    written = {report["sitting"]: report["events"] for report in reports if report["what"] == "written"}
+    written = {report["session"]: report["events"] for report in reports if report["what"] == "written"}
     tally.acknowledged += sum(written.values())
     tally.more["times that a full disk was named"] += sum(DISK_FULL in each.get("words", "") for each in reports)
     yield from (f"the writer said {each['words']}" for each in reports if DISK_FULL not in each.get("words", DISK_FULL))
     fill(disk / "the-last-bytes")
-    for remedy in (each.remedy for each in database(folder, busy=False)):
+    for remedy in (each.remedy for each in database_check(folder, busy=False)):
         if "--data" in remedy or "backups" in remedy:
             yield f"the remedy is {remedy}"
     for fault in faults(folder, written, out):
@@ -381,7 +383,7 @@ def said_by_commands(folder: Path, disk: Path, code: str, tally: Tally) -> Itera
     """Return which commands neither do their work on a full disk nor say that it is full."""
     data = ("--data", str(folder))
     for command in (
-        ("sittings", *data),
+        ("sessions", *data),
         ("verify", *data),
         ("events", "1", *data),
         ("backup", *data),

@@ -15,19 +15,19 @@ from types import SimpleNamespace
 
 import pytest
 
-from kiosk import BadInput, StoreFailed, is_nearly_full
-from kiosk.findings import State
+from kiosk import StoreFailed, UserInputError, is_nearly_full
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
+from kiosk.preflight import Severity
 from kiosk.store import connecting, database
-from kiosk.store.care.backup import FOLDER, back_up
-from kiosk.store.care.verify import verify
-from kiosk.store.care.withdraw import withdraw
+from kiosk.store.checks import database_check as probe
 from kiosk.store.database import FILE, open_for_reading, open_for_writing
-from kiosk.store.dataset.export import export
-from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.layouts.psych_ds import PsychDs
-from kiosk.store.probes.database import database as probe
-from kiosk.store.reading import archive
+from kiosk.store.maintenance import FOLDER, back_up
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.verify import verify
+from kiosk.store.withdrawal import withdraw
 from tests.store.visitors import BEGUN, COMPLETED, a_day
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="owners and rights are those of POSIX")
@@ -69,12 +69,12 @@ LEFT = pytest.mark.parametrize(
 def check_readable(folder: Path, out: Path) -> None:
     """Hold that all that a kiosk has written can be verified, listed, copied, looked at and exported."""
     assert verify(folder) == []
-    with archive(folder) as stored:
-        assert [len(stored.events(sitting.id)) for sitting in stored.sittings()] == [1]
-    assert State.BAD not in {found.state for found in probe(folder, busy=False)}
+    with open_repository(folder) as stored:
+        assert [len(stored.events(session.id)) for session in stored.sessions()] == [1]
+    assert Severity.BAD not in {found.state for found in probe(folder, busy=False)}
     with closing(sqlite3.connect(back_up(folder, out / "copies"))) as copy:
         assert copy.execute("SELECT count(*) FROM event").fetchone() == (1,)
-    assert export(folder, out / "data-set", PsychDs, frozenset(Extra)).participants == 1
+    assert export_dataset(folder, out / "data-set", PsychDs, frozenset(ExportOption)).participants == 1
 
 
 # Where nothing may be written
@@ -123,7 +123,7 @@ def test_a_kiosk_does_not_open_on_a_folder_that_is_read_only(
     folder: Path, provenance: Provenance, tmp_path: Path
 ) -> None:
     there = at_rest(folder, provenance, tmp_path / "there")
-    with read_only(there) as data, pytest.raises(BadInput, match="cannot be used"):
+    with read_only(there) as data, pytest.raises(UserInputError, match="cannot be used"):
         Recorder(data)
 
 
@@ -165,7 +165,7 @@ def test_two_readers_at_once_leave_nothing_when_both_have_gone(folder: Path, pro
     before = contents(folder)
     first, second = open_for_reading(folder), open_for_reading(folder)
     first.close()
-    assert second.execute("SELECT count(*) FROM sitting").fetchone() == (4,)
+    assert second.execute("SELECT count(*) FROM session").fetchone() == (4,)
     second.close()
     assert contents(folder).keys() == before.keys()
 
@@ -178,8 +178,8 @@ def test_a_kiosk_that_opens_beside_a_reader_keeps_its_log(folder: Path, provenan
         reader.close()
         assert (folder / f"{FILE}-wal").stat().st_size > 0
         recorder.append(BEGUN)
-    with archive(folder) as stored:
-        assert len(stored.sittings()) == 5
+    with open_repository(folder) as stored:
+        assert len(stored.sessions()) == 5
 
 
 def test_a_process_that_writes_a_database_never_reads_it_as_a_plain_file(
@@ -197,7 +197,7 @@ def test_a_process_that_writes_a_database_never_reads_it_as_a_plain_file(
     with closing(open_for_writing(folder)) as kiosk:
         with monkeypatch.context() as patched:
             patched.setattr(sqlite3, "connect", unable)
-            with pytest.raises(BadInput, match="unable to open"):
+            with pytest.raises(UserInputError, match="unable to open"):
                 open_for_reading(folder)
         kiosk.execute("CREATE TABLE more (id INTEGER) STRICT")
         look = "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]); c.execute('SELECT 1 FROM migration'); c.close()"
@@ -283,10 +283,10 @@ def test_damage_that_sqlite_quotes_is_told_in_a_sentence(folder: Path, provenanc
         lambda: Recorder(folder),
     )
     for look in looks:
-        with pytest.raises(BadInput, match="it is damaged: the text of its schema cannot be read"):
+        with pytest.raises(UserInputError, match="it is damaged: the text of its schema cannot be read"):
             look()
     (found,) = probe(folder, busy=False)
-    assert (found.state, "backups" in found.remedy) == (State.BAD, True)
+    assert (found.state, "backups" in found.remedy) == (Severity.BAD, True)
 
 
 def failing_with(code: int, words: str) -> Callable[..., connecting.Connection]:
@@ -315,10 +315,10 @@ def test_a_full_disk_is_called_one_whatever_sqlite_says(
     with pytest.raises(StoreFailed, match=r"the database .* cannot be used: disk full"):
         Recorder(folder)
     monkeypatch.setattr(database, "for_reading", failing_with(*what))
-    with pytest.raises(BadInput, match=r"the database .* cannot be read: disk full"):
+    with pytest.raises(UserInputError, match=r"the database .* cannot be read: disk full"):
         verify(folder)
     (found,) = probe(folder, busy=False)
-    assert found.state is State.BAD
+    assert found.state is Severity.BAD
     assert found.remedy == "make room on the disk; what is stored is intact"
 
 
@@ -333,7 +333,7 @@ def test_no_remedy_advises_to_leave_a_folder_that_may_be_intact(
     a_day(folder, provenance)
     monkeypatch.setattr(database, "for_reading", failing_with(*what))
     (found,) = probe(folder, busy=False)
-    assert found.state is State.BAD
+    assert found.state is Severity.BAD
     assert not [words for words in ("--data", FOLDER, "copy", "another folder") if words in found.remedy]
 
 
@@ -354,4 +354,4 @@ def test_a_disk_that_fails_for_now_is_not_called_bad_input(
         Recorder(folder)
     monkeypatch.undo()
     with suppress(StoreFailed), Recorder(folder) as recorder:
-        assert recorder.begin(provenance, COMPLETED).sitting == 5
+        assert recorder.begin(provenance, COMPLETED).session == 5

@@ -13,11 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import UserInputError
 from kiosk.store import database
-from kiosk.store.database import APPLICATION_ID, FILE, open_for_reading, open_for_writing
-from kiosk.store.migrations import MIGRATIONS, SCHEMA, Migration
-from kiosk.store.reading import archive
+from kiosk.store.database import APPLICATION_ID, FILE, MIGRATIONS, SCHEMA, Migration, open_for_reading, open_for_writing
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 
 ONE_MORE = Migration(SCHEMA + 1, "one more step", ("CREATE TABLE more (id INTEGER PRIMARY KEY) STRICT",))
@@ -100,7 +99,7 @@ def test_an_older_database_takes_the_steps_it_lacks(folder: Path, monkeypatch: p
 def test_a_step_that_fails_leaves_nothing_behind(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made(folder)
     with_steps(monkeypatch, BROKEN)
-    with pytest.raises(BadInput, match=r"the database .* cannot be used: table event already exists"):
+    with pytest.raises(UserInputError, match=r"the database .* cannot be used: table event already exists"):
         open_for_writing(folder)
     assert ask(folder, "SELECT name FROM sqlite_master WHERE name = 'half'") == []
     assert ask(folder, "PRAGMA user_version") == ask(folder, "SELECT count(*) FROM migration") == [(SCHEMA,)]
@@ -157,7 +156,7 @@ def test_a_foreign_file_is_refused_and_left_as_it_is(
     folder.mkdir()
     foreign(folder / FILE)
     before = contents(folder)
-    with pytest.raises(BadInput, match=r"recollect\.db is not a Recollect database; it was left as it is"):
+    with pytest.raises(UserInputError, match=r"recollect\.db is not a Recollect database; it was left as it is"):
         open_it(folder)
     assert contents(folder) == before
 
@@ -184,7 +183,9 @@ def test_a_newer_database_is_refused_and_left_as_it_is(
 ) -> None:
     newer(folder)
     before = contents(folder)
-    with pytest.raises(BadInput, match=rf"was written by a newer Recollect \(schema 99, this one knows {SCHEMA}\)"):
+    with pytest.raises(
+        UserInputError, match=rf"was written by a newer Recollect \(schema 99, this one knows {SCHEMA}\)"
+    ):
         open_it(folder)
     assert contents(folder) == before
 
@@ -198,31 +199,31 @@ def test_a_database_of_this_very_schema_is_not_newer(folder: Path) -> None:
 def test_a_damaged_database_is_refused_in_words(folder: Path) -> None:
     path = made(folder)
     path.write_bytes(path.read_bytes()[:100] + b"\xff" * 5000)
-    with pytest.raises(BadInput, match="cannot be used: "):
+    with pytest.raises(UserInputError, match="cannot be used: "):
         Recorder(folder)
-    with pytest.raises(BadInput, match="cannot be read: "):
+    with pytest.raises(UserInputError, match="cannot be read: "):
         open_for_reading(folder)
 
 
 def test_a_folder_that_cannot_be_made_is_refused_in_words(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     for folder in (tmp_path / "file" / "data", tmp_path / "file"):
-        with pytest.raises(BadInput, match=r"the data folder .* cannot be used: "):
+        with pytest.raises(UserInputError, match=r"the data folder .* cannot be used: "):
             Recorder(folder)
 
 
 def test_a_folder_in_the_place_of_the_database_is_refused_in_words(folder: Path) -> None:
     (folder / FILE).mkdir(parents=True)
-    with pytest.raises(BadInput, match="cannot be used: "):
+    with pytest.raises(UserInputError, match="cannot be used: "):
         Recorder(folder)
-    with pytest.raises(BadInput, match="there is no database in"):
+    with pytest.raises(UserInputError, match="there is no database in"):
         open_for_reading(folder)
 
 
 def test_a_refused_database_can_be_put_right(folder: Path) -> None:
     newer_in_the_header(folder)
     for _ in range(2):
-        with pytest.raises(BadInput):
+        with pytest.raises(UserInputError):
             Recorder(folder)
     ask(folder, f"PRAGMA user_version = {SCHEMA}")
     made(folder)
@@ -242,7 +243,7 @@ def test_a_database_opened_for_reading_cannot_be_written(folder: Path) -> None:
 def test_where_there_is_no_database_none_is_made_by_looking(folder: Path, *, there: bool) -> None:
     if there:
         folder.mkdir()
-    with pytest.raises(BadInput, match="there is no database in"), archive(folder):
+    with pytest.raises(UserInputError, match="there is no database in"), open_repository(folder):
         pass
     assert folder.exists() is there
     assert not there or not list(folder.iterdir())
@@ -251,7 +252,7 @@ def test_where_there_is_no_database_none_is_made_by_looking(folder: Path, *, the
 def test_an_empty_file_is_not_a_database_to_read(folder: Path) -> None:
     folder.mkdir()
     (folder / FILE).touch()
-    with pytest.raises(BadInput, match="cannot be read: no such table"):
+    with pytest.raises(UserInputError, match="cannot be read: no such table"):
         open_for_reading(folder)
     assert contents(folder) == {FILE: b""}
 

@@ -9,35 +9,35 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import UserInputError
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import Status
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
 from kiosk.store.database import FILE
-from kiosk.store.dataset.export import export
-from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.layouts.psych_ds import PsychDs
-from kiosk.store.reading import archive
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
-from kiosk.study.events import Status
+from tests.experiment.driver import Driver, notes, with_memory
 from tests.samples import plan
-from tests.study.driver import Driver, notes, with_memory
 
-START = happened.StartTapped(at_ms=0)
+START = happened.SessionStarted(at_ms=0)
 
 
 def write(folder: Path, provenance: Provenance, played: Driver) -> int:
-    """Write what was played of a sitting."""
+    """Write what was played of a session."""
     with Recorder(folder) as recorder:
-        return recorder.begin(provenance, played.events).sitting
+        return recorder.begin(provenance, played.events).session
 
 
-def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Driver) -> None:
+def test_a_session_at_a_glance(folder: Path, provenance: Provenance, played: Driver) -> None:
     write(folder, provenance, played)
-    with archive(folder) as stored:
-        (sitting,) = stored.sittings()
+    with open_repository(folder) as stored:
+        (session,) = stored.sessions()
     measures = played.session.measures
-    assert sitting.measures == measures
-    assert sitting.to_json() == {
-        "sitting": 1,
+    assert session.measures == measures
+    assert session.to_json() == {
+        "session": 1,
         "participant": "1",
         "status": "completed",
         "stage": "questions",
@@ -53,15 +53,15 @@ def test_a_sitting_at_a_glance(folder: Path, provenance: Provenance, played: Dri
     }
 
 
-def test_the_events_of_a_sitting_as_the_command_line_prints_them(folder: Path, provenance: Provenance) -> None:
+def test_the_events_of_a_session_as_the_command_line_prints_them(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START]).sitting
-        recorder.append([happened.TimerEnded(at_ms=9, timer=happened.Timer.IDLE), happened.VisitorLeft(at_ms=9)])
-        with archive(folder) as stored:
+        number = recorder.begin(provenance, [START]).session
+        recorder.append([happened.TimerExpired(at_ms=9, timer=happened.Timer.IDLE), happened.IdleTimedOut(at_ms=9)])
+        with open_repository(folder) as stored:
             assert stored.records(number) == [
-                {"seq": 1, "at_ms": 0, "type": "StartTapped", "origin": "world"},
-                {"seq": 2, "at_ms": 9, "type": "TimerEnded", "origin": "world", "timer": "idle"},
-                {"seq": 3, "at_ms": 9, "type": "VisitorLeft", "origin": "session"},
+                {"seq": 1, "at_ms": 0, "type": "SessionStarted", "origin": "world"},
+                {"seq": 2, "at_ms": 9, "type": "TimerExpired", "origin": "world", "timer": "idle"},
+                {"seq": 3, "at_ms": 9, "type": "IdleTimedOut", "origin": "session"},
             ]
 
 
@@ -69,38 +69,38 @@ def test_the_events_of_a_sitting_as_the_command_line_prints_them(folder: Path, p
     ("status", "word"),
     [(Status.COMPLETED, "completed"), (Status.ABANDONED, "abandoned"), (Status.INTERRUPTED, "interrupted")],
 )
-def test_a_sitting_ended_as_it_says(folder: Path, provenance: Provenance, status: Status, word: str) -> None:
+def test_a_session_ended_as_it_says(folder: Path, provenance: Provenance, status: Status, word: str) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, happened.SittingEnded(at_ms=1, status=status)]).sitting
-        with archive(folder) as stored:
-            assert stored.sitting(number).status is status
-            assert stored.sitting(number).to_json()["status"] == word
+        number = recorder.begin(provenance, [START, happened.SessionEnded(at_ms=1, status=status)]).session
+        with open_repository(folder) as stored:
+            assert stored.session(number).status is status
+            assert stored.session(number).to_json()["status"] == word
 
 
-def test_while_somebody_writes_a_sitting_without_an_end_is_running(folder: Path, provenance: Provenance) -> None:
+def test_while_somebody_writes_a_session_without_an_end_is_running(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START]).sitting
-        with archive(folder) as stored:
-            assert stored.sitting(number).status is None
-            assert stored.sitting(number).to_json()["status"] == "running"
-            recorder.append([happened.ContinueTapped(at_ms=4)])
+        number = recorder.begin(provenance, [START]).session
+        with open_repository(folder) as stored:
+            assert stored.session(number).status is None
+            assert stored.session(number).to_json()["status"] == "running"
+            recorder.append([happened.ContinuePressed(at_ms=4)])
             assert len(stored.events(number)) == 2
-        recorder.append([happened.ContinueTapped(at_ms=5)])
+        recorder.append([happened.ContinuePressed(at_ms=5)])
 
 
 def test_after_a_crash_it_was_interrupted_though_nobody_has_said_so_yet(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START]).sitting
-    with archive(folder) as stored:
-        assert stored.sitting(number).status is Status.INTERRUPTED
-        assert [event for event in stored.events(number) if isinstance(event, happened.SittingEnded)] == []
+        number = recorder.begin(provenance, [START]).session
+    with open_repository(folder) as stored:
+        assert stored.session(number).status is Status.INTERRUPTED
+        assert [event for event in stored.events(number) if isinstance(event, happened.SessionEnded)] == []
 
 
 def test_looking_changes_nothing(folder: Path, provenance: Provenance, played: Driver) -> None:
     write(folder, provenance, played)
     before = (folder / FILE).read_bytes()
-    with archive(folder) as stored:
-        stored.sittings()
+    with open_repository(folder) as stored:
+        stored.sessions()
         stored.records(1)
         stored.plan(1)
     assert (folder / FILE).read_bytes() == before
@@ -117,8 +117,8 @@ def test_looking_at_what_a_crash_left_changes_nothing_either(
     kept = {name: (crashed / name).read_bytes() for name in (FILE, f"{FILE}-wal")}
     assert kept[f"{FILE}-wal"]
     for _ in range(2):
-        with archive(crashed) as stored:
-            assert stored.sitting(1).status is Status.INTERRUPTED
+        with open_repository(crashed) as stored:
+            assert stored.session(1).status is Status.INTERRUPTED
             assert stored.events(1) == [START]
     assert {name: (crashed / name).read_bytes() for name in kept} == kept
     with Recorder(crashed) as recorder:
@@ -128,39 +128,39 @@ def test_looking_at_what_a_crash_left_changes_nothing_either(
 def test_looking_does_not_keep_anybody_from_writing(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-    with archive(folder) as stored:
-        assert len(stored.sittings()) == 1
+    with open_repository(folder) as stored:
+        assert len(stored.sessions()) == 1
         with Recorder(folder) as recorder:
             recorder.begin(provenance, [START])
-        assert len(stored.sittings()) == 2
+        assert len(stored.sessions()) == 2
 
 
-def test_sittings_stand_in_the_order_in_which_they_began(folder: Path, provenance: Provenance) -> None:
+def test_sessions_stand_in_the_order_in_which_they_began(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        numbers = [recorder.begin(provenance, [START]).sitting for _ in range(12)]
-        with archive(folder) as stored:
-            assert [sitting.id for sitting in stored.sittings()] == numbers == list(range(1, 13))
+        numbers = [recorder.begin(provenance, [START]).session for _ in range(12)]
+        with open_repository(folder) as stored:
+            assert [session.id for session in stored.sessions()] == numbers == list(range(1, 13))
 
 
-def test_a_sitting_that_does_not_exist_is_refused_in_words(folder: Path, provenance: Provenance) -> None:
+def test_a_session_that_does_not_exist_is_refused_in_words(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-    with archive(folder) as stored:
-        for look in (stored.sitting, stored.records, stored.events, stored.plan, stored.seed):
-            with pytest.raises(BadInput, match="there is no sitting 2"):
+    with open_repository(folder) as stored:
+        for look in (stored.session, stored.records, stored.events, stored.plan, stored.seed):
+            with pytest.raises(UserInputError, match="there is no session 2"):
                 look(2)
 
 
 def test_what_was_never_kept_is_refused_in_words(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-    with archive(folder) as stored, pytest.raises(BadInput, match="nothing is kept under the hash abc"):
+    with open_repository(folder) as stored, pytest.raises(UserInputError, match="nothing is kept under the hash abc"):
         stored.source("abc")
 
 
-def test_what_a_sitting_followed_can_be_rebuilt(folder: Path, provenance: Provenance, played: Driver) -> None:
+def test_what_a_session_followed_can_be_rebuilt(folder: Path, provenance: Provenance, played: Driver) -> None:
     number = write(folder, provenance, played)
-    with archive(folder) as stored:
+    with open_repository(folder) as stored:
         rebuilt, seed = stored.plan(number), stored.seed(number)
     plan = provenance.plan
     assert seed == provenance.seed
@@ -174,7 +174,7 @@ def test_what_a_sitting_followed_can_be_rebuilt(folder: Path, provenance: Proven
     assert (rebuilt.catalogue.language, rebuilt.catalogue.sources) == (plan.catalogue.language, plan.catalogue.sources)
 
 
-def test_every_sitting_has_its_own_measures(folder: Path, provenance: Provenance) -> None:
+def test_every_session_has_its_own_measures(folder: Path, provenance: Provenance) -> None:
     measures = []
     with Recorder(folder) as recorder:
         for seed in range(3):
@@ -185,8 +185,8 @@ def test_every_sitting_has_its_own_measures(folder: Path, provenance: Provenance
             recorder.begin(
                 provenance, [event for step in driver.steps for event in (step.event, *notes(step.commands))]
             )
-        with archive(folder) as stored:
-            assert [sitting.measures for sitting in stored.sittings()] == measures
+        with open_repository(folder) as stored:
+            assert [session.measures for session in stored.sessions()] == measures
 
 
 def test_a_database_that_is_damaged_is_refused_in_words(
@@ -195,10 +195,10 @@ def test_a_database_that_is_damaged_is_refused_in_words(
     with Recorder(folder) as recorder:
         recorder.begin(provenance, played.events)
     damage(folder / FILE, "event")
-    with pytest.raises(BadInput, match="cannot be read"), archive(folder) as stored:
-        stored.sittings()
-    with pytest.raises(BadInput, match="cannot be read"):
-        export(folder, tmp_path / "out", PsychDs, frozenset({Extra.REHEARSALS}))
+    with pytest.raises(UserInputError, match="cannot be read"), open_repository(folder) as stored:
+        stored.sessions()
+    with pytest.raises(UserInputError, match="cannot be read"):
+        export_dataset(folder, tmp_path / "out", PsychDs, frozenset({ExportOption.REHEARSALS}))
     assert not (tmp_path / "out").exists()
 
 

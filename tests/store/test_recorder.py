@@ -16,21 +16,21 @@ from typing import Any
 
 import pytest
 
-from kiosk import BadInput, StoreFailed, __version__
+from kiosk import StoreFailed, UserInputError, __version__
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Event, NotRecordedReason, Status
+from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.game import Position
 from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing
-from kiosk.store.reading import archive
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
-from kiosk.study import events as happened
-from kiosk.study.condition import Condition
-from kiosk.study.declared.questionnaire import QUESTIONNAIRES
-from kiosk.study.events import Event, Status, Unstored
+from tests.experiment.driver import Driver, notes, replay
 from tests.store.writer import GONE
-from tests.study.driver import Driver, notes, replay
 
 A_TOMBSTONE = "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
-START = happened.StartTapped(at_ms=0)
+START = happened.SessionStarted(at_ms=0)
 
 
 def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
@@ -40,9 +40,9 @@ def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
 
 
 def write(recorder: Recorder, provenance: Provenance, played: Driver) -> int:
-    """Write a sitting as it is played: a transaction for every event and what followed from it."""
+    """Write a session as it is played: a transaction for every event and what followed from it."""
     first, *others = played.steps
-    number = recorder.begin(provenance, [first.event, *notes(first.commands)]).sitting
+    number = recorder.begin(provenance, [first.event, *notes(first.commands)]).session
     for step in others:
         recorder.append([step.event, *notes(step.commands)])
     return number
@@ -80,19 +80,19 @@ def many(size: int) -> list[Event]:
 # What is written
 
 
-def test_a_sitting_comes_back_as_it_was_written(folder: Path, provenance: Provenance, played: Driver) -> None:
+def test_a_session_comes_back_as_it_was_written(folder: Path, provenance: Provenance, played: Driver) -> None:
     with Recorder(folder) as recorder:
         number = write(recorder, provenance, played)
-    with archive(folder) as stored:
+    with open_repository(folder) as stored:
         assert stored.events(number) == played.events
 
 
-def test_a_stored_sitting_can_be_replayed_from_the_database_alone(
+def test_a_stored_session_can_be_replayed_from_the_database_alone(
     folder: Path, provenance: Provenance, played: Driver
 ) -> None:
     with Recorder(folder) as recorder:
         number = write(recorder, provenance, played)
-    with archive(folder) as stored:
+    with open_repository(folder) as stored:
         plan, seed = stored.plan(number), stored.seed(number)
         world = [event for event in stored.events(number) if isinstance(event, happened.WorldEvent)]
     assert replay(plan, seed, world) == [step.commands for step in played.steps]
@@ -106,14 +106,14 @@ def test_events_are_numbered_from_one_without_a_gap(folder: Path, provenance: Pr
 
 
 def test_an_event_s_row_can_be_read_without_the_program(folder: Path, provenance: Provenance) -> None:
-    ignored = happened.TapIgnored(at_ms=7, position=Position(1, 2), why=None)
+    ignored = happened.CardSelectionRejected(at_ms=7, position=Position(1, 2), why=None)
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-        recorder.append([happened.CardTapped(at_ms=7, position=Position(1, 2)), ignored])
-    assert rows(folder, "SELECT sitting, seq, at_ms, origin, type, body FROM event ORDER BY seq") == [
-        (1, 1, 0, "world", "StartTapped", "{}"),
-        (1, 2, 7, "world", "CardTapped", '{"position":{"row":1,"column":2}}'),
-        (1, 3, 7, "session", "TapIgnored", '{"position":{"row":1,"column":2},"why":null}'),
+        recorder.append([happened.CardSelected(at_ms=7, position=Position(1, 2)), ignored])
+    assert rows(folder, "SELECT session, seq, at_ms, origin, type, body FROM event ORDER BY seq") == [
+        (1, 1, 0, "world", "SessionStarted", "{}"),
+        (1, 2, 7, "world", "CardSelected", '{"position":{"row":1,"column":2}}'),
+        (1, 3, 7, "session", "CardSelectionRejected", '{"position":{"row":1,"column":2},"why":null}'),
     ]
 
 
@@ -121,7 +121,7 @@ def test_an_event_says_when_it_was_written_by_the_clock_on_the_wall(folder: Path
     before = time.time_ns() // 1_000_000
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-        recorder.append([happened.ContinueTapped(at_ms=5)])
+        recorder.append([happened.ContinuePressed(at_ms=5)])
     with Recorder(folder):
         pass
     walls = [wall for (wall,) in rows(folder, "SELECT wall_ms FROM event ORDER BY seq")]
@@ -133,8 +133,8 @@ def test_an_event_says_when_it_was_written_by_the_clock_on_the_wall(folder: Path
 def test_words_in_any_script_are_kept_as_they_are(folder: Path, provenance: Provenance) -> None:
     failed = happened.SpeechFailed(at_ms=1, utterance=1, why="kein Ton — 音がない 🔇")
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, failed]).sitting
-    with archive(folder) as stored:
+        number = recorder.begin(provenance, [START, failed]).session
+    with open_repository(folder) as stored:
         assert stored.events(number)[1] == failed
 
 
@@ -142,18 +142,18 @@ def test_words_that_are_not_quite_text_are_kept_all_the_same(folder: Path, prove
     """The operating system's messages may hold lone surrogates, in the name of a device or a file."""
     failed = happened.SpeechFailed(at_ms=1, utterance=1, why="no device \udcff")
     with Recorder(folder) as recorder:
-        number = recorder.begin(provenance, [START, failed]).sitting
-    with archive(folder) as stored:
+        number = recorder.begin(provenance, [START, failed]).session
+    with open_repository(folder) as stored:
         assert stored.events(number)[1] == failed
 
 
-def test_a_sitting_s_row_says_what_it_followed(folder: Path, provenance: Provenance) -> None:
+def test_a_session_s_row_says_what_it_followed(folder: Path, provenance: Provenance) -> None:
     plan = provenance.plan
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection:
         connection.row_factory = sqlite3.Row
-        row = dict(connection.execute("SELECT * FROM sitting").fetchone())
+        row = dict(connection.execute("SELECT * FROM session").fetchone())
         kept = dict(connection.execute("SELECT sha256, content FROM source").fetchall())
     assert (row["id"], row["seed"], row["condition"], row["body"], row["language"]) == (1, 4, "tom", "avatar", "en")
     assert (row["simulated"], row["version"], row["code_commit"]) == (1, __version__, "abc123")
@@ -170,22 +170,22 @@ def test_a_sitting_s_row_says_what_it_followed(folder: Path, provenance: Provena
     assert row["started_at"].endswith("+00:00")
 
 
-def test_sittings_are_numbered_and_share_what_they_followed(folder: Path, provenance: Provenance) -> None:
+def test_sessions_are_numbered_and_share_what_they_followed(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        assert [recorder.begin(provenance, [START]).sitting for _ in range(3)] == [1, 2, 3]
+        assert [recorder.begin(provenance, [START]).session for _ in range(3)] == [1, 2, 3]
     assert rows(folder, "SELECT count(*) FROM source") == [(6,)]
-    assert rows(folder, "SELECT sitting, seq FROM event WHERE type = 'StartTapped'") == [(1, 1), (2, 1), (3, 1)]
+    assert rows(folder, "SELECT session, seq FROM event WHERE type = 'SessionStarted'") == [(1, 1), (2, 1), (3, 1)]
 
 
-def test_what_was_written_before_another_sitting_began_stays_with_its_own(folder: Path, provenance: Provenance) -> None:
-    tapped = happened.ContinueTapped(at_ms=5)
-    end = happened.SittingEnded(at_ms=9, status=Status.COMPLETED)
+def test_what_was_written_before_another_session_began_stays_with_its_own(folder: Path, provenance: Provenance) -> None:
+    tapped = happened.ContinuePressed(at_ms=5)
+    end = happened.SessionEnded(at_ms=9, status=Status.COMPLETED)
     with Recorder(folder) as recorder:
         for _ in range(2):
             recorder.begin(provenance, [START, START])
             recorder.append([tapped])
             recorder.append([tapped, end])
-    assert rows(folder, "SELECT sitting, max(seq), count(*) FROM event GROUP BY sitting") == [(1, 5, 5), (2, 5, 5)]
+    assert rows(folder, "SELECT session, max(seq), count(*) FROM event GROUP BY session") == [(1, 5, 5), (2, 5, 5)]
 
 
 # Nothing is ever changed
@@ -193,84 +193,84 @@ def test_what_was_written_before_another_sitting_began_stays_with_its_own(folder
 
 @pytest.mark.parametrize(
     "table",
-    ["event", "sitting", "source", "migration", "participant", "allocation", "visit", "booth_event", "tombstone"],
+    ["event", "session", "source", "migration", "participant", "allocation", "visit", "booth_event", "tombstone"],
 )
 def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: Provenance, table: str) -> None:
     with Recorder(folder) as recorder:
-        recorder.fix_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
+        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
         recorder.begin(provenance, [START])
-        recorder.count_visit(Unstored.LEFT, simulated=True)
-        recorder.note("deviation", {"why": "the robot fell over"})
+        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
+        recorder.add_audit_event("deviation", {"why": "the robot fell over"})
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute(A_TOMBSTONE, (7,))
     before = rows(folder, f"SELECT * FROM {table}")  # noqa: S608 - a table of ours
     assert before
     with closing(sqlite3.connect(folder / FILE)) as connection:
         column = connection.execute(f"SELECT name FROM pragma_table_info('{table}')").fetchone()[0]  # noqa: S608
-        for deed in (f"UPDATE {table} SET {column} = {column}", f"DELETE FROM {table}"):  # noqa: S608
+        for action in (f"UPDATE {table} SET {column} = {column}", f"DELETE FROM {table}"):  # noqa: S608
             with pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"):
-                connection.execute(deed)
+                connection.execute(action)
     assert rows(folder, f"SELECT * FROM {table}") == before  # noqa: S608
 
 
 @pytest.mark.parametrize(
-    "deed",
+    "action",
     [
-        "INSERT OR REPLACE INTO event SELECT sitting, seq, 99, origin, type, body, 0 FROM event",
+        "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, body, 0 FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
-        "REPLACE INTO participant SELECT sitting, site, simulated, number, 'forged' FROM participant",
+        "REPLACE INTO participant SELECT session, site, simulated, number, 'forged' FROM participant",
         "REPLACE INTO participant SELECT 9, site, simulated, number, 'forged' FROM participant",
         "REPLACE INTO participant SELECT 9, site, simulated, 9, code FROM participant",
         "REPLACE INTO allocation SELECT id, site, simulated, 99, block, quotas, places, fixed_at FROM allocation",
         "REPLACE INTO visit SELECT id, 'declined', simulated FROM visit",
         "REPLACE INTO booth_event SELECT id, 0, type, body FROM booth_event",
-        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'StartTapped', '{}', 0)",
+        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'SessionStarted', '{}', 0)",
     ],
 )
-def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Provenance, deed: str) -> None:
+def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Provenance, action: str) -> None:
     """SQLite's REPLACE deletes the old row without a word to the triggers of DELETE."""
     with Recorder(folder) as recorder:
-        recorder.fix_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
+        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
         recorder.begin(provenance, [START])
-        recorder.count_visit(Unstored.LEFT, simulated=True)
-        recorder.note("deviation", {"why": "the robot fell over"})
+        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
+        recorder.add_audit_event("deviation", {"why": "the robot fell over"})
     with (
         closing(sqlite3.connect(folder / FILE)) as connection,
         pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"),
     ):
-        connection.execute(deed)
+        connection.execute(action)
 
 
-@pytest.mark.parametrize("table", ["event", "participant", "sitting"])
-def test_only_a_tombstone_lets_a_sitting_go(folder: Path, provenance: Provenance, table: str) -> None:
+@pytest.mark.parametrize("table", ["event", "participant", "session"])
+def test_only_a_tombstone_lets_a_session_go(folder: Path, provenance: Provenance, table: str) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute(A_TOMBSTONE, (1,))
-        key = "id" if table == "sitting" else "sitting"
+        key = "id" if table == "session" else "session"
         connection.execute(f"DELETE FROM {table} WHERE {key} = 1")  # noqa: S608 - a table of ours
         with pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"):
             connection.execute(f"DELETE FROM {table} WHERE {key} = 2")  # noqa: S608
 
 
-def test_a_sitting_that_was_withdrawn_does_not_come_back(folder: Path, provenance: Provenance) -> None:
+def test_a_session_that_was_withdrawn_does_not_come_back(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
-        connection.execute("CREATE TEMP TABLE kept AS SELECT * FROM sitting")
+        connection.execute("CREATE TEMP TABLE kept AS SELECT * FROM session")
         connection.execute(A_TOMBSTONE, (1,))
-        connection.execute("DELETE FROM sitting")
+        connection.execute("DELETE FROM session")
         with pytest.raises(sqlite3.IntegrityError, match="what was withdrawn does not come back"):
-            connection.execute("INSERT INTO sitting SELECT * FROM kept")
+            connection.execute("INSERT INTO session SELECT * FROM kept")
 
 
 def test_an_event_s_number_is_taken_once(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, pytest.raises(sqlite3.IntegrityError):
-        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'StartTapped', '{}', 0)")
+        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'SessionStarted', '{}', 0)")
 
 
 # On the disk
@@ -311,20 +311,20 @@ def test_a_full_disk_fails_in_words_and_nothing_is_half_written(
     assert rows(folder, "SELECT seq FROM event ORDER BY seq") == [(1,), (2,), (3,)]
 
 
-def test_a_disk_that_is_full_when_a_sitting_begins_keeps_nothing_of_it(
+def test_a_disk_that_is_full_when_a_session_begins_keeps_nothing_of_it(
     folder: Path, provenance: Provenance, connections: list[sqlite3.Connection]
 ) -> None:
     with Recorder(folder) as recorder:
         limited(connections[0])
         with pytest.raises(StoreFailed, match="disk full"):
             recorder.begin(provenance, [START])
-        assert rows(folder, "SELECT count(*) FROM sitting") == [(0,)]
+        assert rows(folder, "SELECT count(*) FROM session") == [(0,)]
         assert rows(folder, "SELECT count(*) FROM source") == [(0,)]
         unlimited(connections[0])
-        assert recorder.begin(provenance, [START]).sitting == 1
+        assert recorder.begin(provenance, [START]).session == 1
 
 
-def test_an_event_without_a_sitting_is_not_written(folder: Path) -> None:
+def test_an_event_without_a_session_is_not_written(folder: Path) -> None:
     with Recorder(folder) as recorder, pytest.raises(StoreFailed, match="FOREIGN KEY"):
         recorder.append([START])
     assert rows(folder, "SELECT count(*) FROM event") == [(0,)]
@@ -334,24 +334,24 @@ def test_an_event_that_cannot_be_written_leaves_the_recorder_usable(folder: Path
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         with pytest.raises(OverflowError):
-            recorder.append([happened.ContinueTapped(at_ms=1), happened.ContinueTapped(at_ms=2**63)])
-        recorder.append([happened.ContinueTapped(at_ms=2)])
+            recorder.append([happened.ContinuePressed(at_ms=1), happened.ContinuePressed(at_ms=2**63)])
+        recorder.append([happened.ContinuePressed(at_ms=2)])
     assert rows(folder, "SELECT seq, at_ms FROM event ORDER BY seq") == [(1, 0), (2, 2)]
 
 
 # Interrupted
 
 
-def test_a_sitting_that_was_cut_off_is_marked_where_its_last_event_left_it(
+def test_a_session_that_was_cut_off_is_marked_where_its_last_event_left_it(
     folder: Path, provenance: Provenance
 ) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-        recorder.append([happened.ContinueTapped(at_ms=70), happened.BoardOpened(at_ms=70)])
+        recorder.append([happened.ContinuePressed(at_ms=70), happened.BoardUnlocked(at_ms=70)])
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
-    assert rows(folder, "SELECT sitting, seq, at_ms, origin, type, body FROM event WHERE seq > 3") == [
-        (1, 4, 70, "recovery", "SittingEnded", '{"status":"interrupted"}')
+    assert rows(folder, "SELECT session, seq, at_ms, origin, type, body FROM event WHERE seq > 3") == [
+        (1, 4, 70, "recovery", "SessionEnded", '{"status":"interrupted"}')
     ]
 
 
@@ -363,19 +363,19 @@ def test_it_is_marked_once(folder: Path, provenance: Provenance) -> None:
         with Recorder(folder) as recorder:
             recovered.append(recorder.recovered)
     assert recovered == [(1,), (), ()]
-    assert rows(folder, "SELECT count(*) FROM event WHERE type = 'SittingEnded'") == [(1,)]
+    assert rows(folder, "SELECT count(*) FROM event WHERE type = 'SessionEnded'") == [(1,)]
 
 
-def test_a_sitting_that_ended_is_left_alone(folder: Path, provenance: Provenance, played: Driver) -> None:
+def test_a_session_that_ended_is_left_alone(folder: Path, provenance: Provenance, played: Driver) -> None:
     with Recorder(folder) as recorder:
         write(recorder, provenance, played)
     with Recorder(folder) as recorder:
         assert recorder.recovered == ()
-    with archive(folder) as stored:
+    with open_repository(folder) as stored:
         assert stored.events(1) == played.events
 
 
-def test_every_sitting_that_was_cut_off_is_marked(folder: Path, provenance: Provenance, played: Driver) -> None:
+def test_every_session_that_was_cut_off_is_marked(folder: Path, provenance: Provenance, played: Driver) -> None:
     with Recorder(folder) as recorder:
         write(recorder, provenance, played)
         recorder.begin(provenance, [START])
@@ -386,18 +386,18 @@ def test_every_sitting_that_was_cut_off_is_marked(folder: Path, provenance: Prov
         assert recorder.recovered == (3,)
 
 
-def test_a_sitting_whose_end_the_disk_did_not_take_is_marked_when_the_next_begins(
+def test_a_session_whose_end_the_disk_did_not_take_is_marked_when_the_next_begins(
     folder: Path, provenance: Provenance
 ) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         recorder.begin(provenance, [START])
-        recorder.append([happened.ContinueTapped(at_ms=5)])
-    assert rows(folder, "SELECT sitting, seq, type FROM event ORDER BY sitting, seq") == [
-        (1, 1, "StartTapped"),
-        (1, 2, "SittingEnded"),
-        (2, 1, "StartTapped"),
-        (2, 2, "ContinueTapped"),
+        recorder.append([happened.ContinuePressed(at_ms=5)])
+    assert rows(folder, "SELECT session, seq, type FROM event ORDER BY session, seq") == [
+        (1, 1, "SessionStarted"),
+        (1, 2, "SessionEnded"),
+        (2, 1, "SessionStarted"),
+        (2, 2, "ContinuePressed"),
     ]
 
 
@@ -414,7 +414,7 @@ def test_a_database_that_cannot_be_written_when_a_crash_is_to_be_marked_is_refus
 
     with monkeypatch.context() as patched:
         patched.setattr(recorder_module, "open_for_writing", unwritable)
-        with pytest.raises(BadInput, match=r"the data folder .* cannot be written"):
+        with pytest.raises(UserInputError, match=r"the data folder .* cannot be written"):
             Recorder(folder)
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
@@ -427,9 +427,9 @@ def test_a_second_recorder_on_the_same_folder_is_refused(folder: Path, provenanc
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         for _ in range(2):
-            with pytest.raises(BadInput, match="another Recollect is writing in"):
+            with pytest.raises(UserInputError, match="another Recollect is writing in"):
                 Recorder(folder)
-        recorder.append([happened.ContinueTapped(at_ms=1)])
+        recorder.append([happened.ContinuePressed(at_ms=1)])
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
         recorder.begin(provenance, [START])
@@ -438,7 +438,7 @@ def test_a_second_recorder_on_the_same_folder_is_refused(folder: Path, provenanc
 def test_a_recorder_that_is_refused_lets_go_of_the_database(
     folder: Path, connections: list[sqlite3.Connection]
 ) -> None:
-    with Recorder(folder), pytest.raises(BadInput):
+    with Recorder(folder), pytest.raises(UserInputError):
         Recorder(folder)
     for connection in connections:
         with pytest.raises(sqlite3.ProgrammingError, match="closed"):
@@ -451,7 +451,7 @@ def test_a_database_is_not_migrated_under_a_recorder_that_is_at_work(folder: Pat
         recorder.begin(provenance, [START])
         with closing(sqlite3.connect(folder / FILE)) as connection:
             connection.execute("PRAGMA user_version = 1")
-        with pytest.raises(BadInput, match="another Recollect is writing in"):
+        with pytest.raises(UserInputError, match="another Recollect is writing in"):
             Recorder(folder)
         assert rows(folder, "PRAGMA user_version") == [(1,)]
 
@@ -471,13 +471,13 @@ def test_a_process_killed_while_it_writes_loses_nothing_that_it_acknowledged(
         assert recorder.recovered == ()
     assert rows(folder, "PRAGMA integrity_check") == [("ok",)]
     *written, end = [kind for (kind,) in rows(folder, "SELECT type FROM event ORDER BY seq")]
-    assert end == "SittingEnded"
+    assert end == "SessionEnded"
     assert len(written) in (acknowledged, acknowledged + 2)
-    assert written == ["StartTapped", *["CardTapped", "TapIgnored"] * ((len(written) - 1) // 2)]
+    assert written == ["SessionStarted", *["CardSelected", "CardSelectionRejected"] * ((len(written) - 1) // 2)]
 
 
 def kill_in_the_middle(writer: subprocess.Popen[str], folder: Path, after: int) -> int:
-    """Have a sitting written, kill the writer after so many batches, and say how many events it had acknowledged."""
+    """Have a session written, kill the writer after so many batches, and say how many events it had acknowledged."""
     assert writer.stdin is not None
     assert writer.stdout is not None
     writer.stdin.write(f"{folder}\n")
@@ -495,9 +495,9 @@ def test_a_recorder_never_waits_for_another_program_unless_it_is_told_to(tmp_pat
     with Recorder(tmp_path) as recorder, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")
         with pytest.raises(StoreBusy, match="another program holds the database"):
-            recorder.note("PanelOpened", {})
+            recorder.add_audit_event("PanelOpened", {})
         other.execute("ROLLBACK")
-        recorder.note("PanelOpened", {}, wall_ms=5)
+        recorder.add_audit_event("PanelOpened", {}, wall_ms=5)
     assert rows(tmp_path, "SELECT type, wall_ms FROM booth_event") == [("PanelOpened", 5)]
 
 
@@ -518,14 +518,14 @@ def test_a_recorder_that_is_told_to_wait_writes_when_the_other_program_lets_go(
 
         letting_go = threading.Thread(target=let_go)
         letting_go.start()
-        recorder.note("PanelOpened", {})
+        recorder.add_audit_event("PanelOpened", {})
         letting_go.join()
     assert rows(tmp_path, "SELECT type FROM booth_event") == [("PanelOpened",)]
 
 
 def test_the_next_place_is_read_while_another_program_writes(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
-        listed = recorder.fix_list({Condition("tom"): 1, Condition("notom"): 1}, 2, 1, simulated=False)
+        listed = recorder.create_allocation_list({Condition("tom"): 1, Condition("notom"): 1}, 2, 1, simulated=False)
         other.execute("BEGIN IMMEDIATE")
-        assert recorder.next_place(simulated=False) == listed[0]
+        assert recorder.next_slot(simulated=False) == listed[0]
         other.execute("ROLLBACK")

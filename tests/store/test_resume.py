@@ -1,4 +1,4 @@
-"""A sitting that was cut off can be gone on with, be cut off again, and ends where its last event says."""
+"""A session that was cut off can be gone on with, be cut off again, and ends where its last event says."""
 
 from __future__ import annotations
 
@@ -9,36 +9,36 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
+from kiosk import UserInputError
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Status
+from kiosk.experiment.randomisation import AllocationSource
 from kiosk.store.database import FILE
-from kiosk.store.reading import archive
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
-from kiosk.study.allocation import Allotted
-from kiosk.study.condition import Condition
-from kiosk.study.events import Status
 
-START = happened.StartTapped(at_ms=0)
-ON = happened.ContinueTapped(at_ms=90)
-END = happened.SittingEnded(at_ms=99, status=Status.COMPLETED)
+START = happened.SessionStarted(at_ms=0)
+ON = happened.ContinuePressed(at_ms=90)
+END = happened.SessionEnded(at_ms=99, status=Status.COMPLETED)
 
 
 def kinds(folder: Path, number: int) -> list[tuple[int, str]]:
-    """The events of a sitting by seq and type."""
+    """The events of a session by seq and type."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
-        return connection.execute("SELECT seq, type FROM event WHERE sitting = ? ORDER BY seq", (number,)).fetchall()
+        return connection.execute("SELECT seq, type FROM event WHERE session = ? ORDER BY seq", (number,)).fetchall()
 
 
 def status(folder: Path, number: int = 1) -> Status | None:
-    """How a sitting ended, as whoever looks is told."""
-    with archive(folder) as stored:
-        return stored.sitting(number).status
+    """How a session ended, as whoever looks is told."""
+    with open_repository(folder) as stored:
+        return stored.session(number).status
 
 
 def cut_off(folder: Path, provenance: Provenance) -> None:
-    """A sitting that has no end, and one more that has."""
+    """A session that has no end, and one more that has."""
     with Recorder(folder) as recorder:
-        recorder.begin(provenance, [START, happened.ContinueTapped(at_ms=70)])
+        recorder.begin(provenance, [START, happened.ContinuePressed(at_ms=70)])
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START, END])
 
@@ -47,17 +47,17 @@ def test_its_next_events_follow_its_last_one(folder: Path, provenance: Provenanc
     cut_off(folder, provenance)
     with Recorder(folder) as recorder:
         participant = recorder.resume(1)
-        assert (participant.sitting, participant.number) == (1, 1)
+        assert (participant.session, participant.number) == (1, 1)
         recorder.append([ON])
         recorder.append([END])
     assert kinds(folder, 1) == [
-        (1, "StartTapped"),
-        (2, "ContinueTapped"),
-        (3, "SittingEnded"),
-        (4, "ContinueTapped"),
-        (5, "SittingEnded"),
+        (1, "SessionStarted"),
+        (2, "ContinuePressed"),
+        (3, "SessionEnded"),
+        (4, "ContinuePressed"),
+        (5, "SessionEnded"),
     ]
-    assert kinds(folder, 2) == [(1, "StartTapped"), (2, "SittingEnded")]
+    assert kinds(folder, 2) == [(1, "SessionStarted"), (2, "SessionEnded")]
 
 
 def test_its_status_is_what_its_last_event_says(folder: Path, provenance: Provenance) -> None:
@@ -81,7 +81,7 @@ def test_it_can_be_cut_off_again(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
         recorder.resume(1)
-    assert [kind for _, kind in kinds(folder, 1)].count("SittingEnded") == 2
+    assert [kind for _, kind in kinds(folder, 1)].count("SessionEnded") == 2
     with Recorder(folder) as recorder:
         assert recorder.recovered == ()
 
@@ -92,7 +92,7 @@ def test_what_was_under_way_is_ended_when_another_is_gone_on_with(folder: Path, 
         recorder.begin(provenance, [START])
         recorder.resume(1)
         recorder.append([ON, END])
-    assert kinds(folder, 3) == [(1, "StartTapped"), (2, "SittingEnded")]
+    assert kinds(folder, 3) == [(1, "SessionStarted"), (2, "SessionEnded")]
     assert status(folder, 1) is Status.COMPLETED
 
 
@@ -101,29 +101,29 @@ def test_one_whose_end_the_disk_did_not_take_can_be_gone_on_with_at_once(folder:
         recorder.begin(provenance, [START])
         recorder.resume(1)
         recorder.append([ON])
-    assert kinds(folder, 1) == [(1, "StartTapped"), (2, "SittingEnded"), (3, "ContinueTapped")]
+    assert kinds(folder, 1) == [(1, "SessionStarted"), (2, "SessionEnded"), (3, "ContinuePressed")]
 
 
 def test_one_that_ended_otherwise_is_left_alone(folder: Path, provenance: Provenance) -> None:
     cut_off(folder, provenance)
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
-        with pytest.raises(BadInput, match="sitting 2 was not interrupted, so it cannot be gone on with"):
+        with pytest.raises(UserInputError, match="session 2 was not interrupted, so it cannot be gone on with"):
             recorder.resume(2)
-        with pytest.raises(BadInput, match="there is no sitting 9"):
+        with pytest.raises(UserInputError, match="there is no session 9"):
             recorder.resume(9)
         recorder.append([ON])
-    assert kinds(folder, 3) == [(1, "StartTapped"), (2, "ContinueTapped")]
+    assert kinds(folder, 3) == [(1, "SessionStarted"), (2, "ContinuePressed")]
 
 
 def test_one_whose_place_was_given_out_again_is_left_alone(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.fix_list({Condition.TOM: 2}, 1, 1, simulated=True)
-        placed = replace(provenance, place=recorder.next_place(simulated=True), allotted=Allotted.LIST)
+        recorder.create_allocation_list({Condition.TOM: 2}, 1, 1, simulated=True)
+        placed = replace(provenance, slot=recorder.next_slot(simulated=True), allocation_source=AllocationSource.LIST)
         for _ in range(2):
             recorder.begin(placed, [START])
         recorder.resume(1)
         recorder.append([happened.GameFinished(at_ms=9)])
-        with pytest.raises(BadInput, match="the place of sitting 2 was given out again"):
+        with pytest.raises(UserInputError, match="the place of session 2 was given out again"):
             recorder.resume(2)
-        assert recorder.resume(1).sitting == 1
+        assert recorder.resume(1).session == 1

@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import BadInput
-from kiosk.store.whole_folder import UNFINISHED, whole_folder
+from kiosk import UserInputError
+from kiosk.store.connecting import UNFINISHED, atomic_directory
 
 
 def test_it_takes_its_place_when_all_is_in_it(tmp_path: Path) -> None:
     out = tmp_path / "far" / "out"
-    with whole_folder(out) as made:
+    with atomic_directory(out) as made:
         (made / "file").write_text("words", "utf-8")
         assert not out.exists()
     assert [path.name for path in out.parent.rglob("*")] == ["out", "file"]
 
 
 def test_it_is_gone_if_anything_goes_wrong(tmp_path: Path) -> None:
-    with pytest.raises(ZeroDivisionError), whole_folder(tmp_path / "out") as made:
+    with pytest.raises(ZeroDivisionError), atomic_directory(tmp_path / "out") as made:
         (made / "file").write_text(str(1 // 0), "utf-8")
     assert list(tmp_path.iterdir()) == []
 
@@ -28,12 +28,12 @@ def test_what_was_cut_off_is_told_of_and_not_removed(tmp_path: Path) -> None:
     left = tmp_path / f"out{UNFINISHED}"
     left.mkdir()
     (left / "file").write_text("somebody's words", "utf-8")
-    with pytest.raises(BadInput, match="was left unfinished"), whole_folder(tmp_path / "out"):
+    with pytest.raises(UserInputError, match="was left unfinished"), atomic_directory(tmp_path / "out"):
         pass
     assert (left / "file").exists()
 
 
 def test_a_folder_that_cannot_be_made_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine", "utf-8")
-    with pytest.raises(BadInput, match="cannot be used"), whole_folder(tmp_path / "file" / "out"):
+    with pytest.raises(UserInputError, match="cannot be used"), atomic_directory(tmp_path / "file" / "out"):
         pass

@@ -9,19 +9,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Event, NotRecordedReason, Status
+from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
-from kiosk.store.people.participants import Participant
+from kiosk.store.participants import Participant
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
-from kiosk.study.allocation import Allotted, Place
-from kiosk.study.condition import Condition
-from kiosk.study.events import Event, Status, Unstored
-from kiosk.study.session_kind import SessionKind
 
-BEGUN = (happened.StartTapped(at_ms=0),)
-LEFT = (*BEGUN, happened.SittingEnded(at_ms=5, status=Status.ABANDONED))
+BEGUN = (happened.SessionStarted(at_ms=0),)
+LEFT = (*BEGUN, happened.SessionEnded(at_ms=5, status=Status.ABANDONED))
 FINISHED = (*BEGUN, happened.GameFinished(at_ms=5))
-COMPLETED = (*FINISHED, happened.SittingEnded(at_ms=9, status=Status.COMPLETED))
+COMPLETED = (*FINISHED, happened.SessionEnded(at_ms=9, status=Status.COMPLETED))
 FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
 
 
@@ -32,7 +32,7 @@ def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
 
 
 def saying(words: str) -> tuple[Event, ...]:
-    """A completed sitting in which these words were recorded."""
+    """A completed session in which these words were recorded."""
     return (*FINISHED, happened.SpeechFailed(at_ms=7, utterance=1, why=words), *COMPLETED[2:])
 
 
@@ -41,29 +41,31 @@ def seated(
     provenance: Provenance,
     events: Sequence[Event] = COMPLETED,
     *,
-    allotted: Allotted = Allotted.LIST,
+    allotted: AllocationSource = AllocationSource.LIST,
     simulated: bool | SessionKind = True,
-) -> Place | None:
+) -> AllocationSlot | None:
     """Have somebody play in the next place, or without one, and say which place it was."""
-    place = recorder.next_place(simulated=simulated) if allotted is Allotted.LIST else None
+    place = recorder.next_slot(simulated=simulated) if allotted is AllocationSource.LIST else None
     plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
-    recorder.begin(replace(provenance, plan=plan, place=place, allotted=allotted, simulated=simulated), events)
+    recorder.begin(replace(provenance, plan=plan, slot=place, allocation_source=allotted, simulated=simulated), events)
     return place
 
 
 def a_day(folder: Path, provenance: Provenance, site: str = "", seed: int = 1) -> list[Participant]:
     """A day at a booth: three people, two rehearsals, two who were not stored, and a deviation."""
     with Recorder(folder, site) as recorder:
-        recorder.fix_list(FOUR, 4, seed, simulated=False)
+        recorder.create_allocation_list(FOUR, 4, seed, simulated=False)
         people = []
         for number, (events, simulated) in enumerate(
             [(saying(f"{site} one"), False), (LEFT, False), (COMPLETED, True), (saying(f"{site} two"), False)]
         ):
-            place = None if simulated else recorder.next_place(simulated=False)
+            place = None if simulated else recorder.next_slot(simulated=False)
             plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
-            sitting = replace(provenance, plan=plan, seed=seed * 100 + number, simulated=simulated, place=place)
-            people.append(recorder.begin(replace(sitting, allotted=Allotted.LIST if place else None), events))
-        recorder.count_visit(Unstored.DECLINED, simulated=False)
-        recorder.count_visit(Unstored.UNDER_AGE, simulated=False)
-        recorder.note("deviation", {"why": f"the robot of {site} fell over"})
+            session = replace(provenance, plan=plan, seed=seed * 100 + number, simulated=simulated, slot=place)
+            people.append(
+                recorder.begin(replace(session, allocation_source=AllocationSource.LIST if place else None), events)
+            )
+        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
+        recorder.count_visit(NotRecordedReason.UNDER_AGE, simulated=False)
+        recorder.add_audit_event("deviation", {"why": f"the robot of {site} fell over"})
     return people

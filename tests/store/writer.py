@@ -1,4 +1,4 @@
-"""A program that has sittings written and never ended: a test kills the writing process in the middle.
+"""A program that has sessions written and never ended: a test kills the writing process in the middle.
 
 It reads folders, one a line, and forks a writer for each, which saves loading everything anew. The writer prints its
 process number, then, after every batch of events, how many have been acknowledged; ``gone`` says that it is dead.
@@ -11,9 +11,9 @@ import sys
 from itertools import count
 from pathlib import Path
 
+from kiosk.experiment.events import CardSelected, CardSelectionRejected, SessionStarted
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.events import CardTapped, StartTapped, TapIgnored
 from tests.samples import plan
 
 GONE = "gone"
@@ -30,15 +30,18 @@ def main() -> None:
 
 
 def write(folder: Path) -> None:
-    """Begin a sitting and write on and on."""
+    """Begin a session and write on and on."""
     say(os.getpid())
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [StartTapped(at_ms=0)])
+        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [SessionStarted(at_ms=0)])
         say(1)
         for number in count(1):
             position = Position(number, number)
             recorder.append(
-                [CardTapped(at_ms=number, position=position), TapIgnored(at_ms=number, position=position, why=None)]
+                [
+                    CardSelected(at_ms=number, position=position),
+                    CardSelectionRejected(at_ms=number, position=position, why=None),
+                ]
             )
             say(1 + 2 * number)
 

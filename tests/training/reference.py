@@ -11,12 +11,9 @@ from dataclasses import dataclass
 from random import Random
 from typing import Protocol
 
-from kiosk.assistant.assistant import Assistant
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.hint import Hint
-from kiosk.assistant.mdp import Action, Card, State
-from kiosk.assistant.mentaliser import Mentaliser, TargetRule
-from kiosk.assistant.qtable import QTable
+from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
+from kiosk.assistance.policy import Action, FlipInMove, Gate, QTable, State
 from kiosk.game import Board, Concentration, Position
 
 NAMES = tuple("abcdefghijkl")
@@ -93,7 +90,7 @@ def play(policy: QTable, person: Person, rule: TargetRule, rng: Random) -> Playe
         hint = assistant.decide(game).hint
         if hint is not None:
             played.levels += hint.action.level
-            played.first_card_hints += hint.card is Card.FIRST
+            played.first_card_hints += hint.card is FlipInMove.FIRST
         game.flip(person.choose(game, hint))
         game.turn_back()
     played.flips = game.flips
@@ -131,7 +128,7 @@ def episode_of(q: Values, epsilon: float, rng: Random) -> Iterable[tuple[State, 
     last, pending, gained, discount = Action.NO_HELP, None, 0.0, 1.0
     while not game.over:
         state, action = State.of(game, last), Action.NO_HELP
-        if gate.verdict(game).is_open:
+        if gate.decide(game).is_open:
             if pending is not None:
                 yield *pending, gained, discount, state
             action = Action(q[state].index(max(q[state])))
@@ -145,7 +142,7 @@ def episode_of(q: Values, epsilon: float, rng: Random) -> Iterable[tuple[State, 
 
 
 def _flip(game: Concentration, person: Person, mentaliser: Mentaliser, before: Action, action: Action) -> float:
-    card, hint = Card.coming(game), None
+    card, hint = FlipInMove.coming(game), None
     g, nf = (3, 2, 1)[State.of(game, before).game], game.flips_since_match + 1
     if action is not Action.NO_HELP:
         target = mentaliser.target(game)
@@ -153,6 +150,6 @@ def _flip(game: Concentration, person: Person, mentaliser: Mentaliser, before: A
     matched = game.flip(person.choose(game, hint)).matched
     game.turn_back()
     hints = (before is not Action.NO_HELP) + (action is not Action.NO_HELP)
-    if card is Card.FIRST or not matched or action is Action.SUG_CARD:
+    if card is FlipInMove.FIRST or not matched or action is Action.SUG_CARD:
         return 0.0
     return (1.0, 1 - (5 - g) / (2 * nf), 0.0)[hints]

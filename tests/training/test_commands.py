@@ -13,10 +13,10 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import BadInput
-from kiosk.assistant.qtable import QTable
-from kiosk.cli.front import recollect
-from kiosk.settings import POLICIES
+from kiosk import UserInputError
+from kiosk.assistance.policy import QTable
+from kiosk.cli.main import recollect
+from kiosk.config import POLICIES
 from kiosk.training import policies
 
 
@@ -133,7 +133,7 @@ def test_bad_input_is_refused_in_one_sentence(
     words: str, sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(BadInput) as refusal:
+    with pytest.raises(UserInputError) as refusal:
         run(*words.split())
     assert sentence in str(refusal.value)
     assert "\n" not in str(refusal.value)
@@ -174,7 +174,7 @@ def outside(*words: str, limit: int | None = None) -> subprocess.CompletedProces
 LIMITED = """
 import resource
 resource.setrlimit({limits}, ({limit}, {limit}))
-from kiosk.cli.front import main
+from kiosk.cli.main import main
 main()
 """
 
@@ -204,7 +204,7 @@ def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, mon
 
         return Bar()
 
-    monkeypatch.setattr("kiosk.cli.learning.commands.progress_bar", interrupted)
+    monkeypatch.setattr("kiosk.cli.learning.progress_bar", interrupted)
     result = run("train", "--episodes", "4000", "--out", str(out))
     beside = tmp_path / "table.checkpoint.json"
     assert result.exit_code == 130
@@ -217,7 +217,7 @@ def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, mon
 def test_what_is_no_file_is_never_replaced(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    with pytest.raises(BadInput, match="it is not a file"):
+    with pytest.raises(UserInputError, match="it is not a file"):
         run("train", "--episodes", "5", "--out", str(pipe))
     assert pipe.is_fifo()
 

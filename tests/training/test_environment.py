@@ -14,16 +14,21 @@ import numpy as np  # noqa: E402 - after the import that may skip this file
 from gymnasium.error import InvalidAction, ResetNeeded  # noqa: E402
 from gymnasium.utils.env_checker import check_env  # noqa: E402 - after the import that may skip this file
 
-from kiosk import BadInput  # noqa: E402
-from kiosk.assistant.gate import NO_GATE  # noqa: E402
-from kiosk.assistant.mdp import STATES, Action, Outcome, Phase  # noqa: E402
-from kiosk.assistant.mentaliser import TargetRule  # noqa: E402
-from kiosk.assistant.qtable import QTable  # noqa: E402
-from kiosk.training.environment import ENVIRONMENT, Assistance  # noqa: E402
-from kiosk.training.kernel import PAIRS, Floats, Ints  # noqa: E402
-from kiosk.training.players import LONGEST, NEVER, TEXT, MemoryPlayer  # noqa: E402
+from kiosk import UserInputError  # noqa: E402
+from kiosk.assistance.mentaliser import TargetRule  # noqa: E402
+from kiosk.assistance.policy import (  # noqa: E402
+    NO_GATE,
+    STATES,
+    Action,
+    Outcome,
+    Phase,
+    QTable,
+)
+from kiosk.training.environment import ENVIRONMENT, AssistanceEnv  # noqa: E402
 from kiosk.training.rewards import Reward  # noqa: E402
-from kiosk.training.simulation import Spread, simulate  # noqa: E402
+from kiosk.training.simulated_players import LONGEST, NEVER, TEXT, MemoryPlayer  # noqa: E402
+from kiosk.training.simulation import Spread, simulate_games  # noqa: E402
+from kiosk.training.vectorised_game import PAIRS, Floats, Ints  # noqa: E402
 
 
 @pytest.mark.parametrize("reward", Reward)
@@ -45,7 +50,7 @@ class Stubborn:
         return [TEXT, 1, *[NEVER] * (PAIRS + 1)], [self.follow, 0.5, 0.5, *[0.0] * LONGEST]
 
 
-def game(environment: Assistance, seed: int, action: int) -> list[tuple[int, float, bool, bool, dict[str, Any]]]:
+def game(environment: AssistanceEnv, seed: int, action: int) -> list[tuple[int, float, bool, bool, dict[str, Any]]]:
     """All the steps of one game in which the same help is asked for before every flip."""
     environment.reset(seed=seed)
     steps = [environment.step(action)]
@@ -55,12 +60,12 @@ def game(environment: Assistance, seed: int, action: int) -> list[tuple[int, flo
 
 
 def test_a_seed_fixes_the_game_and_what_follows() -> None:
-    first, again = (repr(game(Assistance(), seed, 1)) for seed in (3, 3))
-    assert first == again != repr(game(Assistance(), 4, 1))
+    first, again = (repr(game(AssistanceEnv(), seed, 1)) for seed in (3, 3))
+    assert first == again != repr(game(AssistanceEnv(), 4, 1))
 
 
 def test_behind_a_shut_gate_every_action_is_no_help_and_the_mask_says_so() -> None:
-    environment = Assistance()
+    environment = AssistanceEnv()
     _, facts = environment.reset(seed=1)
     for _ in range(6):
         assert (facts["gate_open"], facts["action_mask"].tolist()) == (False, [1, 0, 0, 0])
@@ -69,19 +74,19 @@ def test_behind_a_shut_gate_every_action_is_no_help_and_the_mask_says_so() -> No
 
 
 def test_without_a_gate_card_hints_end_a_game_in_24_flips_and_earn_nothing() -> None:
-    steps = game(Assistance(gate=NO_GATE), 2, Action.SUG_CARD)
+    steps = game(AssistanceEnv(gate=NO_GATE), 2, Action.SUG_CARD)
     assert len(steps) == steps[-1][4]["flips"] == 24
     assert sum(reward for _, reward, *_ in steps) == 0
 
 
 def test_a_player_left_alone_earns_one_for_each_of_the_twelve_pairs() -> None:
-    steps = game(Assistance(), 5, Action.NO_HELP)
+    steps = game(AssistanceEnv(), 5, Action.NO_HELP)
     assert sum(reward for _, reward, *_ in steps) == 12
     assert steps[-1][4]["pairs_found"] == 12
 
 
 def test_observations_are_the_rows_of_the_table() -> None:
-    for observation, _, over, _, facts in game(Assistance(), 6, Action.SUG_ROW):
+    for observation, _, over, _, facts in game(AssistanceEnv(), 6, Action.SUG_ROW):
         state = STATES[observation]
         assert state.game is Phase.of(facts["pairs_found"], 12)
         assert state.last is Action(facts["assistance"])
@@ -91,7 +96,7 @@ def test_observations_are_the_rows_of_the_table() -> None:
 
 def test_the_default_table_plays_here_as_in_the_simulation() -> None:
     table, player, games = QTable.named("default"), MemoryPlayer((0.2, 0.2)), 400
-    environment = Assistance(player=player, target=TargetRule.RANDOM)
+    environment = AssistanceEnv(player=player, target=TargetRule.RANDOM)
     flips: list[float] = []
     for number in range(games):
         observation, facts = environment.reset(seed=number)
@@ -99,20 +104,20 @@ def test_the_default_table_plays_here_as_in_the_simulation() -> None:
         while not over:
             observation, _, over, _, facts = environment.step(table.action(STATES[observation]))
         flips.append(float(facts["flips"]))
-    here, there = Spread.of(flips), simulate(table, player, TargetRule.RANDOM, 1000, 1).flips
+    here, there = Spread.of(flips), simulate_games(table, player, TargetRule.RANDOM, 1000, 1).flips
     # Four standard errors of the difference.
     assert abs(here.mean - there.mean) < 4 * (here.sd**2 / games + there.sd**2 / 1000) ** 0.5
 
 
 def test_the_board_can_be_looked_at_as_text() -> None:
-    environment = Assistance(render_mode="ansi")
+    environment = AssistanceEnv(render_mode="ansi")
     environment.reset(seed=1)
     assert environment.render() == "\n".join([" . " * 6] * 4)
     environment.step(0)
     drawn = environment.render()
     assert drawn is not None
     assert drawn.count("[") == 1
-    assert Assistance().render() is None
+    assert AssistanceEnv().render() is None
 
 
 ACTIONS_OF_ANY_TYPE = (
@@ -129,13 +134,13 @@ NO_ACTIONS: tuple[Any, ...] = (
 )
 
 
-def before_the_gate_opens() -> Assistance:
-    environment = Assistance()
+def before_the_gate_opens() -> AssistanceEnv:
+    environment = AssistanceEnv()
     environment.reset(seed=1)
     return environment
 
 
-def after_the_gate_opened() -> Assistance:
+def after_the_gate_opened() -> AssistanceEnv:
     environment = before_the_gate_opens()
     opened = False
     while not opened:
@@ -147,7 +152,7 @@ def after_the_gate_opened() -> Assistance:
 @pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
 @pytest.mark.parametrize("action", NO_ACTIONS, ids=lambda action: type(action).__name__)
 def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(
-    at: Callable[[], Assistance], action: Any
+    at: Callable[[], AssistanceEnv], action: Any
 ) -> None:
     environment, undisturbed = at(), at()
     with pytest.raises(InvalidAction, match=r"^the action must be a whole number from 0 to 3, not "):
@@ -158,7 +163,7 @@ def test_what_is_no_action_is_refused_in_words_whether_or_not_the_gate_is_open(
 
 @pytest.mark.parametrize("at", [before_the_gate_opens, after_the_gate_opened])
 @pytest.mark.parametrize("action", ACTIONS_OF_ANY_TYPE, ids=lambda action: type(action).__name__)
-def test_a_whole_number_of_any_type_is_an_action(at: Callable[[], Assistance], action: Any) -> None:
+def test_a_whole_number_of_any_type_is_an_action(at: Callable[[], AssistanceEnv], action: Any) -> None:
     plain = repr(at().step(1))
     assert repr(at().step(action)) == plain
 
@@ -171,14 +176,14 @@ def test_every_action_that_the_action_space_samples_is_taken() -> None:
 
 
 def test_there_is_no_step_and_no_picture_before_the_first_reset() -> None:
-    environment = Assistance(render_mode="ansi")
+    environment = AssistanceEnv(render_mode="ansi")
     for call in (lambda: environment.step(0), environment.render):
         with pytest.raises(ResetNeeded, match=r"^no game has been dealt yet: call reset\(\) first$"):
             call()
 
 
 def test_there_is_no_step_after_the_last_pair_until_the_next_reset() -> None:
-    environment = Assistance(gate=NO_GATE)
+    environment = AssistanceEnv(gate=NO_GATE)
     game(environment, 2, Action.SUG_CARD)
     for _ in range(2):
         with pytest.raises(ResetNeeded, match=r"^the game is over: call reset\(\) to deal a new one"):
@@ -187,7 +192,7 @@ def test_there_is_no_step_after_the_last_pair_until_the_next_reset() -> None:
 
 
 def test_there_is_no_step_after_a_game_that_was_given_up() -> None:
-    environment = Assistance(player=Stubborn())
+    environment = AssistanceEnv(player=Stubborn())
     environment.reset(seed=1)
     truncated = False
     while not truncated:
@@ -206,5 +211,5 @@ def test_there_is_no_step_after_a_game_that_was_given_up() -> None:
     ],
 )
 def test_arguments_that_are_none_are_refused_in_words(given: dict[str, Any], sentence: str) -> None:
-    with pytest.raises(BadInput, match=sentence):
-        Assistance(**given)
+    with pytest.raises(UserInputError, match=sentence):
+        AssistanceEnv(**given)

@@ -11,22 +11,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.hint import Hint
-from kiosk.assistant.mdp import Action, Card, State
-from kiosk.assistant.mentaliser import Mentaliser, TargetRule
+from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
+from kiosk.assistance.policy import Action, FlipInMove, Gate, State
 from kiosk.game import Board, Concentration
-from kiosk.training import kernel, simulation
-from kiosk.training.kernel import CARDS, COUNT, FIRST, FOUND, HELP, LAST, MARK, MATE, NOWHERE
+from kiosk.training import simulation, vectorised_game
+from kiosk.training.vectorised_game import CARDS, COUNT, FIRST, FOUND, HELP, LAST, MARK, MATE, NOWHERE
 from tests.samples import mixed
 
 GATES = st.builds(Gate, st.integers(0, 12), st.integers(0, 8), st.integers(0, 16))
 FLIPS_WATCHED = 90
 
 
-def board_of(game: kernel.Ints) -> Board:
+def board_of(game: vectorised_game.Ints) -> Board:
     """The board that the kernel has dealt."""
-    return Board(kernel.ROWS, kernel.COLUMNS, tuple(str(min(p, int(game[MATE + p]))) for p in range(CARDS)))
+    return Board(
+        vectorised_game.ROWS, vectorised_game.COLUMNS, tuple(str(min(p, int(game[MATE + p]))) for p in range(CARDS))
+    )
 
 
 @settings(max_examples=40, deadline=None)
@@ -34,44 +34,45 @@ def board_of(game: kernel.Ints) -> Board:
 def test_with_the_same_choices_every_step_of_a_game_is_the_same(
     seed: int, gate: Gate, rule: TargetRule, table: int
 ) -> None:
-    mine, plan, rng = kernel.new_game(seed), kernel.plan(gate, rule), Random(seed)
-    kernel.deal(mine)
+    mine, plan, rng = vectorised_game.new_game(seed), vectorised_game.gate_plan(gate, rule), Random(seed)
+    vectorised_game.deal(mine)
     theirs, policy, mentaliser = Concentration(board_of(mine)), mixed(table, gate), Mentaliser(rule, rng)
-    q = kernel.floats([value for row in policy.values for value in row])
+    q = vectorised_game.floats([value for row in policy.values for value in row])
     last = Action.NO_HELP
     while not theirs.over and theirs.flips < FLIPS_WATCHED:
-        state, verdict = State.of(theirs, last), gate.verdict(theirs)
+        state, verdict = State.of(theirs, last), gate.decide(theirs)
         action = policy.action(state) if verdict.is_open else Action.NO_HELP
-        assert int(kernel.state(mine)) == state.index
-        assert bool(kernel.is_open(mine, plan)) == verdict.is_open
+        assert int(vectorised_game.state(mine)) == state.index
+        assert bool(vectorised_game.is_open(mine, plan)) == verdict.is_open
         assert int(simulation.greedy(q, state.index)) == policy.action(state)
         target = mentaliser.target(theirs)
         assert candidates(mine, rule) == {theirs.board.location(place) for place in target.candidates}
         place = rng.choice(theirs.closed)
         here, there = theirs.board.location(place), theirs.board.location(target.position)
         if action is not Action.NO_HELP:
-            hint = Hint(action, Card.coming(theirs), target, "")
+            hint = Hint(action, FlipInMove.coming(theirs), target, "")
             assert bool(simulation.follows(action, there, here)) == hint.followed_by(place)
         flip = theirs.flip(place)
-        assert bool(kernel.flip(mine, here)) == bool(flip.matched)
+        assert bool(vectorised_game.flip(mine, here)) == bool(flip.matched)
         theirs.turn_back()
         mine[HELP] = last = action
         assert snapshot(mine) == history_of(theirs)
 
 
-def candidates(game: kernel.Ints, rule: TargetRule) -> set[int]:
+def candidates(game: vectorised_game.Ints, rule: TargetRule) -> set[int]:
     """The places that the kernel lets a hint point at."""
-    number = kernel.mark_candidates(game, kernel.TARGET_RULES.index(rule))
+    number = vectorised_game.mark_candidates(game, vectorised_game.TARGET_RULES.index(rule))
     marked = {place for place in range(CARDS) if game[MARK + place] == 1}
     assert number == len(marked)
     return marked
 
 
-def snapshot(game: kernel.Ints) -> list[tuple[int, int, bool, bool]]:
+def snapshot(game: vectorised_game.Ints) -> list[tuple[int, int, bool, bool]]:
     """Of every place in the kernel: flips, last flip, whether found, whether closed."""
     where = range(CARDS)
     return [
-        (int(game[COUNT + p]), int(game[LAST + p]), game[FOUND + p] == 1, bool(kernel.closed(game, p))) for p in where
+        (int(game[COUNT + p]), int(game[LAST + p]), game[FOUND + p] == 1, bool(vectorised_game.closed(game, p)))
+        for p in where
     ]
 
 
@@ -82,18 +83,18 @@ def history_of(game: Concentration) -> list[tuple[int, int, bool, bool]]:
 
 
 def test_a_dealt_board_holds_every_pair_once() -> None:
-    game = kernel.new_game(5)
+    game = vectorised_game.new_game(5)
     for _ in range(50):
-        kernel.deal(game)
+        vectorised_game.deal(game)
         assert all(game[MATE + int(game[MATE + p])] == p != game[MATE + p] for p in range(CARDS))
     assert game[FIRST] == NOWHERE
 
 
 def test_every_place_is_the_mate_of_the_first_equally_often() -> None:
-    game, games = kernel.new_game(11), 4600
+    game, games = vectorised_game.new_game(11), 4600
     mates = [0] * CARDS
     for _ in range(games):
-        kernel.deal(game)
+        vectorised_game.deal(game)
         mates[int(game[MATE])] += 1
     expected = games / (CARDS - 1)
     # Chi-square with 22 degrees of freedom: above 51 once in 2,000 seeds, and the seed is fixed.
@@ -101,33 +102,33 @@ def test_every_place_is_the_mate_of_the_first_equally_often() -> None:
 
 
 def test_random_words_are_the_ones_that_the_formula_gives() -> None:
-    game = kernel.new_game(1)
-    word = int(game[kernel.RANDOM])
+    game = vectorised_game.new_game(1)
+    word = int(game[vectorised_game.RANDOM])
     for _ in range(100):
-        word = kernel.MULTIPLIER * (word & 0xFFFFFFFF) + (word >> 32)
+        word = vectorised_game.MULTIPLIER * (word & 0xFFFFFFFF) + (word >> 32)
         assert word < 1 << 63
-        assert int(kernel.draw(game)) == (word ^ (word >> 32)) & 0xFFFFFFFF
+        assert int(vectorised_game.draw(game)) == (word ^ (word >> 32)) & 0xFFFFFFFF
 
 
 def test_neighbouring_seeds_have_nothing_in_common() -> None:
-    first = [[int(kernel.draw(game)) for _ in range(50)] for game in map(kernel.new_game, range(50))]
+    first = [[int(vectorised_game.draw(game)) for _ in range(50)] for game in map(vectorised_game.new_game, range(50))]
     assert len({word for words in first for word in words}) == 50 * 50
 
 
 SAME = """
 from dataclasses import replace
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.training import kernel
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.training import vectorised_game
 from kiosk.training.learning import RECIPES, Learner
-from kiosk.training.players import ChancePlayer, MemoryPlayer, TextPlayer
-from kiosk.training.simulation import simulate
-print(kernel.COMPILED)
+from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, TextPlayer
+from kiosk.training.simulation import simulate_games
+print(vectorised_game.COMPILED)
 for recipe in RECIPES.values():
     for player in ChancePlayer(follow=.9), MemoryPlayer((.1, .4), .8), TextPlayer():
         learner = Learner(replace(recipe, episodes=60, player=player))
         learner.study()
         table = learner.freeze("same", "")
-        print(table.sha256, simulate(table, player, TargetRule.MOST_RECENT, 20, 3).measures())
+        print(table.sha256, simulate_games(table, player, TargetRule.MOST_RECENT, 20, 3).measures())
 """
 
 

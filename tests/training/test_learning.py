@@ -10,48 +10,46 @@ from typing import Any
 
 import pytest
 
-from kiosk import BadInput
-from kiosk.assistant.gate import NO_GATE
-from kiosk.assistant.mdp import STATES, Action, Outcome
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
-from kiosk.cli.learning.commands import command
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import NO_GATE, STATES, Action, Outcome, QTable
+from kiosk.cli.learning import train_command_line
 from kiosk.training import policies
-from kiosk.training.kernel import COMPILED, floats
 from kiosk.training.learning import (
     RECIPES,
-    Alpha,
     Averaging,
     Decisions,
-    Epsilon,
+    Exploration,
     Learner,
+    LearningRate,
     Recipe,
     _lesson,
     alpha_at,
     epsilon_at,
 )
-from kiosk.training.players import ChancePlayer
-from kiosk.training.rewards import PAPER, PURSE, RELEASED, RETRIEVAL, Flip, Reward, pay
-from kiosk.training.simulation import simulate
+from kiosk.training.rewards import PAPER, PURSE, RELEASED, RETRIEVAL, Reward, RewardFlip, reward_of
+from kiosk.training.simulated_players import ChancePlayer
+from kiosk.training.simulation import simulate_games
+from kiosk.training.vectorised_game import COMPILED, floats
 from tests.training.reference import learn
 
 NO, COLUMN, ROW, CARD = map(int, Action)
 RETRIEVING = RECIPES[Reward.RETRIEVAL]
 
 
-def first(action: int, nf: int, *, early: bool = False) -> Flip:
+def first(action: int, nf: int, *, early: bool = False) -> RewardFlip:
     """A first card."""
-    return Flip(0, NO, action, nf, 3, int(early))
+    return RewardFlip(0, NO, action, nf, 3, int(early))
 
 
-def second(before: int, action: int, nf: int, g: int = 3) -> Flip:
+def second(before: int, action: int, nf: int, g: int = 3) -> RewardFlip:
     """A second card, after that help with the first."""
-    return Flip(1, before, action, nf, g, 0)
+    return RewardFlip(1, before, action, nf, g, 0)
 
 
-def paid(reward: int, flip: Flip, *, matched: bool, purse: float = PURSE) -> float:
+def paid(reward: int, flip: RewardFlip, *, matched: bool, purse: float = PURSE) -> float:
     """What one flip is worth."""
-    return float(pay(reward, flip, int(matched), floats([purse])))
+    return float(reward_of(reward, flip, int(matched), floats([purse])))
 
 
 @pytest.mark.parametrize(
@@ -66,7 +64,7 @@ def paid(reward: int, flip: Flip, *, matched: bool, purse: float = PURSE) -> flo
         (first(CARD, 9), 0.0),
     ],
 )
-def test_retrieval_pays_what_the_player_retrieves(flip: Flip, worth: float) -> None:
+def test_retrieval_pays_what_the_player_retrieves(flip: RewardFlip, worth: float) -> None:
     assert paid(RETRIEVAL, flip, matched=bool(flip.second)) == worth
     assert paid(RETRIEVAL, flip, matched=False) == 0
 
@@ -81,13 +79,13 @@ def test_retrieval_pays_what_the_player_retrieves(flip: Flip, worth: float) -> N
         (second(ROW, COLUMN, 3, 1), 0.1 * 3),
     ],
 )
-def test_paper_is_the_paper_s_formula_whether_or_not_there_is_a_match(flip: Flip, worth: float) -> None:
+def test_paper_is_the_paper_s_formula_whether_or_not_there_is_a_match(flip: RewardFlip, worth: float) -> None:
     assert paid(PAPER, flip, matched=False) == paid(PAPER, flip, matched=True) == pytest.approx(worth)
 
 
 def test_released_fills_a_purse_on_first_cards_and_pays_it_once_a_match_is_overdue() -> None:
     purse = floats([PURSE])
-    worth = [float(pay(RELEASED, first(action, 5), 0, purse)) for action in (NO, CARD, COLUMN, ROW)]
+    worth = [float(reward_of(RELEASED, first(action, 5), 0, purse)) for action in (NO, CARD, COLUMN, ROW)]
     assert worth == pytest.approx([0.8, 1.1, 1.3, 1.4])
     assert paid(RELEASED, first(NO, 4), matched=False) == 0
     assert paid(RELEASED, first(NO, 9, early=True), matched=False) == 0
@@ -103,7 +101,7 @@ def test_released_sets_the_purse_back_after_a_match_and_after_a_hint_in_vain(
     left: float,
 ) -> None:
     purse = floats([2.0])
-    pay(RELEASED, second(before, NO, 6), matched, purse)
+    reward_of(RELEASED, second(before, NO, 6), matched, purse)
     assert purse[0] == left
 
 
@@ -115,9 +113,13 @@ def test_released_pays_a_second_card_only_for_a_match_with_one_hint_at_most() ->
 
 @pytest.mark.parametrize(
     ("epsilon", "expected"),
-    [(Epsilon.FLOORED, (1, 0.5, 0.1)), (Epsilon.RELEASED, (1, 0.5, 1 / 11)), (Epsilon.PAPER, (1, 0.91, 0.1))],
+    [
+        (Exploration.FLOORED, (1, 0.5, 0.1)),
+        (Exploration.RELEASED, (1, 0.5, 1 / 11)),
+        (Exploration.PAPER, (1, 0.91, 0.1)),
+    ],
 )
-def test_epsilon_falls_as_documented(epsilon: Epsilon, expected: tuple[float, ...]) -> None:
+def test_epsilon_falls_as_documented(epsilon: Exploration, expected: tuple[float, ...]) -> None:
     plan = _lesson(replace(RETRIEVING, epsilon=epsilon, episodes=1000)).plan
     assert [float(epsilon_at(plan, e)) for e in (0, 100, 1000)] == pytest.approx(expected)
 
@@ -125,13 +127,13 @@ def test_epsilon_falls_as_documented(epsilon: Epsilon, expected: tuple[float, ..
 @pytest.mark.parametrize(
     ("alpha", "expected"),
     [
-        (Alpha.VISITS, (1, 2**-0.6, 1000**-0.6)),
-        (Alpha.PAPER, (0.1, 0.525, 0.95)),
-        (Alpha.RELEASED, (0.1, 0.15, 0.2)),
-        (Alpha.CONSTANT, (0.1, 0.1, 0.1)),
+        (LearningRate.VISITS, (1, 2**-0.6, 1000**-0.6)),
+        (LearningRate.PAPER, (0.1, 0.525, 0.95)),
+        (LearningRate.RELEASED, (0.1, 0.15, 0.2)),
+        (LearningRate.CONSTANT, (0.1, 0.1, 0.1)),
     ],
 )
-def test_alpha_runs_as_documented(alpha: Alpha, expected: tuple[float, ...]) -> None:
+def test_alpha_runs_as_documented(alpha: LearningRate, expected: tuple[float, ...]) -> None:
     lesson = _lesson(replace(RETRIEVING, alpha=alpha, episodes=1000))
     rates = [float(alpha_at(lesson, e, n)) for e, n in ((0, 1), (500, 2), (1000, 1000))]
     assert rates == pytest.approx(expected)
@@ -142,7 +144,7 @@ def learnt(recipe: Recipe, name: str = "") -> QTable:
     """The table that a recipe gives."""
     learner = Learner(recipe)
     learner.study()
-    return learner.freeze(name, command(recipe, name))
+    return learner.freeze(name, train_command_line(recipe, name))
 
 
 def test_the_same_recipe_gives_the_same_table_and_another_seed_another() -> None:
@@ -222,7 +224,7 @@ def changed(**values: Any) -> Recipe:
     ],
 )
 def test_an_impossible_recipe_is_refused_in_words(change: Callable[[], Recipe], sentence: str) -> None:
-    with pytest.raises(BadInput, match=f"^{sentence}$"):
+    with pytest.raises(UserInputError, match=f"^{sentence}$"):
         change()
 
 
@@ -257,8 +259,8 @@ def test_trained_with_random_targets_the_table_never_names_a_first_card() -> Non
 
 
 def test_the_literal_reward_plays_the_game_for_the_player() -> None:
-    settled = replace(RECIPES[Reward.PAPER], alpha=Alpha.VISITS, averaging=Averaging.LAST_HALF, episodes=3000)
-    games = simulate(learnt(settled), ChancePlayer(), TargetRule.RANDOM, 500, 1)
+    settled = replace(RECIPES[Reward.PAPER], alpha=LearningRate.VISITS, averaging=Averaging.LAST_HALF, episodes=3000)
+    games = simulate_games(learnt(settled), ChancePlayer(), TargetRule.RANDOM, 500, 1)
     assert games.moves.mean < 21
     assert games.first_card_hints.mean == 0
 

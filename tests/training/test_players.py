@@ -13,12 +13,11 @@ from typing import Any, cast
 
 import pytest
 
-from kiosk import BadInput
-from kiosk.assistant.mdp import Action
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import QTable
-from kiosk.training.players import ChancePlayer, Counting, MemoryPlayer, Player, TextPlayer
-from kiosk.training.simulation import Games, Spread, simulate
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Action, QTable
+from kiosk.training.simulated_players import ChancePlayer, Counting, MemoryPlayer, SimulatedPlayer, TextPlayer
+from kiosk.training.simulation import GameResults, Spread, simulate_games
 from tests.samples import always, mixed
 from tests.training.reference import ByChance, Person, Played, WithMemory, play
 
@@ -27,9 +26,9 @@ REFERENCE_GAMES = 150
 SIGMAS = 4.0
 
 
-def alone(player: Player, seed: int = 1) -> Spread:
+def alone(player: SimulatedPlayer, seed: int = 1) -> Spread:
     """Moves without any help."""
-    return simulate(QTable.blank(), player, TargetRule.RANDOM, GAMES, seed).moves
+    return simulate_games(QTable.blank(), player, TargetRule.RANDOM, GAMES, seed).moves
 
 
 @pytest.mark.parametrize(
@@ -44,7 +43,7 @@ def alone(player: Player, seed: int = 1) -> Spread:
     ],
     ids=lambda value: getattr(value, "name", ""),
 )
-def test_a_player_alone_needs_the_known_number_of_moves(player: Player, mean: float, sd: float) -> None:
+def test_a_player_alone_needs_the_known_number_of_moves(player: SimulatedPlayer, mean: float, sd: float) -> None:
     moves = alone(player)
     assert moves.mean == pytest.approx(mean, abs=SIGMAS * sd / math.sqrt(GAMES))
     # The standard error of an SD is about sd / sqrt(2 n); the tails here are heavier than a normal's, hence 6.
@@ -54,7 +53,7 @@ def test_a_player_alone_needs_the_known_number_of_moves(player: Player, mean: fl
 def test_nobody_with_a_memory_beats_the_optimum() -> None:
     best = MemoryPlayer((0.0, 0.0))
     assert alone(best).ci95[1] > 18.8
-    assert min(simulate(QTable.blank(), best, TargetRule.RANDOM, GAMES, 2).each(0)) >= 24
+    assert min(simulate_games(QTable.blank(), best, TargetRule.RANDOM, GAMES, 2).each(0)) >= 24
 
 
 def apart(ours: Spread, theirs: Spread, games: int) -> float:
@@ -73,16 +72,16 @@ def apart(ours: Spread, theirs: Spread, games: int) -> float:
     ids=["chance .5", "chance .1", "memory .25"],
 )
 def test_players_who_are_helped_do_as_the_reference_players(
-    player: Player, person: Callable[[Random], Person], rule: TargetRule
+    player: SimulatedPlayer, person: Callable[[Random], Person], rule: TargetRule
 ) -> None:
     policy, rng = mixed(4), Random(9)
-    ours = simulate(policy, player, rule, GAMES, 3)
+    ours = simulate_games(policy, player, rule, GAMES, 3)
     theirs = [play(policy, person(rng), rule, rng) for _ in range(REFERENCE_GAMES)]
     for mine, other in compared(ours, theirs):
         assert apart(mine, other, GAMES) < SIGMAS
 
 
-def compared(ours: Games, theirs: list[Played]) -> list[tuple[Spread, Spread]]:
+def compared(ours: GameResults, theirs: list[Played]) -> list[tuple[Spread, Spread]]:
     """Flips, assistance and first-card hints of both."""
     return [
         (ours.flips, Spread.of([float(game.flips) for game in theirs])),
@@ -92,17 +91,17 @@ def compared(ours: Games, theirs: list[Played]) -> list[tuple[Spread, Spread]]:
 
 
 def test_a_card_hint_before_every_flip_leaves_nothing_to_chance() -> None:
-    games = simulate(always(Action.SUG_CARD), ChancePlayer(), TargetRule.RANDOM, 50, 1)
+    games = simulate_games(always(Action.SUG_CARD), ChancePlayer(), TargetRule.RANDOM, 50, 1)
     assert set(games.each(0)) == {24.0}
 
 
 def test_a_player_who_never_follows_plays_as_if_alone() -> None:
-    deaf = simulate(always(Action.SUG_CARD), MemoryPlayer((0.2, 0.2), 0.0), TargetRule.RANDOM, GAMES, 5).moves
+    deaf = simulate_games(always(Action.SUG_CARD), MemoryPlayer((0.2, 0.2), 0.0), TargetRule.RANDOM, GAMES, 5).moves
     assert deaf.mean == pytest.approx(30.55, abs=SIGMAS * 4.2 / math.sqrt(GAMES))
 
 
 def test_hints_are_followed_as_often_as_the_player_says() -> None:
-    games = simulate(always(Action.SUG_CARD), MemoryPlayer((0.3, 0.3), 0.6), TargetRule.RANDOM, GAMES, 5)
+    games = simulate_games(always(Action.SUG_CARD), MemoryPlayer((0.3, 0.3), 0.6), TargetRule.RANDOM, GAMES, 5)
     # A player who does not follow may still take the card, so the measured share is a little higher, never lower.
     assert 0.6 < games.measures()["followed"] < 0.75
 
@@ -127,15 +126,15 @@ def test_hints_are_followed_as_often_as_the_player_says() -> None:
         (lambda: MemoryPlayer(cast("Any", (0.2,))), r"forgetting must be a range of two numbers, .*, not \(0.2,\)"),
     ],
 )
-def test_impossible_parameters_are_refused_in_words(make: Callable[[], Player], sentence: str) -> None:
-    with pytest.raises(BadInput, match=f"^{sentence}$"):
+def test_impossible_parameters_are_refused_in_words(make: Callable[[], SimulatedPlayer], sentence: str) -> None:
+    with pytest.raises(UserInputError, match=f"^{sentence}$"):
         make()
 
 
 def test_the_reading_of_the_text_under_which_games_do_not_end_is_refused() -> None:
-    with pytest.raises(BadInput, match=r"never finishes a game: use a forgetting below 0\.05"):
+    with pytest.raises(UserInputError, match=r"never finishes a game: use a forgetting below 0\.05"):
         TextPlayer(0.05, Counting.TOTAL)
-    finishing = simulate(QTable.blank(), TextPlayer(0.04, Counting.TOTAL), TargetRule.RANDOM, 300, 1)
+    finishing = simulate_games(QTable.blank(), TextPlayer(0.04, Counting.TOTAL), TargetRule.RANDOM, 300, 1)
     assert max(finishing.each(0)) < 300
 
 

@@ -16,16 +16,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import BadInput, StoreFailed
-from kiosk.assistant.gate import Gate
-from kiosk.assistant.mdp import Action, Outcome, State
-from kiosk.assistant.mentaliser import TargetRule
-from kiosk.assistant.qtable import PolicyError, QTable
-from kiosk.cli.learning.evidence import difference
-from kiosk.settings import POLICIES
+from kiosk import StoreFailed, UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Action, Gate, Outcome, PolicyError, QTable, State
+from kiosk.cli.evidence import difference
+from kiosk.config import POLICIES
 from kiosk.training import policies, simulation
-from kiosk.training.players import ChancePlayer, MemoryPlayer
-from kiosk.training.simulation import T_CARD, T_COL, T_FIRST, T_FLIPS, T_ROW, T_SECOND, Games, Spread, simulate
+from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer
+from kiosk.training.simulation import (
+    T_CARD,
+    T_COL,
+    T_FIRST,
+    T_FLIPS,
+    T_ROW,
+    T_SECOND,
+    GameResults,
+    Spread,
+    simulate_games,
+)
 from tests.samples import always, mixed, policy_that
 
 GAMES = 1000
@@ -38,9 +46,9 @@ def forgetting(d: float) -> MemoryPlayer:
 
 
 @cache
-def played(player: ChancePlayer | MemoryPlayer, target: TargetRule) -> Games:
+def played(player: ChancePlayer | MemoryPlayer, target: TargetRule) -> GameResults:
     """Games under the default table."""
-    return simulate(QTable.named("default"), player, target, GAMES, 17)
+    return simulate_games(QTable.named("default"), player, target, GAMES, 17)
 
 
 @pytest.mark.parametrize("player", [ChancePlayer(), forgetting(0.2), forgetting(0.25)])
@@ -78,23 +86,23 @@ def test_the_paper_s_four_sentences_hold_of_the_default_table(
     player: ChancePlayer | MemoryPlayer, target: TargetRule
 ) -> None:
     rates = played(player, target).measures()["hint_rate"]
-    said = policies.sentences(QTable.named("default"), rates["first"], rates["second"])
+    said = policies.policy_claims(QTable.named("default"), rates["first"], rates["second"])
     assert [sentence.text for sentence in said if not sentence.holds] == []
     assert len(said) == 4
 
 
 def test_a_table_that_never_helps_fails_the_paper_s_sentences_about_helping() -> None:
-    holds = [sentence.holds for sentence in policies.sentences(QTable.blank(), 0, 0)]
+    holds = [sentence.holds for sentence in policies.policy_claims(QTable.blank(), 0, 0)]
     assert holds == [True, False, False, False]
 
 
 def test_without_the_gate_a_table_that_always_helps_steps_in_too_soon() -> None:
-    assert not policies.sentences(always(Action.SUG_ROW), 1, 1)[0].holds
-    assert policies.sentences(always(Action.SUG_ROW, Gate()), 1, 1)[0].holds
+    assert not policies.policy_claims(always(Action.SUG_ROW), 1, 1)[0].holds
+    assert policies.policy_claims(always(Action.SUG_ROW, Gate()), 1, 1)[0].holds
 
 
 def test_a_tally_adds_up() -> None:
-    games = simulate(mixed(3), MemoryPlayer((0.2, 0.4), 0.8), TOM, 50, 1)
+    games = simulate_games(mixed(3), MemoryPlayer((0.2, 0.4), 0.8), TOM, 50, 1)
     for tally in games.tallies:
         assert tally[T_FIRST] + tally[T_SECOND] == tally[T_COL] + tally[T_ROW] + tally[T_CARD] <= tally[T_FLIPS]
         assert tally[T_FLIPS] % 2 == 0
@@ -103,7 +111,7 @@ def test_a_tally_adds_up() -> None:
 def test_assistance_per_flip_is_the_mean_level_of_help() -> None:
     level = {Action.SUG_COL: 0.5, Action.SUG_ROW: 1.0, Action.SUG_CARD: 2.0, Action.NO_HELP: 0.0}
     for action in Action:
-        games = simulate(always(action), ChancePlayer(), NOTOM, 20, 1)
+        games = simulate_games(always(action), ChancePlayer(), NOTOM, 20, 1)
         assert games.assistance == Spread(level[action], 0.0, (level[action], level[action]))
 
 
@@ -111,8 +119,8 @@ def test_led_to_match_counts_first_card_hints_that_were_followed_into_a_match() 
     def second_cards(state: State) -> Action:
         return Action.SUG_CARD if state.outcome in (Outcome.S_CORRECT, Outcome.S_WRONG) else Action.SUG_ROW
 
-    assert simulate(policy_that(second_cards), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] == 1.0
-    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None
+    assert simulate_games(policy_that(second_cards), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] == 1.0
+    assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40))
@@ -127,14 +135,14 @@ def test_a_spread_is_the_mean_the_sample_sd_and_a_normal_interval(values: list[f
 
 
 def test_games_follow_from_the_seed_whatever_the_batches() -> None:
-    few = simulate(QTable.blank(), ChancePlayer(), NOTOM, 10, 3)
-    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 600, 3).tallies[:10] == few.tallies
-    assert simulate(QTable.blank(), ChancePlayer(), NOTOM, 10, 4) != few
+    few = simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 10, 3)
+    assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 600, 3).tallies[:10] == few.tallies
+    assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 10, 4) != few
 
 
 def test_progress_is_told_how_many_games_are_through() -> None:
     told: list[int] = []
-    simulate(QTable.blank(), forgetting(0), NOTOM, simulation.BATCH + 1, 1, told.append)
+    simulate_games(QTable.blank(), forgetting(0), NOTOM, simulation.BATCH + 1, 1, told.append)
     assert told == [simulation.BATCH, simulation.BATCH + 1]
 
 
@@ -152,21 +160,21 @@ def test_progress_is_told_how_many_games_are_through() -> None:
     ],
 )
 def test_impossible_numbers_are_refused_in_words(games: Any, seed: Any, sentence: str) -> None:
-    with pytest.raises(BadInput, match=sentence):
-        simulate(QTable.blank(), ChancePlayer(), NOTOM, games, seed)
+    with pytest.raises(UserInputError, match=sentence):
+        simulate_games(QTable.blank(), ChancePlayer(), NOTOM, games, seed)
 
 
 def test_a_game_that_was_given_up_is_a_refusal_and_no_number() -> None:
-    with pytest.raises(BadInput, match="a game was given up after 5,000 flips"):
+    with pytest.raises(UserInputError, match="a game was given up after 5,000 flips"):
         simulation.refuse_endless(5000)
 
 
 def test_comparing_counts_only_states_that_both_tables_know() -> None:
     default = QTable.named("default")
-    same = policies.compare(default, default)
+    same = policies.compare_policies(default, default)
     assert (same.agreement, same.largest) == (1.0, 0.0)
     assert set(same.compared) == set(policies.visits(default))
-    other = policies.compare(default, QTable.blank())
+    other = policies.compare_policies(default, QTable.blank())
     assert set(other.different) == set(policies.helped(default))
 
 
@@ -185,8 +193,8 @@ def test_a_policy_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
     file = tmp_path / "policy.json"
-    policies.write(file, "old")
-    policies.write(file, "new")
+    policies.write_policy(file, "old")
+    policies.write_policy(file, "new")
     assert file.read_text("utf-8") == "new"
     assert list(tmp_path.iterdir()) == [file]
 
@@ -196,9 +204,9 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkey
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     file = tmp_path / "policy.json"
-    policies.write(file, "old")
+    policies.write_policy(file, "old")
     monkeypatch.setattr("os.fsync", full)
     with pytest.raises(StoreFailed, match=r"policy\.json cannot be written: disk full"):
-        policies.write(file, "new")
+        policies.write_policy(file, "new")
     assert file.read_text("utf-8") == "old"
     assert list(tmp_path.iterdir()) == [file]

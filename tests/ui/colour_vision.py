@@ -21,8 +21,8 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QImage, QPainter, QPen
 from PySide6.QtSvg import QSvgRenderer
 
-from kiosk import BadInput
-from kiosk.settings import ASSETS
+from kiosk import UserInputError
+from kiosk.config import ASSETS
 from tests.ui.looking import colours
 
 Picture = NDArray[np.float64]
@@ -205,7 +205,7 @@ def main(file: Path) -> None:
     application = QGuiApplication(["colour vision"])
     QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / "NotoSans-Regular.ttf"))
     if not figure().save(str(file)):
-        raise BadInput(f"the picture {file} cannot be written")
+        raise UserInputError(f"the picture {file} cannot be written")
     del application
 
 

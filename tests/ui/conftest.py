@@ -20,15 +20,14 @@ from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
-from kiosk.store.reading import Archive, archive
+from kiosk.config import Settings
+from kiosk.experiment.questionnaire import Item
+from kiosk.store.queries import SessionRepository, open_repository
 from kiosk.store.recorder import Recorder
-from kiosk.study.declared.questionnaire import Item
 from kiosk.ui.app import App
-from kiosk.ui.clock import VirtualClock
-from kiosk.ui.rehearsing.hand import find, lay_out, middle
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.rehearsing.visitor import Character
+from kiosk.ui.event_loop import VirtualClock
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.simulated_visitor import BehaviourProfile, find_item, item_centre, lay_out
 from tests.ui.headless import headless, short
 
 
@@ -48,18 +47,18 @@ class Booth:
     def item(self, name: str) -> QQuickItem:
         """The visible item of this name, where it belongs."""
         lay_out(self.app.window)
-        item = find(self.app.window.contentItem(), name)
+        item = find_item(self.app.window.contentItem(), name)
         assert item is not None, f"there is no {name} on the screen {self.screen}"
         return item
 
     def sees(self, name: str) -> bool:
         """Whether an item of this name is to be seen."""
-        return find(self.app.window.contentItem(), name) is not None
+        return find_item(self.app.window.contentItem(), name) is not None
 
     def click(self, name: str, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
         """Click with the mouse in the middle of an item, once the screen takes input."""
         self.settle()
-        QTest.mouseClick(self.app.window, button, Qt.KeyboardModifier.NoModifier, middle(self.item(name)))
+        QTest.mouseClick(self.app.window, button, Qt.KeyboardModifier.NoModifier, item_centre(self.item(name)))
 
     def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
         """Press and release a key, once the screen takes input."""
@@ -76,7 +75,7 @@ class Booth:
         self.app.clock.jump()
 
     def wait_until(self, condition: Callable[[], bool]) -> None:
-        """Let time pass until something is so; nothing in a sitting takes ten thousand waits."""
+        """Let time pass until something is so; nothing in a session takes ten thousand waits."""
         for _ in range(10_000):
             if condition():
                 return
@@ -99,8 +98,8 @@ class Booth:
         self.click("start-en")
         self.click("continue")
 
-    def rehearse(self, seed: int, visitor: Character = Character()) -> None:  # noqa: B008 - it is frozen
-        """Let a simulated visitor go through a whole sitting."""
+    def rehearse(self, seed: int, visitor: BehaviourProfile = BehaviourProfile()) -> None:  # noqa: B008 - it is frozen
+        """Let a simulated visitor go through a whole session."""
         Rehearsal(self.app, seed, visitor=visitor).run()
 
 
@@ -134,9 +133,9 @@ def booth(make_booth: MakeBooth) -> Booth:
 
 
 @pytest.fixture
-def stored(booth: Booth) -> Iterator[Archive]:
+def stored(booth: Booth) -> Iterator[SessionRepository]:
     """What the booth has stored."""
-    with archive(booth.data) as there:
+    with open_repository(booth.data) as there:
         yield there
 
 

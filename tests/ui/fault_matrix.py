@@ -1,6 +1,6 @@
-"""Every fault at every moment, each in a sitting of its own: ``python -m tests.ui.fault_matrix [--seeds 2]``.
+"""Every fault at every moment, each in a session of its own: ``python -m tests.ui.fault_matrix [--seeds 2]``.
 
-The robot is a process of its own and the deadlines are the study's. Prints one line per sitting, and ends with 1 if
+The robot is a process of its own and the deadlines are the study's. Prints one line per session, and ends with 1 if
 anything was as it must not be. Takes some minutes.
 """
 
@@ -18,16 +18,16 @@ from random import Random
 
 import click
 
-from kiosk.cli.wiring import read_settings
-from kiosk.store.reading import archive
+from kiosk.cli.composition import read_settings
+from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
-from tests.robot.furhat_fake import FAULTS
-from tests.robot.furhat_fake import Mode as Fault
+from tests.robots.furhat_fake import FAULTS
+from tests.robots.furhat_fake import Mode as Fault
 from tests.ui.headless import headless
 from tests.ui.sabotage import Moment, Outcome, Sabotage, outcome, replayed
 
 CLICKS = 60
-"""A sitting has about so many clicks."""
+"""A session has about so many clicks."""
 
 
 class Robot:
@@ -35,7 +35,7 @@ class Robot:
 
     def __init__(self, *arguments: str) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "tests.robot.furhat_fake", "--character-ms", "1", *arguments],
+            [sys.executable, "-m", "tests.robots.furhat_fake", "--character-ms", "1", *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -59,13 +59,13 @@ def kiosk_with_robot(port: int, data: Path) -> AbstractContextManager[App]:
     return headless(read_settings(None, "127.0.0.1", port), data)
 
 
-def sitting(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Outcome:
-    """One sitting with one fault."""
+def session(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Outcome:
+    """One session with one fault."""
     rehearsal = Sabotage(app, 1, lambda: robot.fall_into(fault), at)
     rehearsal.run()
-    with archive(data) as stored:
+    with open_repository(data) as stored:
         result = outcome(stored, rehearsal)
-        assert replayed(stored, result.sitting.id) == result.events
+        assert replayed(stored, result.session.id) == result.events
     return result
 
 
@@ -78,11 +78,11 @@ def planned(seeds: int) -> Iterator[tuple[Fault, int | Moment]]:
 
 
 def line(fault: Fault, at: int | Moment, result: Outcome) -> str:
-    """A sitting in one line."""
+    """A session in one line."""
     counted = result.utterances
     return (
         f"{fault.value:27} {at.value if isinstance(at, Moment) else f'click {at}':19} "
-        f"{result.sitting.status.value if result.sitting.status else 'running'}, body changes {result.body_changes}, "
+        f"{result.session.status.value if result.session.status else 'running'}, body changes {result.body_changes}, "
         f"requested {counted.requested:2}, finished {counted.finished:2}, failed {counted.failed}, "
         f"shown only {counted.shown_only}, longest gap {result.longest_gap_ms:5.1f} ms: {result.faults() or 'well'}"
     )
@@ -99,13 +99,13 @@ def main() -> int:
         for number, (fault, at) in enumerate(planned(seeds)):
             robot, data = Robot(), Path(folder) / str(number)
             with kiosk_with_robot(robot.port, data) as app:
-                results.append(sitting(app, data, robot, fault, at))
+                results.append(session(app, data, robot, fault, at))
             robot.close()
             click.echo(line(fault, at, results[-1]))
     wrong = sum(bool(result.faults()) for result in results)
     gaps = sorted(result.longest_gap_ms for result in results)
     click.echo(
-        f"{len(results)} sittings, {wrong} with something wrong; longest gap of the event loop:"
+        f"{len(results)} sessions, {wrong} with something wrong; longest gap of the event loop:"
         f" median {gaps[len(gaps) // 2]:.1f} ms, worst {gaps[-1]:.1f} ms"
     )
     return int(wrong > 0)

@@ -6,18 +6,18 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from kiosk.robot.device import Robot
-from kiosk.settings import Settings
+from kiosk.config import Settings
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.session_config import SessionKind
+from kiosk.robots.embodiment import RobotDriver
 from kiosk.store.recorder import Recorder
-from kiosk.study.condition import Condition
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.session_kind import SessionKind
+from kiosk.study.loader import read_study
 from kiosk.ui.app import App
-from kiosk.ui.desk import Desk, Origin
-from kiosk.ui.window import Display, Mode, Pace
+from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.samples import SHORT
 
-VIRTUAL = Mode(Display.NOWHERE, Pace.VIRTUAL)
+VIRTUAL = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
 
 SMALL = Settings.model_validate(
     {
@@ -42,17 +42,17 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     *,
     seed: int = 1,
     condition: str | None = "tom",
-    mode: Mode = VIRTUAL,
-    robot: Robot | None = None,
+    mode: RunMode = VIRTUAL,
+    robot: RobotDriver | None = None,
     kind: SessionKind = SessionKind.SIMULATED,
     opened: Callable[[Path], Recorder] = Recorder,
 ) -> Iterator[App]:
-    """A kiosk with this study, in this condition, or None for its list's; every sitting has the same seed.
+    """A kiosk with this study, in this condition, or None for its list's; every session has the same seed.
 
     ``opened`` gives the recorder of a data folder.
     """
     study = read_study(settings)
-    fixed = Condition.named(condition) if condition else None
-    origin = Origin("a test", simulated=kind, seed=lambda: seed, condition=fixed)
-    with opened(data) as recorder, App(mode, recorder, Desk(study, recorder, origin), robot) as app:
+    fixed = Condition.from_name(condition) if condition else None
+    origin = RunContext("a test", simulated=kind, seed=lambda: seed, condition=fixed)
+    with opened(data) as recorder, App(mode, recorder, ConditionAssigner(study, recorder, origin), robot) as app:
         yield app

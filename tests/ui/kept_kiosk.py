@@ -13,9 +13,9 @@ from unittest.mock import patch
 
 from PySide6.QtCore import QTimer
 
-from kiosk.cli.front import main
+from kiosk.cli.main import main
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsal import Rehearsal
 
 HASTE_MS = 100
 """How long the visitor thinks; nobody is measured here."""
@@ -27,7 +27,7 @@ class Guest(Rehearsal):
 
     def _think(self) -> None:
         # A fault may strike while a click is still at work.
-        if self._app.conductor.stage.value != STAGE and self._app.screens.kiosk.shown != "pause":
+        if self._app.runner.stage.value != STAGE and self._app.screens.kiosk.shown != "pause":
             self._app.clock.after(HASTE_MS, self._act)
 
     def _fail(self, fault: BaseException) -> None:
@@ -71,7 +71,7 @@ if __name__ == "__main__":
     plain_run = App.run
     with (
         patch("kiosk.ui.app.App.run", run),
-        patch("kiosk.cli.booth.keep.program", program),
+        patch("kiosk.cli.run.program", program),
         patch("kiosk.ui.voice.program", program),
     ):
         main()

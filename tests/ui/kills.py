@@ -1,8 +1,8 @@
-"""Kills the kiosk in the middle of rehearsed sittings, again and again, and looks at what is left each time.
+"""Kills the kiosk in the middle of rehearsed sessions, again and again, and looks at what is left each time.
 
 ``python -m tests.ui.kills --count 1000`` prints the count. Every kill is SIGKILL at a random moment of a stage, the
 stages taken in turn; what the recorder had acknowledged until then must be in the database, its integrity check clean,
-and the next start must show attract and have marked the sitting that was cut off.
+and the next start must show attract and have marked the session that was cut off.
 
 One process has everything loaded and forks a kiosk for every line it reads, which saves a second each time.
 """
@@ -27,16 +27,16 @@ from typing import IO, Any
 import click
 from rich.progress import track
 
-from kiosk.settings import STAGES, Settings
+from kiosk.config import STAGES, Settings
+from kiosk.experiment.events import Event, to_record
+from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.events import Event, to_record
-from kiosk.study.stages import BEFORE_DECIDING
+from kiosk.study.loader import read_study
 from kiosk.ui.app import App
-from kiosk.ui.desk import Desk, Origin
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.window import Display, Mode, Pace
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
 
 GONE = "gone"
 SMALL = Settings.model_validate(
@@ -64,19 +64,23 @@ def main() -> None:
 def play(folder: Path, seed: int) -> None:
     """Open the kiosk, say what it shows, and rehearse; every event that was written is reported afterwards."""
     with Recorder(folder) as recorder:
-        origin = Origin("a test", simulated=True, seed=lambda: seed)
-        app = App(Mode(Display.NOWHERE, Pace.VIRTUAL), recorder, Desk(read_study(SMALL), recorder, origin))
+        origin = RunContext("a test", simulated=True, seed=lambda: seed)
+        app = App(
+            RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL),
+            recorder,
+            ConditionAssigner(read_study(SMALL), recorder, origin),
+        )
         say("open", {"pid": os.getpid(), "screen": app.screens.kiosk.shown, "recovered": list(recorder.recovered)})
         report_what_is_written(recorder)
         rehearsal = Rehearsal(app, seed)
-        witness = app.conductor.witness
+        witness = app.runner.on_event
 
         def watch(*what: Any) -> None:
             if witness is not None:
                 witness(*what)
             say("at", {"stage": what[2].value})
 
-        app.conductor.witness = watch
+        app.runner.on_event = watch
         rehearsal.run()
 
 
@@ -144,7 +148,7 @@ def wrong_with(folder: Path, killing: Killing) -> str:
         rows = database.execute(
             """
             SELECT seq, at_ms, type, body FROM event
-            WHERE sitting = (SELECT max(sitting) FROM event) AND origin != 'recovery' ORDER BY seq
+            WHERE session = (SELECT max(session) FROM event) AND origin != 'recovery' ORDER BY seq
             """
         ).fetchall()
     if [row[0] for row in rows] != list(range(1, len(rows) + 1)):
@@ -201,7 +205,7 @@ def kill_again_and_again(count: int, seed: int, folder: Path) -> Tally:
             tally.faults += [f"kill {number} in {stage}: {fault}" for fault in faults(folder, killing, cut_off=cut_off)]
             tally.kills[killing.stage] += not killing.finished
             tally.acknowledged += len(killing.written)
-            ended = bool(killing.written) and killing.written[-1]["type"] == "SittingEnded"
+            ended = bool(killing.written) and killing.written[-1]["type"] == "SessionEnded"
             cut_off = bool(killing.written) and not ended
     return tally
 
@@ -211,7 +215,7 @@ def faults(folder: Path, killing: Killing, *, cut_off: bool) -> Iterator[str]:
     if killing.opened.get("screen") != "attract":
         yield f"the kiosk came back at {killing.opened.get('screen')}"
     if cut_off and not killing.opened.get("recovered"):
-        yield "the sitting that was cut off was not marked"
+        yield "the session that was cut off was not marked"
     if wrong := wrong_with(folder, killing):
         yield wrong
 

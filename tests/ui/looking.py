@@ -24,7 +24,7 @@ FLARE = 0.05
 """The light that every screen throws back."""
 LEAST_CHANGE = 3.0
 """The contrast of what has to be seen and is no text."""
-EXPERIMENTERS = ("PanelLayer", "ReplayControls")
+EXPERIMENTERS = ("PanelLayer", "ReplayBar")
 """What only an experimenter reads."""
 
 Light = NDArray[np.float64]

@@ -10,7 +10,7 @@ from PySide6.QtGui import QPointingDevice
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.ui.rehearsing.hand import NO_KEY, Aside, Hand, Stuck
+from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout
 
 MOST_STOPS = 80
 """No screen has more places for the keyboard."""
@@ -19,7 +19,7 @@ PAGE_STEPS = 10
 TYPED_INTO = "QQuickTextInput"
 
 
-class Keyboard(Hand):
+class Keyboard(UiDriver):
     """Tab, arrows, Page Up and Down, Enter, Space, and letters; nothing is ever pointed at."""
 
     def __init__(self, window: QQuickWindow, aside: Aside = nullcontext) -> None:
@@ -45,7 +45,7 @@ class Keyboard(Hand):
         self.click(name, across)
 
     def _tap(self, place: QPoint) -> None:
-        raise Stuck(f"a keyboard points at nothing, and so not at {place.toTuple()}")
+        raise UiTimeout(f"a keyboard points at nothing, and so not at {place.toTuple()}")
 
     def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = NO_KEY) -> None:
         """Press and release a key."""
@@ -61,14 +61,14 @@ class Keyboard(Hand):
             if len(group) > 1 and self.held.objectName().startswith(group) and self._is_in_group(name):
                 return self.held
             self.press(Qt.Key.Key_Tab)
-        raise Stuck(f"the keyboard does not reach {name!r}")
+        raise UiTimeout(f"the keyboard does not reach {name!r}")
 
     @property
     def held(self) -> QQuickItem:
         """What has the keyboard."""
         item: QQuickItem | None = self._window.activeFocusItem()
         if item is None:
-            raise Stuck("nothing has the keyboard")
+            raise UiTimeout("nothing has the keyboard")
         return item
 
     def _within(self, name: str) -> QQuickItem | None:
@@ -125,10 +125,10 @@ class Keyboard(Hand):
                 return
             forward, back = (Qt.Key.Key_Down, Qt.Key.Key_Up) if down else (Qt.Key.Key_Right, Qt.Key.Key_Left)
             self.press(forward if (down or across) > 0 else back)
-        raise Stuck(f"the arrows do not reach the card {location}")
+        raise UiTimeout(f"the arrows do not reach the card {location}")
 
 
-class Finger(Hand):
+class Finger(UiDriver):
     """Touches the glass, and has neither mouse nor keyboard: it types with the keys on the screen."""
 
     def double_click(self, name: str, across: float = 0.5) -> None:

@@ -1,8 +1,8 @@
 """Every way to lose the kiosk, in every stage: ``python -m tests.ui.revival [--stages attract,game]``.
 
-On a virtual screen with a window manager the keeper runs the kiosk, a visitor plays up to the stage, and the fault
+On a virtual screen with a window manager the supervisor runs the kiosk, a visitor plays up to the stage, and the fault
 strikes. Prints the seconds until the kiosk shows attract again, as one line (or with --json one object) per fault, with
-what the visitor saw meanwhile and what the database says of the sitting; ends with 1 if anything took longer than
+what the visitor saw meanwhile and what the database says of the session; ends with 1 if anything took longer than
 TEN seconds or is not as it must be. Needs Xvfb, openbox and ImageMagick's import; takes some minutes.
 """
 
@@ -27,14 +27,14 @@ from typing import Any
 
 import click
 
-from kiosk import settings
-from kiosk.store.reading import archive
-from kiosk.study.events import Status
-from kiosk.study.stages import BEFORE_DECIDING
-from kiosk.ui.conductor import PAUSE_MS
+from kiosk import config
+from kiosk.experiment.events import Status
+from kiosk.experiment.transitions import BEFORE_DECIDING
+from kiosk.store.queries import open_repository
+from kiosk.ui.session_runner import PAUSE_MS
 from tests.samples import WITH_PIN
 
-STAGES = ("attract", *(stage for stage in settings.STAGES))
+STAGES = ("attract", *(stage for stage in config.STAGES))
 WAYS = {"about_you": ("form",), "questions": ("result", "form")}
 """The screens that tell that a stage has come, where they are not called like it."""
 BEFORE_ANYTHING_IS_KEPT = {"attract", *(stage.value for stage in BEFORE_DECIDING)}
@@ -53,7 +53,7 @@ rate = 300
 turn_back = 100
 finish = 100
 """
-"""Nobody has to follow what happens, so that a sitting takes half a minute."""
+"""Nobody has to follow what happens, so that a session takes half a minute."""
 STOPPED_S = 60.0
 """How long a stopped kiosk would stay stopped."""
 
@@ -71,7 +71,7 @@ FAULTS: dict[str, Callable[[int], None]] = {
 }
 """What strikes the process of the kiosk."""
 MENDED_INSIDE = {"exception"}
-"""What the kiosk itself answers with its own calm screen, without being started again."""
+"""What the kiosk itself answers with its own error screen, without being started again."""
 CALM_S = PAUSE_MS / 1000 + 1
 
 
@@ -84,9 +84,9 @@ class Revival:
     back_s: float
     """From the fault until attract is shown again."""
     seen: str
-    """What the keeper saw."""
-    sitting: str
-    """What the database says of the sitting, after the next start."""
+    """What the supervisor saw."""
+    session: str
+    """What the database says of the session, after the next start."""
     left_behind: int
     """Processes and temporary folders that should be gone."""
 
@@ -94,7 +94,7 @@ class Revival:
         """Whatever must not be; nothing, if all is well."""
         wrong = {
             "it took too long": self.back_s > (CALM_S if self.fault in MENDED_INSIDE else LONGEST_S),
-            "the sitting is not as it should be": self.sitting
+            "the session is not as it should be": self.session
             != ("none" if self.stage in BEFORE_ANYTHING_IS_KEPT else Status.INTERRUPTED.value),
             "something was left behind": bool(self.left_behind),
         }
@@ -125,7 +125,7 @@ def ending(*command: str, **options: Any) -> Iterator[None]:
 
 
 class Kept:
-    """A keeper at work; what it tells comes with the time at which it was told."""
+    """A supervisor at work; what it tells comes with the time at which it was told."""
 
     def __init__(self, stage: str, folder: Path, environment: dict[str, str]) -> None:
         command = [sys.executable, "-m", "tests.ui.kept_kiosk", stage, str(folder / "marker")]
@@ -163,14 +163,14 @@ class Kept:
         return next(int(child) for child in own if b"\0open\0" in Path(f"/proc/{child}/cmdline").read_bytes())
 
     def end(self) -> None:
-        """Ask the keeper to end, and see that it does."""
+        """Ask the supervisor to end, and see that it does."""
         self.process.terminate()
         self.process.wait(20)
 
 
 @contextmanager
 def kept_in(folder: Path, stage: str, environment: dict[str, str]) -> Iterator[Kept]:
-    """A keeper that is ended whatever happens."""
+    """A supervisor that is ended whatever happens."""
     kept = Kept(stage, folder, environment)
     try:
         yield kept
@@ -179,7 +179,7 @@ def kept_in(folder: Path, stage: str, environment: dict[str, str]) -> Iterator[K
 
 
 def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | None) -> Revival:
-    """One keeper, one visitor, one fault."""
+    """One supervisor, one visitor, one fault."""
     with tempfile.TemporaryDirectory(prefix="revival-") as place, kept_in(Path(place), stage, environment) as kept:
         folder = Path(place)
         for shown in WAYS.get(stage, (stage,)):
@@ -201,9 +201,9 @@ def revive(stage: str, fault: str, environment: dict[str, str], shots: Path | No
 
 
 def _status(data: Path) -> str:
-    with archive(data) as stored:
-        sittings = stored.sittings()
-    status = sittings[-1].status if sittings else None
+    with open_repository(data) as stored:
+        sessions = stored.sessions()
+    status = sessions[-1].status if sessions else None
     return status.value if status else "none"
 
 
@@ -241,8 +241,8 @@ def main() -> int:
 def _line(revival: Revival) -> str:
     wrong = f"  BUT {', '.join(revival.faults())}" if revival.faults() else ""
     return (
-        f"{revival.stage:<13}{revival.fault:<13}{revival.back_s:6.2f} s  {revival.seen or 'calm screen':<32}"
-        f"sitting: {revival.sitting}{wrong}"
+        f"{revival.stage:<13}{revival.fault:<13}{revival.back_s:6.2f} s  {revival.seen or 'error screen':<32}"
+        f"session: {revival.session}{wrong}"
     )
 
 

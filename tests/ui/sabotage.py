@@ -6,15 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from kiosk.store.reading import Archive, Sitting
-from kiosk.study import commands as do
-from kiosk.study import events as happened
-from kiosk.study.after.utterances import Utterances, body_changes, utterances
-from kiosk.study.commands import Command
-from kiosk.study.events import Event, Stage, Status, WorldEvent
-from kiosk.study.session import Session
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import Event, Stage, Status, WorldEvent
+from kiosk.experiment.projections import SpeechCounts, count_embodiment_changes, count_speech
+from kiosk.experiment.session import Session
+from kiosk.store.queries import SessionRepository, StoredSession
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.rehearsal import Rehearsal
 
 
 class Moment(Enum):
@@ -28,7 +28,7 @@ class Moment(Enum):
 
 
 class Sabotage(Rehearsal):
-    """A sitting in which ``strike`` is called once: just before click number ``at`` or before a stage's first event."""
+    """A session in which ``strike`` is called once: just before click number ``at`` or before a stage's first event."""
 
     def __init__(self, app: App, seed: int, strike: Callable[[], None], at: int | Moment) -> None:
         super().__init__(app, seed)
@@ -37,8 +37,8 @@ class Sabotage(Rehearsal):
         self._clicks = 0
         self.unseen: list[str] = []
         """Sentences that were to be said and did not stand in the bubble."""
-        self._check = app.conductor.witness
-        app.conductor.witness = self._look
+        self._check = app.runner.on_event
+        app.runner.on_event = self._look
 
     def _click(self, name: str) -> None:
         self._clicks += 1
@@ -62,7 +62,7 @@ class Sabotage(Rehearsal):
                 return shown == "result"
         return self._clicks >= self._at
 
-    def _look(self, event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+    def _look(self, event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
         said = [command.sentence for command in commands if isinstance(command, do.Speak)]
         if said and self._app.screens.avatar.property("bubble") != said[-1]:
             self.unseen.append(said[-1])
@@ -72,30 +72,30 @@ class Sabotage(Rehearsal):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a sitting."""
+    """What became of a session."""
 
-    sitting: Sitting
+    session: StoredSession
     events: list[Event]
     unseen: list[str]
     longest_gap_ms: float
 
     @property
-    def utterances(self) -> Utterances:
+    def utterances(self) -> SpeechCounts:
         """What became of its sentences."""
-        return utterances(self.events)
+        return count_speech(self.events)
 
     @property
     def body_changes(self) -> int:
         """How often the body changed."""
-        return body_changes(self.events)
+        return count_embodiment_changes(self.events)
 
     def faults(self) -> list[str]:
         """Whatever must not be; nothing, if all is well."""
         counted = self.utterances
         wrong = {
-            "the sitting did not end": self.sitting.status is not Status.COMPLETED,
-            "not all pairs were found": self.sitting.measures.pairs != 12,
-            "it began with another body": self.sitting.body not in {"furhat", "furhat-realtime"},
+            "the session did not end": self.session.status is not Status.COMPLETED,
+            "not all pairs were found": self.session.measures.pairs != 12,
+            "it began with another body": self.session.body not in {"furhat", "furhat-realtime"},
             "a sentence was neither heard nor shown": bool(self.unseen),
             "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,
             "the body changed more than once": self.body_changes > 1,
@@ -103,24 +103,24 @@ class Outcome:
         return [what for what, holds in wrong.items() if holds]
 
 
-def outcome(stored: Archive, rehearsal: Sabotage) -> Outcome:
-    """What became of the last sitting."""
-    sitting = stored.sittings()[-1]
-    return Outcome(sitting, stored.events(sitting.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
+def outcome(stored: SessionRepository, rehearsal: Sabotage) -> Outcome:
+    """What became of the last session."""
+    session = stored.sessions()[-1]
+    return Outcome(session, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
 
 
-def replayed(stored: Archive, number: int) -> list[Event]:
-    """The events of a stored sitting as they come out of its world events today."""
+def replayed(stored: SessionRepository, number: int) -> list[Event]:
+    """The events of a stored session as they come out of its world events today."""
     session = Session(stored.plan(number), stored.seed(number))
     again: list[Event] = []
     for event in stored.events(number):
         if isinstance(event, WorldEvent):
             commands = session.handle(event)
-            again += [event, *(command.event for command in commands if isinstance(command, do.Record))]
+            again += [event, *(command.event for command in commands if isinstance(command, do.EmitEvent))]
     return again
 
 
 def after_loss(events: list[Event]) -> list[Event]:
     """What followed the loss of the robot."""
-    lost = next(number for number, event in enumerate(events) if isinstance(event, happened.RobotLost))
+    lost = next(number for number, event in enumerate(events) if isinstance(event, happened.RobotDisconnected))
     return events[lost + 1 :]

@@ -26,8 +26,8 @@ os.environ["QSG_RENDER_LOOP"] = "basic"
 os.environ["QT_LOGGING_RULES"] = "qt.text.font.db=false"
 
 # Pydantic loads its parts late, which fails while PySide6 looks at every import: so it comes first.
-from kiosk.study.declared.information import ConsentPage, Page
-from kiosk.study.declared.questionnaire import KINDS, Item
+from kiosk.experiment.information import ConsentPage, Page
+from kiosk.experiment.questionnaire import KINDS, Item
 
 # isort: split
 from pydantic import TypeAdapter
@@ -35,10 +35,10 @@ from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSizeF
 from PySide6.QtQml import QQmlComponent, QQmlEngine
 from PySide6.QtQuick import QQuickItem, QQuickRenderControl, QQuickWindow
 
-from kiosk.settings import Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.ui.screens.every import Screens
-from kiosk.ui.window import QML, Display, application
+from kiosk.config import Settings
+from kiosk.study.loader import read_study
+from kiosk.ui.screens.registry import ScreenSet
+from kiosk.ui.window import QML, WindowMode, application
 
 TEXT_SIZES = [size / 100 for size in range(90, 151)]
 WINDOWS = [(1920, 1080), (1280, 720), (1366, 768), (1080, 1920), (3840, 2160)]
@@ -114,7 +114,7 @@ SOURCES = {
 }
 
 ITEMS: TypeAdapter[Item] = TypeAdapter(Item)
-Filling = Callable[[Screens], None]
+Filling = Callable[[ScreenSet], None]
 
 
 def item(kind: str, number: int, script: Script) -> Item:
@@ -157,20 +157,20 @@ def pages() -> Iterator[tuple[str, str, Filling]]:
         yield f"a page of text, {script}", "form", partial(_ask, (item("page", 0, texts),))
 
 
-def _ask(items: tuple[Item, ...], screens: Screens) -> None:
+def _ask(items: tuple[Item, ...], screens: ScreenSet) -> None:
     screens.form.show(items, 1, 2)
 
 
-def _tell(page: Page, screens: Screens) -> None:
+def _tell(page: Page, screens: ScreenSet) -> None:
     screens.about.show(page)
 
 
-def _debrief(page: Page, screens: Screens) -> None:
+def _debrief(page: Page, screens: ScreenSet) -> None:
     screens.debrief.give_code("WWWWWWW")
     screens.debrief.show(page)
 
 
-def _ask_consent(page: ConsentPage, screens: Screens) -> None:
+def _ask_consent(page: ConsentPage, screens: ScreenSet) -> None:
     screens.consent.show(page)
 
 
@@ -178,9 +178,9 @@ class Bench:
     """One screen at a time, as the kiosk's window has it, laid out when it is asked to and never painted."""
 
     def __init__(self) -> None:
-        self._application = application(Display.NOWHERE)
+        self._application = application(WindowMode.NOWHERE)
         self._owner = QObject()
-        self.screens = Screens.of(read_study(Settings(languages=("en",))), self._owner)
+        self.screens = ScreenSet.of(read_study(Settings(languages=("en",))), self._owner)
         self._control = QQuickRenderControl()
         self._window = QQuickWindow(self._control)
         self._engine = QQmlEngine()

@@ -9,7 +9,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtGui import QImage
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 
-from kiosk.ui.rehearsing.hand import find
+from kiosk.ui.simulated_visitor import find_item
 from tests.ui.looking import (
     EXPERIMENTERS,
     background,
@@ -79,7 +79,7 @@ def _covers(item: QQuickItem) -> bool:
 
 
 def _is_below_a_card(window: QQuickWindow, text: QQuickItem) -> bool:
-    card = find(window.contentItem(), "pin-card")
+    card = find_item(window.contentItem(), "pin-card")
     return card is not None and not lies_in(text, "PinCard") and place(card).intersects(painted(text))
 
 

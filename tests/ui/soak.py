@@ -1,6 +1,6 @@
-"""Sittings in a row against a robot that flaps: ``python -m tests.ui.soak [--sittings 100]``.
+"""Sessions in a row against a robot that flaps: ``python -m tests.ui.soak [--sessions 100]``.
 
-Prints threads, sockets, other handles, child processes and memory after a few sittings and at the end; ends with 1 if
+Prints threads, sockets, other handles, child processes and memory after a few sessions and at the end; ends with 1 if
 anything grew that must not grow. The robot is a process of its own and fails at random, in any way, and comes back.
 """
 
@@ -18,17 +18,17 @@ from pathlib import Path
 
 import click
 
-from kiosk.store.reading import archive
-from kiosk.study.after.utterances import body_changes
-from kiosk.study.events import Status
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.experiment.events import Status
+from kiosk.experiment.projections import count_embodiment_changes
+from kiosk.store.queries import open_repository
+from kiosk.ui.rehearsal import Rehearsal
 from tests.ui.fault_matrix import Robot, kiosk_with_robot
 
 WARM_UP = 10
-"""Sittings before anything is counted: pictures, fonts and sentences are loaded when they are first needed."""
+"""Sessions before anything is counted: pictures, fonts and sentences are loaded when they are first needed."""
 
 GROWTH_MB = 15
-"""How much the memory may move; what grew by as little as 0.2 MB a sitting would exceed it in 100."""
+"""How much the memory may move; what grew by as little as 0.2 MB a session would exceed it in 100."""
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,8 @@ class Counted:
 def main() -> int:
     """Play, and compare."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--sittings", type=int, default=100)
-    sittings = parser.parse_args().sittings
+    parser.add_argument("--sessions", type=int, default=100)
+    sessions = parser.parse_args().sessions
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     robot = Robot("--mode", "flap", "--seed", "1")
     with tempfile.TemporaryDirectory() as folder:
@@ -75,21 +75,21 @@ def main() -> int:
         begun = Counted.now()
         with kiosk_with_robot(robot.port, data) as app:
             longest = 0.0
-            for seed in range(WARM_UP + sittings):
+            for seed in range(WARM_UP + sessions):
                 if seed == WARM_UP:
                     begun, longest = Counted.now(), 0.0
                 rehearsal = Rehearsal(app, seed)
                 rehearsal.run()
                 longest = max(longest, rehearsal.pulse.longest_ms)
             ended = Counted.now()
-        with archive(data) as stored:
-            played = stored.sittings()[WARM_UP:]
-            changes = sum(body_changes(stored.events(sitting.id)) for sitting in played)
+        with open_repository(data) as stored:
+            played = stored.sessions()[WARM_UP:]
+            changes = sum(count_embodiment_changes(stored.events(session.id)) for session in played)
     robot.close()
-    bodies = Counter(sitting.body for sitting in played)
-    completed = sum(sitting.status is Status.COMPLETED for sitting in played)
+    embodiments = Counter(session.body for session in played)
+    completed = sum(session.status is Status.COMPLETED for session in played)
     click.echo(
-        f"{completed} of {len(played)} sittings completed; they began with {dict(bodies)}; {changes} body changes"
+        f"{completed} of {len(played)} sessions completed; they began with {dict(embodiments)}; {changes} body changes"
     )
     click.echo(f"at the start {begun}")
     click.echo(f"at the end   {ended}")

@@ -10,8 +10,8 @@ from unittest.mock import patch
 from PySide6.QtCore import QMetaObject
 from PySide6.QtQml import QJSEngine, QQmlComponent, QQmlEngine
 
-from kiosk.cli.front import main
-from kiosk.keeping.guard import Limits, guarded
+from kiosk.cli.main import main
+from kiosk.supervisor import Limits, guarded
 
 QUICK = Limits(silence=1, stuck=0.5)
 
@@ -58,6 +58,6 @@ if __name__ == "__main__":
     sys.argv = [argument for argument in sys.argv if argument != "--slowly"]
     with (
         patch("kiosk.ui.screens.board.BoardScreen.turn_up", wrong),
-        patch("kiosk.cli.booth.rehearsal.guarded", partial(guarded, limits)),
+        patch("kiosk.cli.rehearse.guarded", partial(guarded, limits)),
     ):
         main()

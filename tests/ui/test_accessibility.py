@@ -14,11 +14,11 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtQuick import QQuickWindow
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.ui.rehearsing.hand import lay_out
-from kiosk.ui.replaying.replay import Replay
-from kiosk.ui.window import Display, Mode, Pace
+from kiosk.config import Settings
+from kiosk.study.loader import read_study
+from kiosk.ui.replay import Replay
+from kiosk.ui.simulated_visitor import lay_out
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.conftest import MakeBooth
 from tests.ui.headless import headless
 from tests.ui.looking import colours, contrast, described, items, place, texts
@@ -150,11 +150,11 @@ def test_what_is_said_covers_no_button(make_booth: MakeBooth, qtbot: QtBot, side
 @pytest.mark.parametrize(("side", "left", "right"), [("left", -1.0, -0.5), ("right", 0.5, 1.0)])
 def test_the_avatar_looks_where_the_board_is(make_booth: MakeBooth, side: str, left: float, right: float) -> None:
     app = make_booth(settings=whole_study(board=side)).app
-    body = app.bodies.current
+    body = app.embodiments.current
     assert body is not None
     app.screens.board.deal(4, 6, 12, "animals")
     for column, where in ((0, left), (5, right)):
-        body.attend(app.screens.board.place(None, column))
+        body.look_at(app.screens.board.place(None, column))
         assert app.screens.avatar.property("gazeX") == pytest.approx(where, abs=0.05)
 
 
@@ -163,7 +163,7 @@ def test_the_avatar_looks_where_the_board_is(make_booth: MakeBooth, side: str, l
 def test_the_bar_of_a_replay_is_told_and_read_as_well(qtbot: QtBot, palette: str, language: str) -> None:
     settings = whole_study(contrast=palette)
     plan = next(plan for plan in read_study(settings).plans if plan.language == language)
-    with Replay(Mode(Display.NOWHERE), plan, (), "Sitting 1") as replay:
+    with Replay(RunMode(WindowMode.NOWHERE), plan, (), "Session 1") as replay:
         qtbot.waitUntil(replay.window.isExposed)
         lay_out(replay.window)
         sight = look(replay.window, "replay", "left")
@@ -185,7 +185,7 @@ def longest_move(window: QQuickWindow) -> int:
 
 @pytest.mark.parametrize(("motion", "moves"), [(False, False), (True, True)])
 def test_without_motion_nothing_moves(tmp_path: Path, *, motion: bool, moves: bool) -> None:
-    with headless(whole_study(motion=motion), tmp_path, mode=Mode(Display.NOWHERE, Pace.WALL)) as app:
+    with headless(whole_study(motion=motion), tmp_path, mode=RunMode(WindowMode.NOWHERE, ClockMode.WALL)) as app:
         lay_out(app.window)
         assert (longest_move(app.window) > 0) is moves
         before = app.window.grabWindow()

@@ -9,14 +9,14 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QWheelEvent
 from PySide6.QtTest import QTest
 
-from kiosk.settings import Settings
-from kiosk.study import events as happened
-from kiosk.study.events import WorldEvent
-from kiosk.ui.clock import VirtualClock
+from kiosk.config import Settings
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import WorldEvent
+from kiosk.ui.event_loop import VirtualClock
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
 from tests.ui.reaching import touch_screen
-from tests.ui.touring import CHORD, PIN, whole_study
+from tests.ui.touring import PIN, SHORTCUT, whole_study
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 EVERY_MS = 10_000
@@ -104,8 +104,8 @@ def reading(make_booth: MakeBooth) -> Booth:
 def told(reading: Booth) -> list[WorldEvent]:
     """What is recorded from now on, but for waits and voices."""
     events: list[WorldEvent] = []
-    kinds = (happened.UserActivity, happened.StillHereTapped, happened.VisitorLeft)
-    reading.app.conductor.witness = lambda event, _commands, _stage: (
+    kinds = (happened.UserActivity, happened.PresenceConfirmed, happened.IdleTimedOut)
+    reading.app.runner.on_event = lambda event, _commands, _stage: (
         events.append(event) if isinstance(event, kinds) else None
     )
     return events
@@ -170,7 +170,7 @@ def test_any_touch_or_key_answers_the_question_and_does_nothing_else(
     answer(reading)
     assert not asked(reading)
     assert reading.screen == "about"
-    assert [type(event) for event in told] == [happened.StillHereTapped]
+    assert [type(event) for event in told] == [happened.PresenceConfirmed]
 
 
 def test_an_answer_by_key_presses_nothing_on_the_page_below(reading: Booth, told: list[WorldEvent]) -> None:
@@ -179,7 +179,7 @@ def test_an_answer_by_key_presses_nothing_on_the_page_below(reading: Booth, told
     for code in (Qt.Key.Key_Return, Qt.Key.Key_Space):
         key(code)(reading)
     assert reading.screen == "about"
-    assert [type(event) for event in told] == [happened.StillHereTapped]
+    assert [type(event) for event in told] == [happened.PresenceConfirmed]
 
 
 def test_a_touch_in_the_moment_when_the_question_comes_is_no_answer_yet(reading: Booth) -> None:
@@ -193,7 +193,7 @@ def test_the_digits_of_a_pin_do_not_answer_for_the_visitor(make_booth: MakeBooth
     booth.click("start-en")
     booth.wait_until(lambda: asked(booth))
     booth.settle()
-    booth.press(Qt.Key.Key_P, CHORD)
+    booth.press(Qt.Key.Key_P, SHORTCUT)
     for digit in PIN[:2]:
         QTest.keyClick(booth.app.window, digit)  # type: ignore[call-overload]  # it takes characters
     assert asked(booth)

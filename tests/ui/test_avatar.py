@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.robot.body import Health, Place
-from kiosk.study.commands import Mood
+from kiosk.experiment.effects import Mood
+from kiosk.robots.embodiment import BoardPoint, Health
 from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
 from kiosk.ui.voice import Voice
-from tests.robot.recording import Reports
+from tests.robots.recording import Reports
 
 AVATAR = Path(__file__).parents[2] / "kiosk" / "ui" / "qml" / "Avatar.qml"
 
@@ -34,7 +34,7 @@ class VoiceFake(Voice):
 
     @property
     def health(self) -> Health:
-        return Health(well=True, words="the voice is a fake")
+        return Health(is_ok=True, message="the voice is a fake")
 
 
 @pytest.fixture
@@ -70,20 +70,20 @@ def test_every_mood_has_a_face_of_its_own(avatar: AvatarBody, face: AvatarScreen
 
 @pytest.mark.parametrize(
     ("place", "gaze"),
-    [(Place(0, 0), (-1, -1)), (Place(1, 1), (-0.5, 1)), (Place(0.5, 0.5), (-0.75, 0)), (None, (0, 0))],
+    [(BoardPoint(0, 0), (-1, -1)), (BoardPoint(1, 1), (-0.5, 1)), (BoardPoint(0.5, 0.5), (-0.75, 0)), (None, (0, 0))],
 )
 def test_it_looks_at_the_hinted_place_and_back_at_the_visitor(
-    avatar: AvatarBody, face: AvatarScreen, place: Place | None, gaze: tuple[float, float]
+    avatar: AvatarBody, face: AvatarScreen, place: BoardPoint | None, gaze: tuple[float, float]
 ) -> None:
-    avatar.attend(Place(0.1, 0.1))
-    avatar.attend(place)
+    avatar.look_at(BoardPoint(0.1, 0.1))
+    avatar.look_at(place)
     assert (face.property("gazeX"), face.property("gazeY")) == gaze
 
 
 def test_its_eyes_wander_only_while_they_look_at_nothing(avatar: AvatarBody, face: AvatarScreen) -> None:
     face.glance(0.2, -0.1)
     assert (face.property("gazeX"), face.property("gazeY")) == (0.2, -0.1)
-    avatar.attend(Place(0.5, 0.5))
+    avatar.look_at(BoardPoint(0.5, 0.5))
     assert (face.property("gazeX"), face.property("gazeY")) == (-0.75, 0)
 
 
@@ -109,9 +109,9 @@ def test_its_mouth_moves_with_the_loudness_and_closes_at_the_end(
 
 
 def test_a_robot_takes_its_place_and_gives_it_back(avatar: AvatarBody, face: AvatarScreen) -> None:
-    avatar.withdraw()
+    avatar.deactivate()
     assert not face.property("present")
-    avatar.appear()
+    avatar.activate()
     assert face.property("present")
 
 
@@ -119,11 +119,11 @@ def test_between_visitors_it_is_silent_calm_and_ready_to_try_its_voice_again(
     avatar: AvatarBody, face: AvatarScreen, voice: VoiceFake
 ) -> None:
     avatar.express(Mood.SAD)
-    avatar.attend(Place(0, 0))
-    avatar.rest()
+    avatar.look_at(BoardPoint(0, 0))
+    avatar.reset()
     assert (face.property("mood"), face.property("gazeX")) == ("idle", 0)
     assert voice.asked == ["stop", "restore"]
 
 
 def test_its_health_is_its_voices(avatar: AvatarBody) -> None:
-    assert avatar.health.words == "the avatar is there; the voice is a fake"
+    assert avatar.health.message == "the avatar is there; the voice is a fake"

@@ -18,12 +18,8 @@ from PySide6.QtQuick import QQuickWindow
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.ui.booth import hold, pointer
-from kiosk.ui.booth.awake import Awake
-from kiosk.ui.booth.full_screen import FullScreen
-from kiosk.ui.booth.hold import Hold
-from kiosk.ui.booth.pointer import Pointer
-from kiosk.ui.booth.window import BoothWindow
+from kiosk.ui import kiosk_window
+from kiosk.ui.kiosk_window import CursorAutohide, FocusGuard, FullScreen, KeepAwake, KioskWindow
 
 ROOT = Path(__file__).parents[2]
 SCREENS = [(0, 0, 1920, 1080), (1920, 0, 1280, 720), (3200, 0, 1080, 1920), (4280, 0, 3840, 2160)]
@@ -92,17 +88,17 @@ def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
 
 
 @pytest.fixture
-def resting(window: QQuickWindow, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pointer]:
+def resting(window: QQuickWindow, monkeypatch: pytest.MonkeyPatch) -> Iterator[CursorAutohide]:
     """A pointer over the window that soon rests."""
-    monkeypatch.setattr(pointer, "REST_MS", 20)
-    watched = Pointer(window)
+    monkeypatch.setattr(kiosk_window, "REST_MS", 20)
+    watched = CursorAutohide(window)
     yield watched
     watched.release()
     assert QGuiApplication.overrideCursor() is None
 
 
 def test_the_pointer_is_hidden_at_rest_and_back_at_the_first_movement(
-    resting: Pointer, window: QQuickWindow, qtbot: QtBot
+    resting: CursorAutohide, window: QQuickWindow, qtbot: QtBot
 ) -> None:
     assert not resting.hidden
     qtbot.waitUntil(lambda: resting.hidden)
@@ -114,7 +110,7 @@ def test_the_pointer_is_hidden_at_rest_and_back_at_the_first_movement(
     assert not resting.hidden
 
 
-def test_a_finger_never_shows_the_pointer(resting: Pointer, window: QQuickWindow, qtbot: QtBot) -> None:
+def test_a_finger_never_shows_the_pointer(resting: CursorAutohide, window: QQuickWindow, qtbot: QtBot) -> None:
     device = QTest.createTouchDevice()
     QTest.touchEvent(window, device).press(0, QPoint(20, 20), window).commit()
     assert resting.hidden
@@ -131,7 +127,7 @@ class FakeDesktop:
         self.covered = False
         self.asked: list[str] = []
 
-    def stick(self) -> None:
+    def show_on_every_desktop(self) -> None:
         self.asked.append("stick")
 
     def clear(self) -> bool:
@@ -154,10 +150,10 @@ def desktop() -> FakeDesktop:
 @pytest.fixture
 def held(window: QQuickWindow, desktop: FakeDesktop, monkeypatch: pytest.MonkeyPatch) -> Iterator[FullScreen]:
     """The window, held over its screen."""
-    monkeypatch.setattr(hold, "LOOK_MS", 10)
+    monkeypatch.setattr(kiosk_window, "LOOK_MS", 10)
     owner = QObject()
     full_screen = FullScreen(window, 0, owner)
-    holding = Hold(window, full_screen, lambda: desktop, owner)
+    holding = FocusGuard(window, full_screen, lambda: desktop, owner)
     yield full_screen
     holding.release()
     owner.deleteLater()
@@ -198,7 +194,7 @@ class FakeWay:
         self._refusal = refusal
         self.released = False
 
-    def ask(self, told: Callable[[str | None], None]) -> None:
+    def inhibit(self, told: Callable[[str | None], None]) -> None:
         told(self._refusal)
 
     def release(self) -> None:
@@ -207,36 +203,36 @@ class FakeWay:
 
 def test_the_health_says_who_holds_the_screen_saver_off(caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.WARNING):
-        awake = Awake([FakeWay("the X server", None), FakeWay("the desktop", "there is no bus")])
-    assert awake.health.well
-    assert awake.health.words == "screen saver and sleep are held off by the X server"
+        awake = KeepAwake([FakeWay("the X server", None), FakeWay("the desktop", "there is no bus")])
+    assert awake.health.is_ok
+    assert awake.health.message == "screen saver and sleep are held off by the X server"
     assert [record.getMessage() for record in caplog.records] == [
         "screen saver and sleep are not held off by the desktop: there is no bus"
     ]
 
 
 def test_the_health_says_why_nobody_holds_the_screen_saver_off() -> None:
-    awake = Awake([FakeWay("the desktop", "there is no bus"), FakeWay("the system", "it refused")])
-    assert not awake.health.well
-    assert awake.health.words.endswith("not held off: the desktop: there is no bus; the system: it refused")
+    awake = KeepAwake([FakeWay("the desktop", "there is no bus"), FakeWay("the system", "it refused")])
+    assert not awake.health.is_ok
+    assert awake.health.message.endswith("not held off: the desktop: there is no bus; the system: it refused")
 
 
 def test_the_screen_may_go_dark_again_when_the_kiosk_is_left() -> None:
     ways = [FakeWay("the desktop", None), FakeWay("the system", "it refused")]
-    Awake(ways).release()
+    KeepAwake(ways).release()
     assert all(way.released for way in ways)
 
 
 def test_what_keeps_awake_is_asked_for_after_the_first_frame(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
-    from kiosk.ui.booth import ways  # noqa: PLC0415 - what is asked for is put in its place
+    from kiosk.ui import keep_awake  # noqa: PLC0415 - what is asked for is put in its place
 
     asked = FakeWay("the desktop", None)
-    monkeypatch.setattr(ways, "ways", lambda: iter([asked]))
+    monkeypatch.setattr(keep_awake, "ways", lambda: iter([asked]))
     owner, window = QObject(), QQuickWindow()
-    booth = BoothWindow(window, 0, owner)
-    assert "not held off yet" in booth.health[1].words
-    qtbot.waitUntil(lambda: booth.health[1].well)
-    assert booth.health[0].words.startswith("the window covers its screen")
+    booth = KioskWindow(window, 0, owner)
+    assert "not held off yet" in booth.health[1].message
+    qtbot.waitUntil(lambda: booth.health[1].is_ok)
+    assert booth.health[0].message.startswith("the window covers its screen")
     booth.release()
     assert asked.released
     window.close()

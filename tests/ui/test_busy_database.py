@@ -14,19 +14,19 @@ import pytest
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
+from kiosk.config import ASSETS
+from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import Event, Stage, Status, WorldEvent
+from kiosk.experiment.questionnaire import Multiple, Questionnaire
 from kiosk.game import Position
-from kiosk.settings import ASSETS
 from kiosk.store.database import FILE
-from kiosk.store.reading import archive
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
-from kiosk.study import events as happened
-from kiosk.study.commands import Command
-from kiosk.study.declared.questionnaire import Multiple, Questionnaire
-from kiosk.study.events import Event, Stage, Status, WorldEvent
-from kiosk.ui.rehearsing.hand import lay_out
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.waiting import LONGEST_MS, TOLD_AFTER_MS
-from kiosk.ui.window import Display, Mode
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.session_runner import LONGEST_MS, TOLD_AFTER_MS
+from kiosk.ui.simulated_visitor import lay_out
+from kiosk.ui.window import RunMode, WindowMode
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import headless, short
 
@@ -87,21 +87,21 @@ def wait_ms(booth: Booth, ms: int, *, draws: bool = False) -> int:
     return turns
 
 
-def flips(booth: Booth) -> list[happened.CardTapped]:
+def flips(booth: Booth) -> list[happened.CardSelected]:
     """The cards that are stored as tapped."""
-    return [event for event in events(booth) if isinstance(event, happened.CardTapped)]
+    return [event for event in events(booth) if isinstance(event, happened.CardSelected)]
 
 
-def events(booth: Booth, sitting: int = 1) -> list[Event]:
-    """Everything that is stored of a sitting."""
-    with archive(booth.data) as stored:
-        return stored.events(sitting)
+def events(booth: Booth, session: int = 1) -> list[Event]:
+    """Everything that is stored of a session."""
+    with open_repository(booth.data) as stored:
+        return stored.events(session)
 
 
 def statuses(booth: Booth) -> list[Status | None]:
-    """How the stored sittings ended."""
-    with archive(booth.data) as stored:
-        return [sitting.status for sitting in stored.sittings()]
+    """How the stored sessions ended."""
+    with open_repository(booth.data) as stored:
+        return [session.status for session in stored.sessions()]
 
 
 def test_a_database_that_is_held_for_half_a_minute_costs_no_session_and_shows_nothing_that_is_not_stored(
@@ -120,7 +120,7 @@ def test_a_database_that_is_held_for_half_a_minute_costs_no_session_and_shows_no
     [flip] = flips(booth)
     assert flip.position == Position(0, 3)
     assert flip.at_ms <= tapped_at
-    booth.app.conductor.close()
+    booth.app.runner.close()
     assert [event.at_ms for event in events(booth)] == sorted(event.at_ms for event in events(booth))
     assert statuses(booth) == [Status.INTERRUPTED]
 
@@ -188,7 +188,7 @@ def test_a_tap_that_was_meant_for_the_page_before_skips_no_page(
     assert page.kind == "page"
 
 
-def test_a_new_sitting_begins_when_the_database_is_free_and_at_the_time_of_the_tap(booth: Booth, other: Other) -> None:
+def test_a_new_session_begins_when_the_database_is_free_and_at_the_time_of_the_tap(booth: Booth, other: Other) -> None:
     booth.settle()
     other.hold()
     booth.click("start-en")
@@ -197,7 +197,7 @@ def test_a_new_sitting_begins_when_the_database_is_free_and_at_the_time_of_the_t
     assert statuses(booth) == []
     other.let_go()
     booth.wait_until(lambda: booth.screen == "introduction")
-    assert events(booth)[0] == happened.StartTapped(at_ms=0)
+    assert events(booth)[0] == happened.SessionStarted(at_ms=0)
     with closing(sqlite3.connect(booth.data / FILE)) as database:
         assert database.execute("SELECT count(*), count(DISTINCT seq) FROM event").fetchone() == (
             (len(events(booth)),) * 2
@@ -228,20 +228,20 @@ def test_closing_waits_a_little_and_writes_what_is_left_in_its_order(booth: Boot
     other.hold()
     booth.click("card-3")
     other.let_go()
-    booth.app.conductor.close()
+    booth.app.runner.close()
     world = [type(event) for event in events(booth) if isinstance(event, WorldEvent)]
-    assert world[-2:] == [happened.CardTapped, happened.KioskClosed]
+    assert world[-2:] == [happened.CardSelected, happened.ApplicationClosed]
 
 
-def test_closing_while_the_database_stays_held_leaves_a_sitting_that_was_interrupted(
+def test_closing_while_the_database_stays_held_leaves_a_session_that_was_interrupted(
     booth: Booth, other: Other, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("kiosk.ui.conductor.CLOSING_WAIT_MS", 1)
+    monkeypatch.setattr("kiosk.ui.session_runner.CLOSING_WAIT_MS", 1)
     booth.start_game()
     booth.settle()
     other.hold()
     booth.click("card-3")
-    booth.app.conductor.close()
+    booth.app.runner.close()
     assert "could not be written: another program holds the database" in caplog.text
     other.let_go()
     wait_ms(booth, 1_000)
@@ -282,7 +282,7 @@ def test_a_timer_that_ran_out_while_the_tap_that_stops_it_was_waiting_does_not_c
     other.let_go()
     booth.wait_until(lambda: len(booth.app.screens.board.closed) == 23)
     assert not booth.sees("still-there")
-    assert not any(isinstance(event, happened.TimerEnded) for event in events(booth))
+    assert not any(isinstance(event, happened.TimerExpired) for event in events(booth))
 
 
 def test_options_that_are_ticked_before_the_first_is_stored_are_all_kept(booth: Booth) -> None:
@@ -303,26 +303,26 @@ def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_i
     plain.rehearse(seed=1)
     other, held = other_of(disturbed), list[WorldEvent]()
     rehearsal = Rehearsal(disturbed.app, 1)
-    watch = disturbed.app.conductor.witness
+    watch = disturbed.app.runner.on_event
     assert watch is not None
 
-    def watch_and_hold(event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+    def watch_and_hold(event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
         watch(event, commands, stage)
-        if isinstance(event, happened.CardTapped) and not held:
+        if isinstance(event, happened.CardSelected) and not held:
             held.append(event)
             other.hold()
             QTimer.singleShot(100, other.let_go)
 
-    disturbed.app.conductor.witness = watch_and_hold
+    disturbed.app.runner.on_event = watch_and_hold
     rehearsal.run()
     assert held
     assert events(disturbed) == events(plain)
 
 
 def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: QtBot, tmp_path: Path) -> None:
-    with headless(short(), tmp_path, mode=Mode(Display.NOWHERE)) as app:
+    with headless(short(), tmp_path, mode=RunMode(WindowMode.NOWHERE)) as app:
         qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
-        app.conductor.start("en")
+        app.runner.start("en")
         command = [sys.executable, "-c", HOLDER, str(tmp_path / FILE)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
             assert holder.stdin is not None
@@ -332,10 +332,10 @@ def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: Q
             ticking = QTimer()
             ticking.timeout.connect(lambda: ticks.append(1))
             ticking.start(5)
-            app.conductor.tell(happened.ContinueTapped)
+            app.runner.tell(happened.ContinuePressed)
             qtbot.waitUntil(lambda: app.screens.kiosk.covered)
             assert len(ticks) > 20
             assert app.screens.kiosk.shown == "introduction"
             holder.stdin.close()
             qtbot.waitUntil(lambda: app.screens.kiosk.shown == "game")
-        assert app.conductor.stage is Stage.GAME
+        assert app.runner.stage is Stage.GAME

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk.ui.characters import before, fitting, without_last
+from kiosk.ui.input import before, fitting, without_last
 
 
 @pytest.mark.parametrize(

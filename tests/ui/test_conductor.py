@@ -8,12 +8,12 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk import StoreFailed
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import Event, Status
 from kiosk.game import Position
-from kiosk.store.reading import archive
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
-from kiosk.study.events import Event, Status
-from kiosk.ui.conductor import PAUSE_MS
+from kiosk.ui.session_runner import PAUSE_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 
@@ -25,9 +25,9 @@ def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - t
     raise StoreFailed("what happened could not be written: the disk is full")
 
 
-def refuse_to_begin(self: Recorder, sitting: Provenance, events: Sequence[Event]) -> None:  # noqa: ARG001 - as above
-    """The same where a sitting is to be stored."""
-    raise StoreFailed("the sitting could not be stored: the disk is full")
+def refuse_to_begin(self: Recorder, session: Provenance, events: Sequence[Event]) -> None:  # noqa: ARG001 - as above
+    """The same where a session is to be stored."""
+    raise StoreFailed("the session could not be stored: the disk is full")
 
 
 def test_a_tap_that_cannot_be_recorded_is_not_shown(
@@ -53,8 +53,8 @@ def test_after_a_failure_of_the_disk_the_kiosk_goes_on_by_itself(
     assert booth.screen == "pause"
     booth.wait_until(lambda: booth.screen == "attract")
     booth.rehearse(seed=1)
-    with archive(booth.data) as stored:
-        assert [sitting.status for sitting in stored.sittings()] == [Status.INTERRUPTED, Status.COMPLETED]
+    with open_repository(booth.data) as stored:
+        assert [session.status for session in stored.sessions()] == [Status.INTERRUPTED, Status.COMPLETED]
     caplog.clear()
 
 
@@ -86,8 +86,8 @@ def test_a_tap_that_does_not_count_is_recorded_and_the_screen_says_why(booth: Bo
     shown = booth.app.screens.board.closed
     booth.click("card-23")
     assert booth.app.screens.board.closed == shown
-    with archive(booth.data) as stored:
-        (ignored,) = (event for event in stored.events(1) if isinstance(event, happened.TapIgnored))
+    with open_repository(booth.data) as stored:
+        (ignored,) = (event for event in stored.events(1) if isinstance(event, happened.CardSelectionRejected))
     assert ignored.position == Position(3, 5)
 
 
@@ -97,8 +97,8 @@ def test_a_visitor_who_walks_away_is_asked_and_then_the_kiosk_is_ready_again(mak
     booth.click("card-3")
     booth.wait_until(lambda: booth.sees("still-here"))
     booth.wait_until(lambda: booth.screen == "attract")
-    with archive(booth.data) as stored:
-        assert stored.sittings()[0].status is Status.ABANDONED
+    with open_repository(booth.data) as stored:
+        assert stored.sessions()[0].status is Status.ABANDONED
     assert not booth.sees("still-here")
 
 
@@ -115,20 +115,20 @@ def test_a_visitor_who_is_still_there_goes_on_where_the_game_was(make_booth: Mak
     assert len(booth.app.screens.board.closed) == 22
 
 
-def test_leaving_the_kiosk_in_the_middle_of_a_sitting_is_recorded(booth: Booth) -> None:
+def test_leaving_the_kiosk_in_the_middle_of_a_session_is_recorded(booth: Booth) -> None:
     booth.start_game()
-    booth.app.conductor.close()
-    with archive(booth.data) as stored:
-        assert stored.sittings()[0].status is Status.INTERRUPTED
-        assert any(isinstance(event, happened.KioskClosed) for event in stored.events(1))
+    booth.app.runner.close()
+    with open_repository(booth.data) as stored:
+        assert stored.sessions()[0].status is Status.INTERRUPTED
+        assert any(isinstance(event, happened.ApplicationClosed) for event in stored.events(1))
 
 
-def test_a_word_from_the_last_sitting_changes_nothing_in_the_next(booth: Booth) -> None:
-    booth.app.conductor.speech_finished(4)
+def test_a_word_from_the_last_session_changes_nothing_in_the_next(booth: Booth) -> None:
+    booth.app.runner.speech_finished(4)
     assert booth.screen == "attract"
     booth.click("start-en")
-    with archive(booth.data) as stored:
-        assert stored.events(1)[0] == happened.StartTapped(at_ms=0)
+    with open_repository(booth.data) as stored:
+        assert stored.events(1)[0] == happened.SessionStarted(at_ms=0)
 
 
 def test_nothing_of_one_visitor_is_left_for_the_next(booth: Booth) -> None:
@@ -137,16 +137,16 @@ def test_nothing_of_one_visitor_is_left_for_the_next(booth: Booth) -> None:
     board = booth.app.screens.board
     assert len(board.closed) == 24
     assert board.unmatched == {}
-    assert board.marked == (None, None)
+    assert board.highlighted == (None, None)
     assert str(board.property("progress")) == "0 of 12 pairs"
     assert str(board.property("moves")) == "0 moves"
 
 
-def test_a_sitting_whose_first_event_cannot_be_recorded_has_not_begun(
+def test_a_session_whose_first_event_cannot_be_recorded_has_not_begun(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     begun: list[str] = []
-    booth.app.conductor.begun = lambda: begun.append(booth.screen)
+    booth.app.runner.on_session_started = lambda: begun.append(booth.screen)
     with monkeypatch.context() as patch:
         patch.setattr(Recorder, "begin", refuse_to_begin)
         booth.click("start-en")
@@ -159,8 +159,8 @@ def test_a_sitting_whose_first_event_cannot_be_recorded_has_not_begun(
 
 
 def test_a_second_failure_has_a_calm_screen_as_long_as_the_first(booth: Booth) -> None:
-    clock, conductor = booth.app.clock, booth.app.conductor
-    conductor.pause()
-    clock.after(PAUSE_MS - 1, conductor.pause)
+    clock, runner = booth.app.clock, booth.app.runner
+    runner.pause()
+    clock.after(PAUSE_MS - 1, runner.pause)
     booth.wait_until(lambda: booth.screen == "attract")
     assert clock.now_ms() == PAUSE_MS - 1 + PAUSE_MS

@@ -10,8 +10,8 @@ from PySide6.QtCore import QPoint, QRectF
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from kiosk.study.declared.information import Page
-from kiosk.ui.screens.reading import QUIET_MODULES
+from kiosk.experiment.information import Page
+from kiosk.ui.screens.pages import QUIET_MODULES
 from tests.ui.conftest import Booth
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))

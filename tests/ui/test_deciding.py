@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickItem
 
-from kiosk.study.declared.information import ConsentPage, Purpose
-from kiosk.ui.rehearsing.hand import Hand
+from kiosk.experiment.information import ConsentPage, Purpose
+from kiosk.ui.simulated_visitor import UiDriver
 from tests.ui.conftest import Booth
 
 PAGE = ConsentPage(
@@ -62,7 +62,7 @@ def test_a_tap_reports_a_tick_and_shows_none_before_it_counts(booth: Booth, done
 
 
 def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
-    Hand(booth.app.window).double_click("purpose-store")
+    UiDriver(booth.app.window).double_click("purpose-store")
     assert done == [("store", True)]
 
 

@@ -18,18 +18,18 @@ from PySide6.QtCore import QRectF
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
 
-from kiosk.assistant.hint import Reason
-from kiosk.assistant.mdp import Card
-from kiosk.assistant.wording import Catalogue
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.commands import Wait
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.declared.information import Information
-from kiosk.study.declared.questionnaire import Item, Questionnaire, TextPage
-from kiosk.study.plan import Study
-from kiosk.ui.rehearsing.hand import find, lay_out
-from kiosk.ui.screens.every import Screens
-from kiosk.ui.window import Display, Mode, Pace, Window
+from kiosk.assistance.mentaliser import HintReason
+from kiosk.assistance.policy import FlipInMove
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.effects import BoardWait
+from kiosk.experiment.information import Information
+from kiosk.experiment.questionnaire import Item, Questionnaire, TextPage
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.study.loader import read_study
+from kiosk.ui.screens.registry import ScreenSet
+from kiosk.ui.simulated_visitor import find_item, lay_out
+from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests import pseudo
 
 SIZES = [(1280, 720), (1920, 1080), (1080, 1920)]
@@ -43,7 +43,7 @@ ASKED = {file.stem: Questionnaire.read(file) for file in (ASSETS / "questionnair
 
 
 @pytest.fixture(params=["en", "es", "it", pseudo.LANGUAGE])
-def study(request: pytest.FixtureRequest, tmp_path: Path) -> Study:
+def study(request: pytest.FixtureRequest, tmp_path: Path) -> StudyConfig:
     """The study in one language."""
     if request.param != pseudo.LANGUAGE:
         return read_study(Settings.model_validate({"languages": [request.param]}))
@@ -54,14 +54,14 @@ def study(request: pytest.FixtureRequest, tmp_path: Path) -> Study:
 
 
 @pytest.fixture(params=[1.0, 1.3])
-def window(request: pytest.FixtureRequest, study: Study, qtbot: QtBot) -> Iterator[Window]:
+def window(request: pytest.FixtureRequest, study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
     """The window of that study, with its texts as large as they are usually, and as large as they can be."""
     (plan,) = study.plans
     if plan.language == pseudo.LANGUAGE and request.param > 1:
         pytest.skip("a language that is 40 % longer is test enough at its usual size")
     screen = plan.settings.screen.model_copy(update={"text_size": request.param})
     sized = replace(plan, settings=plan.settings.model_copy(update={"screen": screen}))
-    opened = Window(replace(study, plans=(sized,)), Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened = Window(replace(study, plans=(sized,)), RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     opened.show()
     qtbot.waitUntil(opened.shown.isExposed)
     yield opened
@@ -107,8 +107,8 @@ def longest_hint(catalogue: Catalogue) -> str:
     card = catalogue.card("hedgehog")
     reasons = [
         wording
-        for which in Card
-        for reason in Reason
+        for which in FlipInMove
+        for reason in HintReason
         if (message := f"reason-{which.value}-{reason.value}") in catalogue
         for wording in catalogue.wordings(message, **card)
     ]
@@ -161,7 +161,7 @@ def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
         assert not seen.intersects(too), (moment, one.property("text"), other.property("text"))
 
 
-def moments(screens: Screens, study: Study) -> Iterator[tuple[str, str, Callable[[], None]]]:
+def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, Callable[[], None]]]:
     """Every screen with as much to show as it can ever have: a name for it, the screen's, and how it is filled."""
     (plan,) = study.plans
     sheet, language = plan.information, plan.language
@@ -175,7 +175,7 @@ def moments(screens: Screens, study: Study) -> Iterator[tuple[str, str, Callable
     yield "practice", "practice", lambda: screens.board.deal(3, 4, 6, "fruit", practice=True)
     yield "game", "game", lambda: screens.board.deal(4, 6, 12, "animals")
     yield "long", "game", lambda: screens.board.show_progress(12, 188)
-    yield "waiting", "game", lambda: screens.board.hold(Wait.TURNING_BACK)
+    yield "waiting", "game", lambda: screens.board.lock(BoardWait.TURNING_BACK)
     yield "result", "result", lambda: screens.result.show(12, 188, 59 * 60_000 + 59_000)
     for name, items in pages():
         shown = tuple(worded(item, language) for item in items)
@@ -204,7 +204,7 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_no_text_is_cut_off_or_covers_another(
-    window: Window, study: Study, qtbot: QtBot, width: int, height: int
+    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
 ) -> None:
     shown, screens = window.shown, window.screens
     shown.resize(width, height)
@@ -217,7 +217,7 @@ def test_no_text_is_cut_off_or_covers_another(
         assert_all_can_be_read(shown, moment)
 
 
-def test_what_is_declared_for_this_study_needs_no_scrolling(window: Window, study: Study, qtbot: QtBot) -> None:
+def test_what_is_declared_for_this_study_needs_no_scrolling(window: Window, study: StudyConfig, qtbot: QtBot) -> None:
     if study.plans[0].language == pseudo.LANGUAGE or window.shown.property("textSize") > 1:
         pytest.skip("larger or longer texts scroll")
     window.shown.resize(1280, 720)
@@ -226,10 +226,10 @@ def test_what_is_declared_for_this_study_needs_no_scrolling(window: Window, stud
         fill()
         window.screens.kiosk.show(screen)
         lay_out(window.shown)
-        assert moment.endswith("missing") or find(window.shown.contentItem(), "more") is None, moment
+        assert moment.endswith("missing") or find_item(window.shown.contentItem(), "more") is None, moment
 
 
-def test_no_text_is_smaller_than_can_be_read(window: Window, study: Study, qtbot: QtBot) -> None:
+def test_no_text_is_smaller_than_can_be_read(window: Window, study: StudyConfig, qtbot: QtBot) -> None:
     window.shown.resize(1920, 1080)
     qtbot.waitUntil(lambda: window.shown.contentItem().width() == 1920)
     for moment, screen, fill in moments(window.screens, study):
@@ -252,7 +252,7 @@ def test_words_over_everything_fit(window: Window) -> None:
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_what_is_spoken_is_never_longer_than_its_bubble(
-    window: Window, study: Study, qtbot: QtBot, width: int, height: int
+    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
 ) -> None:
     catalogue = study.plans[0].catalogue
     window.shown.resize(width, height)

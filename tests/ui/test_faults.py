@@ -1,4 +1,4 @@
-"""A whole sitting while the robot fails: it ends, nothing is lost, every sentence is heard or shown.
+"""A whole session while the robot fails: it ends, nothing is lost, every sentence is heard or shown.
 
 A handful of the matrix; all of it is printed by ``python -m tests.ui.fault_matrix``.
 """
@@ -11,12 +11,12 @@ from random import Random
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.store.reading import archive
-from kiosk.study import events as happened
-from kiosk.study.events import BodyName
-from tests.robot.furhat_fake import FAULTS, FurhatFake, Mode
-from tests.robot.realtime_fake import Mode as Broken
-from tests.robot.realtime_fake import RealtimeFake
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import EmbodimentName
+from kiosk.store.queries import open_repository
+from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
+from tests.robots.realtime_fake import Mode as Broken
+from tests.robots.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
@@ -41,19 +41,19 @@ def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
 
 
 def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Outcome:
-    """A sitting in which the robot falls into this mode; it must be whole, and replay as it was."""
+    """A session in which the robot falls into this mode; it must be whole, and replay as it was."""
     rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), at)
     rehearsal.run()
-    with archive(booth.data) as stored:
+    with open_repository(booth.data) as stored:
         result = outcome(stored, rehearsal)
-        assert replayed(stored, result.sitting.id) == result.events
+        assert replayed(stored, result.session.id) == result.events
     assert result.faults() == []
     return result
 
 
-def helps(booth: Booth, name: BodyName) -> bool:
+def helps(booth: Booth, name: EmbodimentName) -> bool:
     """Whether this body helps now."""
-    return booth.app.bodies.current is not None and booth.app.bodies.current.name is name
+    return booth.app.embodiments.current is not None and booth.app.embodiments.current.name is name
 
 
 def wait_for(qtbot: QtBot, booth: Booth, holds: Callable[[], bool]) -> None:
@@ -79,8 +79,8 @@ def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: Furha
     at = Random(f"{mode.name}/1").randint(1, 50)
     result = sabotaged(booth, fake, mode, at)
     assert result.body_changes == 1
-    changed = next(event for event in result.events if isinstance(event, happened.BodyChanged))
-    assert changed.body is BodyName.AVATAR
+    changed = next(event for event in result.events if isinstance(event, happened.EmbodimentChanged))
+    assert changed.body is EmbodimentName.AVATAR
     assert changed.why.startswith("the robot ")
 
 
@@ -97,9 +97,9 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
         booth = make_booth(settings=short(robot=robot))
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()
-        with archive(booth.data) as stored:
+        with open_repository(booth.data) as stored:
             result = outcome(stored, rehearsal)
-        booth.app.bodies.close()
+        booth.app.embodiments.close()
     assert result.faults() == []
     assert result.body_changes == 1
     assert fake.refusals == []
@@ -109,11 +109,11 @@ def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake
     fake.arm(Mode.SERVER_ERROR, path="/furhat/say", after=3)
     rehearsal = Sabotage(booth.app, 1, lambda: None, 1)
     rehearsal.run()
-    with archive(booth.data) as stored:
+    with open_repository(booth.data) as stored:
         events = outcome(stored, rehearsal).events
     hint = [event for event in events if isinstance(event, happened.HintGiven)][2]
     started = next(event for event in after_loss(events) if isinstance(event, happened.SpeechStarted))
-    lost = next(event for event in events if isinstance(event, happened.RobotLost))
+    lost = next(event for event in events if isinstance(event, happened.RobotDisconnected))
     assert started.utterance == hint.utterance
     assert started.at_ms - lost.at_ms < 100
 
@@ -121,19 +121,19 @@ def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake
 def test_a_robot_that_comes_back_helps_the_next_visitor(qtbot: QtBot, booth: Booth, fake: FurhatFake) -> None:
     sabotaged(booth, fake, Mode.RESET, Moment.GAME)
     fake.restart()
-    wait_for(qtbot, booth, lambda: helps(booth, BodyName.FURHAT))
+    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.FURHAT))
     result = sabotaged(booth, fake, Mode.WELL, 1)
     assert result.body_changes == 0
     assert fake.voice == "Matthew"
 
 
-def test_a_robot_that_is_lost_between_sittings_leaves_them_to_the_avatar(
+def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     qtbot: QtBot, booth: Booth, fake: FurhatFake
 ) -> None:
-    wait_for(qtbot, booth, lambda: helps(booth, BodyName.FURHAT))
+    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.FURHAT))
     fake.mode = Mode.REFUSE
-    wait_for(qtbot, booth, lambda: helps(booth, BodyName.AVATAR))
+    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.AVATAR))
     booth.rehearse(seed=1)
-    with archive(booth.data) as stored:
-        assert stored.sittings()[0].body == "avatar"
-        assert stored.sittings()[0].measures.pairs == 12
+    with open_repository(booth.data) as stored:
+        assert stored.sessions()[0].body == "avatar"
+        assert stored.sessions()[0].measures.pairs == 12

@@ -7,9 +7,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import ASSETS
-from kiosk.study.declared.questionnaire import Answer, Item, Questionnaire
-from kiosk.ui.rehearsing.hand import Hand, find
+from kiosk.config import ASSETS
+from kiosk.experiment.questionnaire import Answer, Item, Questionnaire
+from kiosk.ui.simulated_visitor import UiDriver, find_item
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 
@@ -82,7 +82,7 @@ def test_one_click_answers(booth: Booth, given: Given, kind: str, name: str, val
 def test_a_slider_has_no_handle_until_it_is_put_somewhere(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["slider"])
     assert not booth.sees("handle-effort")
-    Hand(booth.app.window).click("slider-effort", across=0.8)
+    UiDriver(booth.app.window).click("slider-effort", across=0.8)
     assert booth.sees("handle-effort")
     ((item, value),) = given
     assert item == "effort"
@@ -105,7 +105,7 @@ def test_several_options_are_added_and_taken_away_and_none_is_no_answer(booth: B
 
 def test_a_double_click_is_one_tick(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["multiple"])
-    Hand(booth.app.window).double_click("option-used-place")
+    UiDriver(booth.app.window).double_click("option-used-place")
     assert given == [("used", ("place",))]
 
 
@@ -136,7 +136,7 @@ def test_a_number_is_typed_with_the_keys_on_the_screen(booth: Booth, given: Give
 def test_a_number_that_cannot_be_is_not_sent_and_has_to_be_mended(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["integer"])
     booth.click("number-alone")
-    Hand(booth.app.window).type("99")
+    UiDriver(booth.app.window).type("99")
     booth.click("continue")
     assert given == []
     assert booth.app.screens.form.property("missing") == ["alone"]
@@ -149,7 +149,7 @@ def test_a_number_that_cannot_be_is_not_sent_and_has_to_be_mended(booth: Booth, 
 def test_a_number_field_takes_no_more_digits_than_its_highest_number_has(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["integer"])
     booth.click("number-alone")
-    Hand(booth.app.window).type("123456")
+    UiDriver(booth.app.window).type("123456")
     assert booth.item("number-alone").property("text") == "12"
     booth.click("continue")
     assert given == [("alone", 12), ("", "continued")]
@@ -169,7 +169,7 @@ def test_more_digits_than_that_are_no_answer_however_they_came(booth: Booth, giv
 def test_what_is_typed_is_sent_once_and_not_letter_by_letter(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["text"])
     booth.click("text-remark")
-    Hand(booth.app.window).type("Perché no? ¡Qué bien!")
+    UiDriver(booth.app.window).type("Perché no? ¡Qué bien!")
     assert given == []
     press(booth, RETURN)
     assert given == [("remark", "Perché no? ¡Qué bien!")]
@@ -180,14 +180,14 @@ def test_whoever_types_is_told_to_be_there_every_few_letters_and_not_what(booth:
     booth.app.screens.form.typed.connect(lambda: told.append(len(given)))
     ask(booth, ITEMS["text"])
     booth.click(f"text-{ITEMS['text'].id}")
-    Hand(booth.app.window).type("twelve words")
+    UiDriver(booth.app.window).type("twelve words")
     assert told == [0, 0]
 
 
 def test_what_is_typed_is_not_lost_when_the_visitor_goes_on_at_once(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["text"])
     booth.click("text-remark")
-    Hand(booth.app.window).type("nice")
+    UiDriver(booth.app.window).type("nice")
     booth.click("continue")
     assert given == [("remark", "nice"), ("", "continued")]
 
@@ -203,13 +203,13 @@ def test_a_text_is_typed_with_the_keys_on_the_screen_in_capitals_too(booth: Boot
 def test_a_question_over_the_screen_does_not_take_a_half_typed_text_for_an_answer(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["text"])
     booth.click("text-remark")
-    Hand(booth.app.window).type("half a")
+    UiDriver(booth.app.window).type("half a")
     kiosk = booth.app.screens.kiosk
     kiosk.ask_still_there(asks=True)
     assert given == []
     kiosk.ask_still_there(asks=False)
     booth.settle()
-    Hand(booth.app.window).type(" text")
+    UiDriver(booth.app.window).type(" text")
     booth.click("continue")
     assert given == [("remark", "half a text"), ("", "continued")]
 
@@ -229,7 +229,7 @@ def test_the_way_on_says_whether_something_is_left_out(booth: Booth) -> None:
     ask(booth, ITEMS["differential"], ITEMS["text"])
     assert booth.item("continue").property("words") == "Skip"
     booth.click("text-remark")
-    Hand(booth.app.window).type("x")
+    UiDriver(booth.app.window).type("x")
     assert booth.item("continue").property("words") == "Finish"
     ask(booth, required("likert"))
     assert booth.item("continue").property("words") == "Finish"
@@ -272,8 +272,8 @@ def test_a_long_page_scrolls_by_key_and_by_its_sign(booth: Booth, qtbot: QtBot) 
 
 
 def test_a_page_in_another_language_is_in_that_language(booth: Booth) -> None:
-    booth.app.screens.speak(CATALOGUES["it"])
+    booth.app.screens.set_language(CATALOGUES["it"])
     ask(booth, ITEMS["differential"])
     assert shown(booth, "item-clear", ITEMS["differential"].text["it"])
-    assert find(booth.app.window.contentItem(), "continue") is not None
+    assert find_item(booth.app.window.contentItem(), "continue") is not None
     assert booth.item("continue").property("words") == "Salta"

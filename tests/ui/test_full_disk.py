@@ -1,4 +1,4 @@
-"""A disk that is full, in whatever stage: the visitor sees a calm screen, the log tells of it, nothing is torn."""
+"""A disk that is full, in whatever stage: the visitor sees an error screen, the log tells of it, nothing is torn."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from itertools import count
 
 import pytest
 
-from kiosk.settings import Settings
+from kiosk.config import Settings
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import Stage, Status
+from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
-from kiosk.store.reading import archive
-from kiosk.study import events as happened
-from kiosk.study.events import Stage, Status
-from kiosk.study.stages import BEFORE_DECIDING
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.store.queries import open_repository
+from kiosk.ui.rehearsal import Rehearsal
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.small_disk import SmallDisk
 
@@ -47,13 +47,13 @@ def go_to(booth: Booth, stage: Stage) -> None:
 
     class Visitor(Rehearsal):
         def _do_what_comes_next(self) -> None:
-            if self._app.conductor.stage is stage:
+            if self._app.runner.stage is stage:
                 self._app.quit()
             else:
                 super()._do_what_comes_next()
 
     Visitor(booth.app, 1).run()
-    assert booth.app.conductor.stage is stage
+    assert booth.app.runner.stage is stage
 
 
 def write_until(booth: Booth, over: Callable[[], bool]) -> None:
@@ -61,8 +61,8 @@ def write_until(booth: Booth, over: Callable[[], bool]) -> None:
     for _ in count():
         if over():
             return
-        for event in (happened.PauseAsked, happened.PauseEnded):
-            booth.app.conductor.tell(event)
+        for event in (happened.PauseRequested, happened.PauseEnded):
+            booth.app.runner.tell(event)
 
 
 @pytest.mark.parametrize("stage", KEPT, ids=lambda stage: stage.value)
@@ -79,11 +79,11 @@ def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
     disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
     booth.rehearse(seed=2)
-    with archive(booth.data) as stored:
-        assert [sitting.status for sitting in stored.sittings()] == [Status.INTERRUPTED, Status.COMPLETED]
-        for sitting in (1, 2):
-            assert [record["seq"] for record in stored.records(sitting)] == [
-                *range(1, len(stored.records(sitting)) + 1)
+    with open_repository(booth.data) as stored:
+        assert [session.status for session in stored.sessions()] == [Status.INTERRUPTED, Status.COMPLETED]
+        for session in (1, 2):
+            assert [record["seq"] for record in stored.records(session)] == [
+                *range(1, len(stored.records(session)) + 1)
             ]
     caplog.clear()
 
@@ -98,6 +98,6 @@ def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_t
     assert "disk full" in caplog.text
     disk.empty()
     booth.wait_until(lambda: booth.screen == "attract")
-    with archive(booth.data) as stored:
-        assert stored.sittings() == []
+    with open_repository(booth.data) as stored:
+        assert stored.sessions() == []
     caplog.clear()

@@ -9,9 +9,9 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
-from kiosk.ui.rehearsing.hand import middle
-from kiosk.ui.window import Display, Mode
+from kiosk.config import Settings
+from kiosk.ui.simulated_visitor import item_centre
+from kiosk.ui.window import RunMode, WindowMode
 from tests.ui.conftest import Booth
 from tests.ui.headless import headless
 
@@ -21,7 +21,7 @@ NO_KEY = Qt.KeyboardModifier.NoModifier
 def test_the_second_half_of_a_double_click_does_nothing_on_the_next_screen(booth: Booth) -> None:
     booth.click("start-en")
     booth.settle()
-    place = middle(booth.item("continue"))
+    place = item_centre(booth.item("continue"))
     for _ in range(2):
         QTest.mouseClick(booth.app.window, Qt.MouseButton.LeftButton, NO_KEY, place)
     assert booth.screen == "game"
@@ -31,7 +31,7 @@ def test_the_second_half_of_a_double_click_does_nothing_on_the_next_screen(booth
 def test_a_card_that_is_pressed_for_long_is_turned_when_it_is_let_go(booth: Booth, qtbot: QtBot) -> None:
     booth.start_game()
     booth.settle()
-    place, window = middle(booth.item("card-9")), booth.app.window
+    place, window = item_centre(booth.item("card-9")), booth.app.window
     QTest.mousePress(window, Qt.MouseButton.LeftButton, NO_KEY, place)
     hints = QGuiApplication.styleHints()
     # Longer than the time after which Qt takes a press for a long one.
@@ -53,7 +53,7 @@ def test_a_key_that_is_held_down_is_pressed_once(booth: Booth) -> None:
 
 
 def test_the_booth_lives_while_nobody_is_there(qtbot: QtBot, tmp_path: Path) -> None:
-    with headless(Settings(), tmp_path, mode=Mode(Display.NOWHERE, speed=50)) as app:
+    with headless(Settings(), tmp_path, mode=RunMode(WindowMode.NOWHERE, speed=50)) as app:
         seen: set[int] = set()
         blinks: set[bool] = set()
         app.screens.attract.changed.connect(lambda: seen.add(int(str(app.screens.attract.property("shown")))))

@@ -8,9 +8,9 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.study.declared.questionnaire import Answer, ShortText
+from kiosk.experiment.questionnaire import Answer, ShortText
 from kiosk.ui.app import App
-from kiosk.ui.panel.card import Step
+from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.reaching import MOST_STOPS
 from tests.ui.touring import ASKED, PIN, open_panel, tour, whole_study
@@ -90,7 +90,7 @@ def test_a_key_that_was_held_down_before_presses_no_control_of_any_screen(make_b
     assert pressed == {}
     assert tried >= {
         *("start", "continue", "purpose", "agree", "decline", "age", "answer", "slider", "option", "less", "more"),
-        *("card", "skip", "deed", "condition"),
+        *("card", "skip", "action", "condition"),
     }
 
 
@@ -145,8 +145,8 @@ def test_an_action_of_the_panel_is_done_once(make_booth: MakeBooth, key: Qt.Key)
     booth.click("start-en")
     open_panel(booth.app)
     wished: list[str] = []
-    booth.app.screens.experimenter.parts[2].wished.connect(lambda deed, _choice: wished.append(deed))
-    booth.item("deed-quiet").forceActiveFocus()
+    booth.app.screens.experimenter.parts[2].wished.connect(lambda action, _choice: wished.append(action))
+    booth.item("action-quiet").forceActiveFocus()
     hold(booth.app.window, key)
     assert wished == ["quiet"]
 
@@ -155,7 +155,7 @@ def test_a_digit_of_the_pin_counts_once_and_backspace_goes_on(make_booth: MakeBo
     booth = make_booth(settings=whole_study())
     card = booth.app.screens.experimenter.parts[0]
     booth.press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
-    assert card.asks_for is Step.PIN
+    assert card.asks_for is AuthorisationStep.PIN
     for digit in PIN[:3]:
         hold(booth.app.window, Qt.Key(ord(digit)), digit)
     assert card.property("text") == "●●●"

@@ -8,10 +8,9 @@ from random import Random
 import pytest
 from PySide6.QtCore import QObject
 
-from kiosk.ui.clock import VirtualClock
-from kiosk.ui.screens.avatar import AvatarScreen
-from kiosk.ui.screens.life import IdleLife
-from kiosk.ui.screens.plain import AttractScreen, KioskScreen
+from kiosk.ui.event_loop import VirtualClock
+from kiosk.ui.screens.avatar import AvatarScreen, IdleLife
+from kiosk.ui.screens.shell import AttractScreen, KioskScreen
 from tests.samples import CATALOGUES
 
 MANY = 2_000

@@ -1,4 +1,4 @@
-"""What is logged of a sitting in which everything fails: that it failed, and nothing that is the visitor's."""
+"""What is logged of a session in which everything fails: that it failed, and nothing that is the visitor's."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.wiring import LOG, LOGS_KEPT, log_file
-from kiosk.settings import Settings
-from kiosk.settings import Voice as VoiceSettings
-from kiosk.study.events import Stage
+from kiosk.cli.composition import LOG, LOGS_KEPT, log_file
+from kiosk.config import Settings
+from kiosk.config import VoiceConfig as VoiceSettings
+from kiosk.experiment.events import Stage
 from kiosk.ui.voice import EngineVoice
-from tests.robot.furhat_fake import FurhatFake, Mode
+from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.ui.conftest import MakeBooth
 from tests.ui.sabotage import Moment, Sabotage
 from tests.ui.small_disk import SmallDisk
@@ -65,16 +65,16 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
         robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, "answer_deadline": 300}
         booth = make_booth(settings=Settings.model_validate(SMALL | {"robot": robot}), opened=disk.open)
         rehearsal = Sabotage(booth.app, 7, lambda: setattr(fake, "mode", Mode.RESET), Moment.GAME)
-        check = booth.app.conductor.witness
+        check = booth.app.runner.on_event
         assert check is not None
 
         def watch(event: object, commands: object, stage: Stage) -> None:
-            memory.note(booth.app, event, commands)  # type: ignore[arg-type]  # as the conductor tells them
+            memory.note(booth.app, event, commands)  # type: ignore[arg-type]  # as the runner tells them
             check(event, commands, stage)  # type: ignore[arg-type]
             if stage is Stage.THANKS:
                 booth.app.quit()
 
-        booth.app.conductor.witness = watch
+        booth.app.runner.on_event = watch
         rehearsal.run()
         private = memory.typed | memory.codes
         assert memory.typed
@@ -105,7 +105,7 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
 
 
 def test_the_log_begins_anew_before_it_grows_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kiosk.cli.wiring.LOG_BYTES", 2_000)
+    monkeypatch.setattr("kiosk.cli.composition.LOG_BYTES", 2_000)
     handler = log_file(tmp_path)
     for _ in range(200):
         handler.handle(logging.LogRecord("a", logging.WARNING, "a.py", 1, "the voice is gone", (), None))
@@ -116,11 +116,11 @@ def test_the_log_begins_anew_before_it_grows_large(tmp_path: Path, monkeypatch: 
 
 
 def test_who_shares_a_log_writes_into_the_new_one_too(tmp_path: Path) -> None:
-    keeper = log_file(tmp_path, shared=True)
+    supervisor = log_file(tmp_path, shared=True)
     record = logging.LogRecord("a", logging.WARNING, "a.py", 1, "start 1", (), None)
-    keeper.handle(record)
+    supervisor.handle(record)
     (tmp_path / LOG).rename(tmp_path / f"{LOG}.1")
-    keeper.handle(record)
+    supervisor.handle(record)
     assert "start 1" in (tmp_path / LOG).read_text("utf-8")
 
 

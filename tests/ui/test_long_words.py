@@ -13,13 +13,13 @@ from fluent.syntax.visitor import Transformer
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
-from kiosk.assistant.wording import Catalogue
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.declared.information import Information
-from kiosk.study.plan import Study
-from kiosk.ui.rehearsing.hand import lay_out
-from kiosk.ui.window import Display, Mode, Pace, Window
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.information import Information
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.study.loader import read_study
+from kiosk.ui.simulated_visitor import lay_out
+from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests.ui.settling import pages
 from tests.ui.test_every_language_fits import SIZES, assert_all_can_be_read, moments, texts
 
@@ -52,7 +52,7 @@ def rejoined(value: Any) -> Any:
 
 
 @pytest.fixture
-def study(tmp_path: Path) -> Study:
+def study(tmp_path: Path) -> StudyConfig:
     """A study in a language whose sentences are single words."""
     whole = read_study(Settings(languages=("en",)))
     (plan,) = whole.plans
@@ -69,9 +69,9 @@ def study(tmp_path: Path) -> Study:
 
 
 @pytest.fixture
-def window(study: Study, qtbot: QtBot) -> Iterator[Window]:
+def window(study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
     """Its window, with texts as large as they can be."""
-    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     opened.show()
     qtbot.waitUntil(opened.shown.isExposed)
     yield opened
@@ -97,7 +97,7 @@ def test_long_words_are_broken_and_cover_nothing(window: Window, qtbot: QtBot, w
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_a_language_without_spaces_is_readable_on_every_screen(
-    window: Window, study: Study, qtbot: QtBot, width: int, height: int
+    window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
 ) -> None:
     resize(window, qtbot, width, height)
     for moment, screen, fill in moments(window.screens, study):
@@ -111,7 +111,7 @@ def test_a_language_without_spaces_is_readable_on_every_screen(
 def shipped(request: pytest.FixtureRequest, qtbot: QtBot) -> Iterator[Window]:
     """The window of a study in one of the shipped languages."""
     study = read_study(Settings.model_validate({"languages": [request.param]}))
-    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     opened.show()
     qtbot.waitUntil(opened.shown.isExposed)
     yield opened

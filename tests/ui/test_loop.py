@@ -10,10 +10,9 @@ import pytest
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
 
-from kiosk.ui.clock import VirtualClock
-from kiosk.ui.loop import Loop
-from kiosk.ui.rehearsing.day import sit_down
-from kiosk.ui.rehearsing.visitor import Character
+from kiosk.ui.event_loop import EventLoop, VirtualClock
+from kiosk.ui.rehearsal import rehearse_day
+from kiosk.ui.simulated_visitor import BehaviourProfile
 from tests.ui.conftest import MakeBooth
 
 
@@ -23,30 +22,30 @@ def clock() -> VirtualClock:
 
 
 @pytest.fixture
-def loop(clock: VirtualClock, qapp: QGuiApplication) -> Iterator[Loop]:
-    loop = Loop(clock, QObject(qapp), lambda *_: None)
+def loop(clock: VirtualClock, qapp: QGuiApplication) -> Iterator[EventLoop]:
+    loop = EventLoop(clock, QObject(qapp), lambda *_: None)
     yield loop
     loop.close()
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
-def test_whoever_asks_for_the_end_before_it_runs_is_heard(loop: Loop, ending: signal.Signals) -> None:
+def test_whoever_asks_for_the_end_before_it_runs_is_heard(loop: EventLoop, ending: signal.Signals) -> None:
     signal.raise_signal(ending)
     loop.run()
-    assert loop.told_to_end
+    assert loop.stop_requested
 
 
-def test_it_runs_again_after_it_was_left_from_within(loop: Loop, clock: VirtualClock) -> None:
+def test_it_runs_again_after_it_was_left_from_within(loop: EventLoop, clock: VirtualClock) -> None:
     left: list[int] = []
     for number in (1, 2):
         clock.after(0, partial(left.append, number))
         clock.after(0, loop.quit)
         loop.run()
     assert left == [1, 2]
-    assert not loop.told_to_end
+    assert not loop.stop_requested
 
 
 def test_nobody_comes_any_more_once_the_system_asked_for_the_end(make_booth: MakeBooth) -> None:
     booth = make_booth()
     booth.app.clock.after(0, partial(signal.raise_signal, signal.SIGTERM))
-    assert list(sit_down(booth.app, 1, [Character()] * 3, booth.data)) == []
+    assert list(rehearse_day(booth.app, 1, [BehaviourProfile()] * 3, booth.data)) == []

@@ -15,17 +15,17 @@ from PySide6.QtQuick import QQuickItem, QQuickWindow
 from pytestqt.qtbot import QtBot
 
 from kiosk import program
-from kiosk.assistant.wording import Catalogue
-from kiosk.cli.languages import languages
-from kiosk.keeping.notice import SocketListener
-from kiosk.settings import ASSETS
-from kiosk.ui.meanwhile import _window
-from kiosk.ui.rehearsing.hand import lay_out
+from kiosk.assistance.wording import Catalogue
+from kiosk.cli.options import shipped_languages
+from kiosk.config import ASSETS
+from kiosk.sd_notify import NotifySocketListener
+from kiosk.ui.simulated_visitor import lay_out
+from kiosk.ui.splash import _window
 
 LONG = 20.0
 """Seconds; nothing here takes as long unless it fails."""
 
-LINES = [Catalogue(ASSETS / "sentences" / language).text("meanwhile-line") for language in languages()]
+LINES = [Catalogue(ASSETS / "sentences" / language).text("meanwhile-line") for language in shipped_languages()]
 
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
@@ -54,7 +54,7 @@ def test_every_language_says_it_and_nothing_is_cut_off(qtbot: QtBot, size: tuple
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
 def test_it_tells_when_it_is_there_and_goes_with_whoever_listens(tmp_path: Path) -> None:
-    listener = SocketListener(tmp_path)
+    listener = NotifySocketListener(tmp_path)
     with subprocess.Popen(program("meanwhile"), env=os.environ | listener.environment) as window:
         assert listener.hear(LONG) == {"READY": "1"}
         listener.close()

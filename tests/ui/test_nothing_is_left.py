@@ -11,13 +11,12 @@ import pytest
 from PySide6.QtCore import QAbstractListModel, QObject
 from PySide6.QtQuick import QQuickItem
 
-from kiosk.study import commands as do
-from kiosk.study.commands import Command
-from kiosk.study.events import AnswerGiven, Stage, StageEntered, WorldEvent
+from kiosk.experiment import effects as do
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import ResponseGiven, Stage, StageEntered, WorldEvent
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.hand import lay_out
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.rehearsing.visitor import Character, Manner
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, lay_out
 from tests.ui.conftest import MakeBooth
 from tests.ui.headless import SMALL
 
@@ -79,10 +78,10 @@ class Memory:
     typed: set[str] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
 
-    def note(self, app: App, event: WorldEvent, commands: tuple[Command, ...]) -> None:
+    def note(self, app: App, event: WorldEvent, commands: tuple[Effect, ...]) -> None:
         """Keep what comes of an event."""
         self.sentences |= {command.sentence for command in commands if isinstance(command, do.Speak)}
-        if isinstance(event, AnswerGiven) and event.item == "remark" and isinstance(event.value, str):
+        if isinstance(event, ResponseGiven) and event.item == "remark" and isinstance(event.value, str):
             self.typed.add(event.value)
         if app.screens.debrief.property("code"):
             self.codes.add(str(app.screens.debrief.property("code")))
@@ -93,32 +92,32 @@ class Memory:
 
 
 class Watched(Rehearsal):
-    """A sitting in which every stage is searched for what the last visitor left, as soon as it is entered."""
+    """A session in which every stage is searched for what the last visitor left, as soon as it is entered."""
 
-    def __init__(self, app: App, seed: int, visitor: Character, last: Memory) -> None:
+    def __init__(self, app: App, seed: int, visitor: BehaviourProfile, last: Memory) -> None:
         super().__init__(app, seed, visitor=visitor)
         self.own = Memory()
         self.left: list[tuple[str, str]] = []
         self._last = last
-        self._go_on_watching = app.conductor.witness
-        app.conductor.witness = self._search
+        self._go_on_watching = app.runner.on_event
+        app.runner.on_event = self._search
 
-    def _search(self, event: WorldEvent, commands: tuple[Command, ...], stage: Stage) -> None:
+    def _search(self, event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
         self.own.note(self._app, event, commands)
-        if any(isinstance(c, do.Record) and isinstance(c.event, StageEntered) for c in commands):
+        if any(isinstance(c, do.EmitEvent) and isinstance(c.event, StageEntered) for c in commands):
             shown = texts(self._app)
             self.left += [(stage.value, text) for text in self._last.all() - self.own.all() if text in shown]
         assert self._go_on_watching is not None
         self._go_on_watching(event, commands, stage)
 
 
-def visitors(seed: int) -> Iterator[Character]:
+def visitors(seed: int) -> Iterator[BehaviourProfile]:
     """Some visitors of every kind, in any order and language."""
     chance = Random(seed)
-    manners = list(Manner)
+    manners = list(BehaviourKind)
     chance.shuffle(manners)
     for manner in manners:
-        yield Character(manner, chance.choice(WALKED_OUT_OF), chance.choice(["en", "it", "es"]))
+        yield BehaviourProfile(manner, chance.choice(WALKED_OUT_OF), chance.choice(["en", "it", "es"]))
 
 
 def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> list[object]:
@@ -129,20 +128,20 @@ def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> li
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_after_any_sitting_the_kiosk_is_as_it_was_before_the_first(make_booth: MakeBooth, seed: int) -> None:
+def test_after_any_session_the_kiosk_is_as_it_was_before_the_first(make_booth: MakeBooth, seed: int) -> None:
     booth = make_booth(settings=SMALL)
     booth.settle()
     screens, window = of_screens(booth.app), of_window(booth.app)
     last = Memory()
     for number, visitor in enumerate(visitors(seed)):
-        sitting = Watched(booth.app, 100 * seed + number, visitor, last)
-        sitting.run()
+        session = Watched(booth.app, 100 * seed + number, visitor, last)
+        session.run()
         booth.settle()
-        assert sitting.left == [], visitor
+        assert session.left == [], visitor
         assert of_screens(booth.app) == screens, visitor
         assert differences(window, of_window(booth.app)) == [], visitor
-        assert not any(text in texts(booth.app) for text in sitting.own.all()), visitor
-        last = sitting.own
+        assert not any(text in texts(booth.app) for text in session.own.all()), visitor
+        last = session.own
 
 
 def test_the_search_for_what_is_left_finds_something(make_booth: MakeBooth) -> None:
@@ -155,11 +154,11 @@ def test_the_search_for_what_is_left_finds_something(make_booth: MakeBooth) -> N
     assert differences(window, of_window(booth.app)) != []
 
 
-def test_a_visitor_s_own_text_is_found_in_their_own_sitting(make_booth: MakeBooth) -> None:
+def test_a_visitor_s_own_text_is_found_in_their_own_session(make_booth: MakeBooth) -> None:
     booth = make_booth(settings=SMALL)
     memory = Memory()
-    sitting = Watched(booth.app, 7, Character(), memory)
-    sitting.run()
-    assert sitting.own.codes
-    assert sitting.own.typed
-    assert sitting.own.sentences
+    session = Watched(booth.app, 7, BehaviourProfile(), memory)
+    session.run()
+    assert session.own.codes
+    assert session.own.typed
+    assert session.own.sentences

@@ -17,16 +17,16 @@ from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.assistant.wording import Catalogue
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.study.declared.information import ConsentPage, Information
-from kiosk.study.declared.questionnaire import Item, Questionnaire, Single
-from kiosk.study.plan import Study
-from kiosk.ui.panel.card import Step
-from kiosk.ui.rehearsing.hand import find, lay_out
-from kiosk.ui.screens.every import Screens
-from kiosk.ui.window import QML, Display, Mode, Pace, Window
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.information import ConsentPage, Information
+from kiosk.experiment.questionnaire import Item, Questionnaire, Single
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.study.loader import read_study
+from kiosk.ui.experimenter.view_model import AuthorisationStep
+from kiosk.ui.screens.registry import ScreenSet
+from kiosk.ui.simulated_visitor import find_item, lay_out
+from kiosk.ui.window import QML, ClockMode, RunMode, Window, WindowMode
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 from tests.ui.looking import described
@@ -119,7 +119,7 @@ def marked(value: Any) -> Any:
 
 
 @pytest.fixture
-def study(tmp_path: Path) -> Study:
+def study(tmp_path: Path) -> StudyConfig:
     """A study with markup in every word."""
     whole = read_study(Settings(languages=("en",)))
     (plan,) = whole.plans
@@ -128,9 +128,9 @@ def study(tmp_path: Path) -> Study:
 
 
 @pytest.fixture
-def window(study: Study, qtbot: QtBot) -> Iterator[Window]:
+def window(study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
     """Its window."""
-    opened = Window(study, Mode(Display.NOWHERE, Pace.VIRTUAL))
+    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     opened.show()
     qtbot.waitUntil(opened.shown.isExposed)
     yield opened
@@ -165,7 +165,7 @@ def seen(window: Window) -> dict[str, bool]:
     return found
 
 
-def show_everything(screens: Screens, study: Study) -> Iterator[str]:
+def show_everything(screens: ScreenSet, study: StudyConfig) -> Iterator[str]:
     """Every screen, one after another."""
     (plan,) = study.plans
     sheet = plan.information
@@ -193,14 +193,14 @@ def show_everything(screens: Screens, study: Study) -> Iterator[str]:
     yield "still there"
 
 
-def test_no_text_on_any_screen_is_drawn_as_markup(window: Window, study: Study) -> None:
+def test_no_text_on_any_screen_is_drawn_as_markup(window: Window, study: StudyConfig) -> None:
     for moment in show_everything(window.screens, study):
         found = seen(window)
         assert any(MARKUP in text for text in found), moment
         assert [text for text, plain in found.items() if not plain] == [], moment
 
 
-def test_questions_options_ends_and_hints_stand_there_as_they_were_written(window: Window, study: Study) -> None:
+def test_questions_options_ends_and_hints_stand_there_as_they_were_written(window: Window, study: StudyConfig) -> None:
     for moment in show_everything(window.screens, study):
         if moment.startswith("form: "):
             item = next(item for item in GALLERY.items if moment == f"form: {item.kind}")
@@ -217,13 +217,13 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
     line = {"name": MARKUP, "words": PICTURE, "well": False}
-    panel.speak(words)
+    panel.set_language(words)
     panel.show_health({"well": False, "summary": MARKUP, "lines": [line]})
     panel.show_records(
         {
             "cells": [{"name": MARKUP, "done": BOLD, "share": 0.5, "counts": ["1", "2", "3", "4"]}],
             "visits": MARKUP,
-            "sittings": [
+            "sessions": [
                 dict.fromkeys(("participant", "when", "condition", "stage", "status", "robot"), BOLD) | {"odd": True}
             ],
             "deviations": [{"when": "12:00", "words": MARKUP, "reason": PICTURE}],
@@ -232,16 +232,16 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
         }
     )
     chosen = dict.fromkeys(("condition", "body", "language", "volume"), "one")
-    lists = dict.fromkeys(("conditions", "bodies", "languages", "volumes"), option)
+    lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes"), option)
     flags = {"underWay": True, "canBeNext": True, "quiet": False, "staysPaused": False}
-    panel.show_choices({**chosen, **lists, **flags, "sitting": MARKUP, "backup": MARKUP})
+    panel.show_choices({**chosen, **lists, **flags, "session": MARKUP, "backup": MARKUP})
     panel.open(is_open=True)
     note.tell(MARKUP)
-    card.show(Step.REASON, MARKUP, MARKUP, reasons=(MARKUP, BOLD))
+    card.show(AuthorisationStep.REASON, MARKUP, MARKUP, reasons=(MARKUP, BOLD))
     found = seen(window)
     assert {MARKUP, BOLD, PICTURE, f"1   {MARKUP}", f"{MARKUP}: {MARKUP}", f"▲   {MARKUP}"} <= found.keys()
     assert [text for text, plain in found.items() if not plain] == []
-    card.show(Step.WORDS, MARKUP, MARKUP, text=MARKUP)
+    card.show(AuthorisationStep.WORDS, MARKUP, MARKUP, text=MARKUP)
     assert [text for text, plain in seen(window).items() if not plain] == []
 
 
@@ -249,7 +249,7 @@ def _names_of_the_panel() -> set[str]:
     """The messages that the panel shows as they stand."""
     files = (QML.parent / "panel").glob("*.qml")
     return {name for file in files for name in re.findall(r'"(desk-[a-z-]+)"', file.read_text("utf-8"))} | {
-        f"desk-counts-{name}" for name in ("dropped", "overridden", "beyond", "withdrawn")
+        f"console-counts-{name}" for name in ("dropped", "overridden", "beyond", "withdrawn")
     }
 
 
@@ -284,10 +284,10 @@ def test_an_ampersand_in_the_consent_ticks_no_box(booth: Booth) -> None:
 
 
 @pytest.mark.usefixtures("spoken")
-def test_no_letter_of_a_button_is_lost_to_those_who_cannot_see_it(window: Window, study: Study) -> None:
+def test_no_letter_of_a_button_is_lost_to_those_who_cannot_see_it(window: Window, study: StudyConfig) -> None:
     window.screens.about.show(study.plans[0].information.about)
     window.screens.kiosk.show("about")
     lay_out(window.shown)
-    button = find(window.shown.contentItem(), "continue")
+    button = find_item(window.shown.contentItem(), "continue")
     assert button is not None
     assert described(button)[1] == f"{MARKUP} {CATALOGUES['en'].text('about-continue')}"

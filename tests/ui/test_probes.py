@@ -11,14 +11,21 @@ import pytest
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
-from kiosk.findings import Finding, State
-from kiosk.settings import Settings
-from kiosk.study.declared.checked.whole import read_study
-from kiosk.ui.booth.full_screen import numbered_screens
-from kiosk.ui.probes import frame as drawing
-from kiosk.ui.probes.asked import ask, from_json, to_json
-from kiosk.ui.probes.frame import SLOW_MS, frame, told
-from kiosk.ui.probes.screens import screen, screens
+from kiosk.config import Settings
+from kiosk.preflight import CheckResult, Severity
+from kiosk.study.loader import read_study
+from kiosk.ui import checks as ui_checks
+from kiosk.ui.checks import (
+    SLOW_MS,
+    covered_screen_check,
+    frame_check,
+    frame_result,
+    from_json,
+    run_check_process,
+    screens_check,
+    to_json,
+)
+from kiosk.ui.kiosk_window import numbered_screens
 
 
 @dataclass
@@ -43,7 +50,7 @@ def python(program: str) -> tuple[str, ...]:
     return (sys.executable, "-c", program)
 
 
-def alone(findings: Iterator[Finding]) -> Finding:
+def alone(findings: Iterator[CheckResult]) -> CheckResult:
     """The one thing that was found."""
     (found,) = findings
     return found
@@ -55,29 +62,31 @@ def alone(findings: Iterator[Finding]) -> Finding:
 @pytest.mark.parametrize(
     ("there", "state"),
     [
-        ([FakeScreen(1920, 1080)], State.GOOD),
-        ([FakeScreen(1080, 1920)], State.GOOD),
-        ([FakeScreen(1280, 720, 2)], State.GOOD),
-        ([FakeScreen(1024, 768)], State.WARNING),
-        ([FakeScreen(1366, 700)], State.WARNING),
+        ([FakeScreen(1920, 1080)], Severity.GOOD),
+        ([FakeScreen(1080, 1920)], Severity.GOOD),
+        ([FakeScreen(1280, 720, 2)], Severity.GOOD),
+        ([FakeScreen(1024, 768)], Severity.WARNING),
+        ([FakeScreen(1366, 700)], Severity.WARNING),
     ],
 )
-def test_a_screen_is_told_with_its_size_and_missed_where_it_is_too_small(there: list[FakeScreen], state: State) -> None:
-    found = screen(there, 0)  # type: ignore[arg-type]  # all that is asked of them
+def test_a_screen_is_told_with_its_size_and_missed_where_it_is_too_small(
+    there: list[FakeScreen], state: Severity
+) -> None:
+    found = covered_screen_check(there, 0)  # type: ignore[arg-type]  # all that is asked of them
     assert found.state is state
     assert f"{there[0].wide} x {there[0].high}, {there[0].ratio:g}" in found.words
 
 
 def test_a_screen_that_the_study_names_and_nobody_has_plugged_in_is_told_of() -> None:
-    found = screen([FakeScreen(1920, 1080)], 1)  # type: ignore[list-item]  # all that is asked of them
-    assert (found.state, "screen 1" in found.words) == (State.WARNING, True)
+    found = covered_screen_check([FakeScreen(1920, 1080)], 1)  # type: ignore[list-item]  # all that is asked of them
+    assert (found.state, "screen 1" in found.words) == (Severity.WARNING, True)
 
 
-def test_where_there_is_no_screen_no_sitting_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_there_is_no_screen_no_session_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
-    found = alone(screens(0))
-    assert (found.what, found.state) == ("screen", State.BAD)
+    found = alone(screens_check(0))
+    assert (found.what, found.state) == ("screen", Severity.BAD)
 
 
 def test_a_screen_that_is_there_is_looked_at_without_a_window(
@@ -87,7 +96,7 @@ def test_a_screen_that_is_there_is_looked_at_without_a_window(
     for name in ("DBUS_SESSION_BUS_ADDRESS", "DBUS_SYSTEM_BUS_ADDRESS", "XDG_RUNTIME_DIR"):
         monkeypatch.delenv(name, raising=False)
     del qtbot
-    found = list(screens(0))
+    found = list(screens_check(0))
     assert [each.what for each in found] == ["screen", "desktop", "kept lit"]
     assert numbered_screens()[0].virtualSiblings()
     caplog.clear()
@@ -98,22 +107,26 @@ def test_a_screen_that_is_there_is_looked_at_without_a_window(
 
 def test_the_kiosk_is_drawn_and_the_time_told(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     del qtbot
-    monkeypatch.setattr(drawing, "FRAMES", 2)
-    found = alone(frame(read_study(Settings())))
+    monkeypatch.setattr(ui_checks, "FRAMES", 2)
+    found = alone(frame_check(read_study(Settings())))
     assert (found.what, "1920 x 1080" in found.words) == ("drawing", True)
 
 
 def test_drawing_that_would_be_seen_as_steps_is_told_of() -> None:
-    assert [told(ms).state for ms in (5.0, SLOW_MS, SLOW_MS + 1)] == [State.GOOD, State.GOOD, State.WARNING]
+    assert [frame_result(ms).state for ms in (5.0, SLOW_MS, SLOW_MS + 1)] == [
+        Severity.GOOD,
+        Severity.GOOD,
+        Severity.WARNING,
+    ]
 
 
 # Asking a process
 
 
 def test_what_a_process_found_comes_back_as_it_was() -> None:
-    found = [Finding.good("a", "wörds"), Finding.warning("b", "c", "d"), Finding.bad("e", "f", "g")]
+    found = [CheckResult.good("a", "wörds"), CheckResult.warning("b", "c", "d"), CheckResult.bad("e", "f", "g")]
     assert list(from_json(to_json(found))) == found
-    assert list(ask("a", python(f"print({to_json(found)!r})"), 10, "r")) == found
+    assert list(run_check_process("a", python(f"print({to_json(found)!r})"), 10, "r")) == found
 
 
 @pytest.mark.parametrize(
@@ -128,12 +141,12 @@ def test_what_a_process_found_comes_back_as_it_was() -> None:
     ],
 )
 def test_a_process_that_qt_ends_is_told_in_its_own_words(program: str, words: str) -> None:
-    found = alone(ask("screen", python(program), 10, "plug one in"))
-    assert (found.what, found.state, words in found.words) == ("screen", State.BAD, True)
+    found = alone(run_check_process("screen", python(program), 10, "plug one in"))
+    assert (found.what, found.state, words in found.words) == ("screen", Severity.BAD, True)
 
 
 def test_a_process_that_hangs_is_ended() -> None:
     hangs = "import time; time.sleep(60)"
-    found = alone(ask("screen", python(hangs), 0.5, "plug one in"))
-    assert (found.state, "no answer" in found.words) == (State.BAD, True)
+    found = alone(run_check_process("screen", python(hangs), 0.5, "plug one in"))
+    assert (found.state, "no answer" in found.words) == (Severity.BAD, True)
     assert psutil.Process().children() == []

@@ -14,12 +14,11 @@ from pathlib import Path
 import pytest
 
 from kiosk import program
-from kiosk.findings import State
-from kiosk.settings import Settings
-from kiosk.study.declared.checked.whole import read_study
+from kiosk.config import Settings
+from kiosk.preflight import Severity
+from kiosk.study.loader import read_study
 from kiosk.ui import qt_platform
-from kiosk.ui.probes.frame import frame
-from kiosk.ui.probes.screens import screens
+from kiosk.ui.checks import frame_check, screens_check
 from kiosk.ui.qt_platform import missing_library, obstacle
 from tests.samples import WITH_PIN
 
@@ -138,8 +137,8 @@ def test_a_check_says_what_to_install_and_does_not_praise_the_drawing(monkeypatc
     for name in SCREENS:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("DISPLAY", NOWHERE)
-    for found in (*screens(0), *frame(read_study(Settings()))):
-        assert (found.state, "libxcb-cursor.so.0" in found.words) == (State.BAD, True)
+    for found in (*screens_check(0), *frame_check(read_study(Settings()))):
+        assert (found.state, "libxcb-cursor.so.0" in found.words) == (Severity.BAD, True)
         assert found.remedy.endswith("sudo apt-get install libxcb-cursor0")
 
 
@@ -159,7 +158,7 @@ class Lacking:
         if name in ("PySide6.QtGui", "PySide6.QtQuick"):
             raise ImportError("libEGL.so.1: cannot open shared object file: No such file or directory")
 sys.meta_path.insert(0, Lacking())
-from kiosk.cli.front import main
+from kiosk.cli.main import main
 main()
 """
     done = subprocess.run(

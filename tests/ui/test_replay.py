@@ -1,4 +1,4 @@
-"""A stored sitting, played again: what stands on the screen is what stood there, forwards, back and at any speed."""
+"""A stored session, played again: what stands on the screen is what stood there, forwards, back and at any speed."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.front import recollect
-from kiosk.store.reading import archive
+from kiosk.cli.main import recollect
+from kiosk.experiment import events as happened
+from kiosk.experiment.effects import RevealCard
+from kiosk.experiment.events import Stage
+from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.study import events as happened
-from kiosk.study.after.replay import Step, first_difference, replayed
-from kiosk.study.commands import TurnUp
-from kiosk.study.events import Stage
-from kiosk.ui.rehearsing.hand import lay_out
-from kiosk.ui.replaying.replay import Replay
+from kiosk.ui.replay import Replay
 from kiosk.ui.screens.avatar import PATIENCE_MS
-from kiosk.ui.window import Display, Mode, Pace
+from kiosk.ui.simulated_visitor import lay_out
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from tests.experiment.driver import Driver, with_memory
 from tests.samples import whole
-from tests.study.driver import Driver, with_memory
 
 SEED = 5
 
 
 @pytest.fixture(scope="module")
 def played() -> Driver:
-    """A whole sitting, of which everything is known."""
+    """A whole session, of which everything is known."""
     driver = Driver(whole(game={"rows": 2, "columns": 4}), SEED)
-    driver.whole_sitting(with_memory(3))
+    driver.whole_session(with_memory(3))
     return driver
 
 
@@ -46,15 +46,15 @@ def folder(played: Driver, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def steps(played: Driver) -> tuple[Step, ...]:
+def steps(played: Driver) -> tuple[ReplayStep, ...]:
     """Its steps."""
-    return replayed(played.plan, SEED, played.events)
+    return replay_events(played.plan, SEED, played.events)
 
 
 @pytest.fixture
-def replay(played: Driver, steps: tuple[Step, ...], qtbot: QtBot) -> Iterator[Replay]:
+def replay(played: Driver, steps: tuple[ReplayStep, ...], qtbot: QtBot) -> Iterator[Replay]:
     """The replay, standing before the first step."""
-    with Replay(Mode(Display.NOWHERE, Pace.WALL, 32), played.plan, steps, "Sitting 1") as replay:
+    with Replay(RunMode(WindowMode.NOWHERE, ClockMode.WALL, 32), played.plan, steps, "Session 1") as replay:
         qtbot.waitUntil(lambda: replay.window.isExposed() and replay.window.isActive())
         yield replay
 
@@ -65,7 +65,7 @@ def seen(replay: Replay) -> tuple[object, ...]:
     return (screens.kiosk.shown, screens.board.unmatched, screens.board.closed, screens.avatar.bubble)
 
 
-def test_every_step_leads_to_what_was_recorded(steps: tuple[Step, ...], played: Driver) -> None:
+def test_every_step_leads_to_what_was_recorded(steps: tuple[ReplayStep, ...], played: Driver) -> None:
     assert [step.event for step in steps] == played.world
     assert all(step.agrees for step in steps)
     assert first_difference(steps, played.events) is None
@@ -77,12 +77,12 @@ def test_a_record_that_was_tampered_with_is_told_by_its_place(played: Driver) ->
     assert isinstance(flipped, happened.CardFlipped)
     forged = happened.CardFlipped(**{**vars(flipped), "card": "a card that never was"})
     events = [*played.events[:at], forged, *played.events[at + 1 :]]
-    assert first_difference(replayed(played.plan, SEED, events), events) == at
+    assert first_difference(replay_events(played.plan, SEED, events), events) == at
 
 
 def test_an_event_that_has_no_place_today_ends_the_replay_there(played: Driver) -> None:
-    events = [*played.events[:4], happened.StartTapped(at_ms=10), *played.events[4:]]
-    assert first_difference(replayed(played.plan, SEED, events), events) == 5
+    events = [*played.events[:4], happened.SessionStarted(at_ms=10), *played.events[4:]]
+    assert first_difference(replay_events(played.plan, SEED, events), events) == 5
 
 
 def test_the_screens_go_through_every_stage(replay: Replay) -> None:
@@ -96,8 +96,8 @@ def test_the_screens_go_through_every_stage(replay: Replay) -> None:
     ]
 
 
-def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[Step, ...]) -> None:
-    flip = next(i for i, step in enumerate(steps) if any(isinstance(c, TurnUp) for c in step.commands))
+def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[ReplayStep, ...]) -> None:
+    flip = next(i for i, step in enumerate(steps) if any(isinstance(c, RevealCard) for c in step.commands))
     replay.player.go_to(flip)
     before = seen(replay)
     replay.player.step()
@@ -165,17 +165,17 @@ def test_without_a_screen_it_saves_pictures(folder: Path, tmp_path: Path, qtbot:
     assert any("-consent-" in picture.name for picture in pictures)
 
 
-def test_a_sitting_that_is_not_there_is_refused_in_words(folder: Path) -> None:
+def test_a_session_that_is_not_there_is_refused_in_words(folder: Path) -> None:
     result = CliRunner().invoke(recollect, ["replay", "7", "--data", str(folder), "--headless"])
-    assert str(result.exception) == "there is no sitting 7"
+    assert str(result.exception) == "there is no session 7"
 
 
-def test_the_end_that_was_put_to_a_sitting_after_a_crash_is_no_part_of_its_story(
+def test_the_end_that_was_put_to_a_session_after_a_crash_is_no_part_of_its_story(
     played: Driver, tmp_path: Path
 ) -> None:
     cut = played.events[: len(played.events) // 2]
     with Recorder(tmp_path) as recorder:
         recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", simulated=True), cut)
-    with Recorder(tmp_path), archive(tmp_path) as stored:
+    with Recorder(tmp_path), open_repository(tmp_path) as stored:
         assert stored.story(1) == cut
         assert stored.events(1)[:-1] == cut

@@ -7,37 +7,37 @@ import wave
 import numpy as np
 import pytest
 
+from kiosk.config import Settings
+from kiosk.experiment import effects as do
+from kiosk.experiment.effects import BoardWait
+from kiosk.experiment.events import Timer
 from kiosk.game import Position
-from kiosk.settings import Settings
-from kiosk.study import commands as do
-from kiosk.study.commands import Wait
-from kiosk.study.events import Timer
-from kiosk.ui.sounds import Effect, effect
+from kiosk.ui.renderer import SoundEffect, sound_for
 from tests.ui.conftest import MakeBooth
 
 HERE = Position(0, 0)
-TURN = do.TurnUp(HERE, "owl")
+TURN = do.RevealCard(HERE, "owl")
 
 
 @pytest.mark.parametrize(
     ("commands", "sound"),
     [
-        ((TURN, do.OpenBoard()), Effect.FLIP),
-        ((TURN, do.ShowPair((HERE, HERE)), do.OpenBoard()), Effect.MATCH),
-        ((TURN, do.HoldBoard(Wait.TURNING_BACK)), Effect.MISS),
-        ((TURN, do.ShowPair((HERE, HERE)), do.StartTimer(Timer.FINISH, 1800)), Effect.END),
-        ((TURN, do.ShowPair((HERE, HERE)), do.HoldBoard(Wait.SPEAKING), do.Speak(1, "Try row 2")), None),
-        ((do.OpenBoard(),), None),
+        ((TURN, do.UnlockBoard()), SoundEffect.FLIP),
+        ((TURN, do.MarkMatched((HERE, HERE)), do.UnlockBoard()), SoundEffect.MATCH),
+        ((TURN, do.LockBoard(BoardWait.TURNING_BACK)), SoundEffect.MISS),
+        ((TURN, do.MarkMatched((HERE, HERE)), do.StartTimer(Timer.FINISH, 1800)), SoundEffect.END),
+        ((TURN, do.MarkMatched((HERE, HERE)), do.LockBoard(BoardWait.SPEAKING), do.Speak(1, "Try row 2")), None),
+        ((do.UnlockBoard(),), None),
     ],
 )
 def test_what_happens_has_one_sound_and_none_while_somebody_speaks(
-    commands: tuple[do.Command, ...], sound: Effect | None
+    commands: tuple[do.Effect, ...], sound: SoundEffect | None
 ) -> None:
-    assert effect(commands) is sound
+    assert sound_for(commands) is sound
 
 
-@pytest.mark.parametrize("sound", Effect)
-def test_every_sound_is_there_short_and_quiet(sound: Effect) -> None:
+@pytest.mark.parametrize("sound", SoundEffect)
+def test_every_sound_is_there_short_and_quiet(sound: SoundEffect) -> None:
     with wave.open(str(sound.file)) as file:
         samples = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2") / 2**15
         assert file.getnframes() / file.getframerate() < 1.1

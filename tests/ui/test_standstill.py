@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.ui.rehearsing.hand import Stuck
 from kiosk.ui.screens.board import BoardScreen
+from kiosk.ui.simulated_visitor import UiTimeout
 from tests.ui.conftest import Booth
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="what guards it cannot fork")
@@ -66,7 +66,7 @@ def test_a_fault_in_the_window_ends_the_rehearsal_that_is_under_way(
         raise KeyError("unicorn")
 
     monkeypatch.setattr(BoardScreen, "turn_up", fail)
-    with pytest.raises(Stuck, match="a fault in Recollect, KeyError: 'unicorn'"):
+    with pytest.raises(UiTimeout, match="a fault in Recollect, KeyError: 'unicorn'"):
         booth.rehearse(seed=1)
     caplog.clear()
 
@@ -75,7 +75,7 @@ def test_a_fault_of_the_visitor_itself_ends_the_rehearsal(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     nothing: dict[str, object] = {}
-    monkeypatch.setattr("kiosk.ui.rehearsing.visitor.Visitor.choose", lambda *_: nothing["nowhere"])
-    with pytest.raises(Stuck, match="a fault in Recollect, KeyError: 'nowhere'"):
+    monkeypatch.setattr("kiosk.ui.simulated_visitor.Visitor.choose", lambda *_: nothing["nowhere"])
+    with pytest.raises(UiTimeout, match="a fault in Recollect, KeyError: 'nowhere'"):
         booth.rehearse(seed=1)
     caplog.clear()

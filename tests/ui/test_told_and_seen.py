@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import pytest
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 
-from kiosk.study.declared.questionnaire import Answer
-from kiosk.ui.rehearsing.hand import lay_out
+from kiosk.experiment.questionnaire import Answer
+from kiosk.ui.simulated_visitor import lay_out
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import LEAST_CHANGE, is_control, painted, place, strongest_change, texts
 from tests.ui.reaching import Keyboard
@@ -162,5 +162,5 @@ def test_a_mark_is_seen_without_colour(
     booth.settle()
     where = place(booth.item("card-8"))
     before = booth.app.window.grabWindow()
-    booth.app.screens.board.mark(row, column)
+    booth.app.screens.board.highlight(row, column)
     assert strongest_change(before, booth.app.window.grabWindow(), where) >= LEAST_CHANGE

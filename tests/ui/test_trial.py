@@ -9,36 +9,36 @@ import pytest
 from click.testing import CliRunner
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.front import recollect
-from kiosk.settings import Settings
-from kiosk.store.reading import archive
-from kiosk.study.session_kind import SessionKind, kind_of
-from kiosk.ui.rehearsing.hand import find
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.cli.main import recollect
+from kiosk.config import Settings
+from kiosk.experiment.session_config import SessionKind, kind_of
+from kiosk.store.queries import open_repository
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.simulated_visitor import find_item
 from tests.samples import CATALOGUES
+from tests.ui.experimenter.conftest import LINE
 from tests.ui.headless import headless, short
-from tests.ui.panel.conftest import LINE
 
 TINY = {"game": {"rows": 1, "columns": 2}, "stages": ("introduction", "game", "result")}
 
 
 @pytest.mark.parametrize("language", CATALOGUES)
-def test_the_first_screen_says_that_it_is_a_trial_with_the_chord_that_leaves_it(
+def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_it(
     language: str, tmp_path: Path, qtbot: QtBot
 ) -> None:
     del qtbot
     settings = short(languages=[language], keys={"leave": "Ctrl+Shift+F9"})
     with headless(settings, tmp_path, kind=SessionKind.TRIAL) as app:
-        line = find(app.window.contentItem(), "trial")
+        line = find_item(app.window.contentItem(), "trial")
         assert line is not None
-        assert line.property("text") == CATALOGUES[language].text("attract-trial", chord="Ctrl+Shift+F9")
+        assert line.property("text") == CATALOGUES[language].text("attract-trial", shortcut="Ctrl+Shift+F9")
         assert "Ctrl+Shift+F9" in line.property("text")
 
 
-def test_a_kiosk_that_no_chord_leaves_names_none(tmp_path: Path, qtbot: QtBot) -> None:
+def test_a_kiosk_that_no_shortcut_leaves_names_none(tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
     with headless(short(keys={"leave": ""}), tmp_path, kind=SessionKind.TRIAL) as app:
-        line = find(app.window.contentItem(), "trial")
+        line = find_item(app.window.contentItem(), "trial")
         assert line is not None
         assert line.property("text") == "Trial: no PIN is set"
 
@@ -47,7 +47,7 @@ def test_a_kiosk_that_no_chord_leaves_names_none(tmp_path: Path, qtbot: QtBot) -
 def test_what_is_no_trial_is_not_called_one(kind: SessionKind, tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
     with headless(short(), tmp_path, kind=kind) as app:
-        assert find(app.window.contentItem(), "trial") is None
+        assert find_item(app.window.contentItem(), "trial") is None
 
 
 def test_a_pin_makes_a_study_of_a_trial() -> None:
@@ -61,13 +61,13 @@ def test_a_trial_takes_no_place_of_the_study_and_is_listed_as_what_it_is(tmp_pat
     for kind in (SessionKind.TRIAL, SessionKind.STUDY):
         with headless(settings, tmp_path, kind=kind, condition=None) as app:
             Rehearsal(app, 1).run()
-    with archive(tmp_path) as stored:
-        told = [(each.kind.name, each.participant, each.allotted) for each in stored.sittings()]
+    with open_repository(tmp_path) as stored:
+        told = [(each.kind.name, each.participant, each.allocation_source) for each in stored.sessions()]
         assert [(kind, who, how.value if how else None) for kind, who, how in told] == [
             ("TRIAL", "1", "list"),
             ("STUDY", "1", "list"),
         ]
-    listed = CliRunner().invoke(recollect, ["sittings", "--data", str(tmp_path)]).output
+    listed = CliRunner().invoke(recollect, ["sessions", "--data", str(tmp_path)]).output
     assert [line.split()[9] for line in listed.splitlines()[1:]] == ["trial", "person"]
-    printed = json.loads(CliRunner().invoke(recollect, ["sittings", "--data", str(tmp_path), "--json"]).output)
+    printed = json.loads(CliRunner().invoke(recollect, ["sessions", "--data", str(tmp_path), "--json"]).output)
     assert [(each["trial"], each["simulated"]) for each in printed] == [(True, False), (False, False)]

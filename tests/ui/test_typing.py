@@ -12,21 +12,21 @@ from PySide6.QtGui import QFontMetricsF, QGuiApplication
 from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
-from kiosk.store.dataset.export import export
-from kiosk.store.dataset.extras import Extra
-from kiosk.store.dataset.layouts.psych_ds import PsychDs
-from kiosk.store.reading import archive
-from kiosk.study import events as happened
-from kiosk.study.after.replay import replayed
-from kiosk.study.declared.questionnaire import Answer, Integer, ShortText
-from kiosk.study.events import Stage
+from kiosk.config import Settings
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import Stage
+from kiosk.experiment.questionnaire import Answer, Integer, ShortText
+from kiosk.experiment.replay import replay_events
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
+from kiosk.store.queries import open_repository
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.hand import Hand
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
-from kiosk.ui.replaying.replay import Replay
-from kiosk.ui.window import Display, Mode, Pace
-from tests.store.dataset.conftest import rows_of
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.replay import Replay
+from kiosk.ui.simulated_visitor import UiDriver
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from tests.export.conftest import rows_of
 from tests.ui.conftest import Booth
 from tests.ui.headless import headless
 
@@ -85,7 +85,7 @@ def says(item: QQuickItem, words: str) -> bool:
 def test_a_text_is_answered_exactly_as_it_was_typed(booth: Booth, given: Given, typed: str) -> None:
     booth.ask(text())
     booth.click("text-remark")
-    Hand(booth.app.window).type(typed)
+    UiDriver(booth.app.window).type(typed)
     booth.click("continue")
     assert given == [("remark", typed)]
     assert contents(booth, "text-remark") == typed
@@ -105,7 +105,7 @@ def test_a_control_character_is_refused_in_words_until_it_is_gone(booth: Booth, 
     assert booth.app.screens.form.property("missing") == ["remark"]
     booth.click("text-remark")
     booth.press(Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
-    Hand(booth.app.window).type("one")
+    UiDriver(booth.app.window).type("one")
     assert not says(booth.item("item-remark"), refusal)
     booth.click("continue")
     assert given == [("remark", "one")]
@@ -114,7 +114,7 @@ def test_a_control_character_is_refused_in_words_until_it_is_gone(booth: Booth, 
 def test_blanks_alone_are_no_answer(booth: Booth, given: Given) -> None:
     booth.ask(text().model_copy(update={"required": True}))
     booth.click("text-remark")
-    Hand(booth.app.window).type(" \N{NO-BREAK SPACE} ")
+    UiDriver(booth.app.window).type(" \N{NO-BREAK SPACE} ")
     booth.click("continue")
     assert given == []
 
@@ -122,10 +122,10 @@ def test_blanks_alone_are_no_answer(booth: Booth, given: Given) -> None:
 def test_a_field_takes_as_many_characters_as_it_says_however_many_places_each_needs(booth: Booth, given: Given) -> None:
     booth.ask(text(longest=4))
     booth.click("text-remark")
-    Hand(booth.app.window).type("😀😀😀😀😀x")
+    UiDriver(booth.app.window).type("😀😀😀😀😀x")
     assert contents(booth, "text-remark") == "😀😀😀😀"
     booth.press(Qt.Key.Key_Home)
-    Hand(booth.app.window).type("y")
+    UiDriver(booth.app.window).type("y")
     assert contents(booth, "text-remark") == "😀😀😀😀"
     booth.click("continue")
     assert given == [("remark", "😀😀😀😀")]
@@ -134,7 +134,7 @@ def test_a_field_takes_as_many_characters_as_it_says_however_many_places_each_ne
 def test_what_is_pasted_is_cut_where_the_field_is_full(booth: Booth) -> None:
     booth.ask(text(longest=4))
     booth.click("text-remark")
-    Hand(booth.app.window).type("ab")
+    UiDriver(booth.app.window).type("ab")
     booth.press(Qt.Key.Key_Left)
     QGuiApplication.clipboard().setText("😀😀😀")
     booth.press(Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
@@ -145,7 +145,7 @@ def test_what_is_pasted_is_cut_where_the_field_is_full(booth: Booth) -> None:
 def test_the_delete_key_on_the_screen_takes_what_looks_like_one_character(booth: Booth, last: str) -> None:
     booth.ask(text())
     booth.click("text-remark")
-    Hand(booth.app.window).type(f"so {last}")
+    UiDriver(booth.app.window).type(f"so {last}")
     booth.click("key-delete")
     assert contents(booth, "text-remark") == "so "
 
@@ -156,7 +156,7 @@ def test_the_delete_key_on_the_screen_takes_what_looks_like_one_character(booth:
 def enter_by_key(booth: Booth, number: int) -> None:
     """Type a number on a keyboard."""
     booth.click("number-n")
-    Hand(booth.app.window).type(str(number))
+    UiDriver(booth.app.window).type(str(number))
     booth.press(Qt.Key.Key_Return)
 
 
@@ -223,7 +223,7 @@ def test_there_is_a_minus_key_only_where_a_number_may_be_negative(booth: Booth) 
 def test_what_is_no_number_that_is_allowed_is_not_answered(booth: Booth, given: Given, typed: str) -> None:
     booth.ask(whole_number(-10, -5))
     booth.click("number-n")
-    Hand(booth.app.window).type(typed)
+    UiDriver(booth.app.window).type(typed)
     booth.click("continue")
     assert ("n", -3) not in given
     assert booth.app.screens.form.property("missing") == ["n"]
@@ -233,7 +233,7 @@ def test_what_is_no_number_that_is_allowed_is_not_answered(booth: Booth, given: 
 def test_digits_and_signs_of_other_scripts_are_taken(booth: Booth, given: Given, typed: str, number: int) -> None:
     booth.ask(whole_number(-10, 5))
     booth.click("number-n")
-    Hand(booth.app.window).type(typed)
+    UiDriver(booth.app.window).type(typed)
     assert contents(booth, "number-n") == typed
     booth.click("continue")
     assert given == [("n", number)]
@@ -244,7 +244,7 @@ def test_the_field_is_as_wide_as_its_longest_number(booth: Booth, ends: tuple[in
     booth.ask(whole_number(*ends))
     number = max(map(str, ends), key=len)
     booth.click("number-n")
-    Hand(booth.app.window).type(number)
+    UiDriver(booth.app.window).type(number)
     field = booth.item("number-n")
     assert contents(booth, "number-n") == number
     needed = QFontMetricsF(field.property("font")).horizontalAdvance(number)
@@ -293,18 +293,20 @@ def test_what_was_typed_is_recorded_replayed_and_exported_exactly(qtbot: QtBot, 
             booth.app.screens.form.draft(f"t{at}", typed)
         booth.app.screens.form.draft("n", "-3")
         booth.app.screens.form.proceed()
-        assert booth.app.conductor.stage is Stage.GAME
+        assert booth.app.runner.stage is Stage.GAME
     expected: dict[str, Answer | None] = {f"t{at}": typed for at, typed in enumerate(EXACTLY)} | {"n": -3}
-    with archive(data) as stored:
-        (sitting,) = stored.sittings()
-        events, plan, seed = stored.events(sitting.id), stored.plan(sitting.id), stored.seed(sitting.id)
-    assert {e.item: e.value for e in events if isinstance(e, happened.AnswerGiven)} == expected
-    export(data, tmp_path / "out", PsychDs, frozenset({Extra.TEXTS, Extra.REHEARSALS, Extra.UNSHARED}))
+    with open_repository(data) as stored:
+        (session,) = stored.sessions()
+        events, plan, seed = stored.events(session.id), stored.plan(session.id), stored.seed(session.id)
+    assert {e.item: e.value for e in events if isinstance(e, happened.ResponseGiven)} == expected
+    export_dataset(
+        data, tmp_path / "out", PsychDs, frozenset({ExportOption.TEXTS, ExportOption.REHEARSALS, ExportOption.UNSHARED})
+    )
     rows = {row["item"]: row["value"] for row in rows_of(tmp_path / "out", "answers")}
     assert {item: rows[item] for item in expected} == {item: str(value) for item, value in expected.items()}
-    steps = replayed(plan, seed, events)
-    with Replay(Mode(Display.NOWHERE, Pace.WALL, 32), plan, steps, "Sitting 1") as replay:
-        last = max(at for at, step in enumerate(steps) if isinstance(step.event, happened.AnswerGiven))
+    steps = replay_events(plan, seed, events)
+    with Replay(RunMode(WindowMode.NOWHERE, ClockMode.WALL, 32), plan, steps, "Session 1") as replay:
+        last = max(at for at, step in enumerate(steps) if isinstance(step.event, happened.ResponseGiven))
         replay.player.go_to(last + 1)
         seen = Booth(replay_app(replay), data)
         fields = {item: f"{'number' if item == 'n' else 'text'}-{item}" for item in expected}
@@ -322,9 +324,9 @@ def replay_app(replay: Replay) -> App:
 def test_simulated_visitors_answer_what_can_only_be_negative(qtbot: QtBot, tmp_path: Path, seed: int) -> None:
     with at_work(study_in(tmp_path, NUMBER + RATED), tmp_path / "data", qtbot) as booth:
         Rehearsal(booth.app, seed).run()
-        with archive(booth.data) as stored:
-            (sitting,) = stored.sittings()
-            given = {e.item: e.value for e in stored.events(sitting.id) if isinstance(e, happened.AnswerGiven)}
+        with open_repository(booth.data) as stored:
+            (session,) = stored.sessions()
+            given = {e.item: e.value for e in stored.events(session.id) if isinstance(e, happened.ResponseGiven)}
     assert isinstance(given["n"], int)
     assert isinstance(given["line"], int)
     assert -10 <= given["n"] <= -2

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from kiosk import program
-from kiosk.settings import ASSETS
-from kiosk.ui.probes.pictures import CannotDraw, undrawn
+from kiosk.config import ASSETS
+from kiosk.ui.checks import CannotDraw, undrawn
 
 OWL = (ASSETS / "cards" / "animals" / "owl.svg").read_text("utf-8")
 SVG = (

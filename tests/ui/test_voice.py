@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Voice as VoiceSettings
+from kiosk.config import VoiceConfig as VoiceSettings
 from kiosk.ui.voice import EngineVoice, NoVoice
 
 SPEAKS = """
@@ -173,7 +173,7 @@ def test_a_hung_engine_is_ended_and_started_again_within_a_second(
     qtbot: QtBot, voices: list[EngineVoice], tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     voice = engine(voices, IS_READY_THEN_HANGS_ONCE + SPEAKS, str(tmp_path / "hung"))
-    qtbot.waitUntil(lambda: "speaks" in voice.health.words)
+    qtbot.waitUntil(lambda: "speaks" in voice.health.message)
     with qtbot.waitSignal(voice.failed, timeout=1_000):
         voice.say(1, "Hello")
     with qtbot.waitSignal(voice.finished, timeout=10_000):
@@ -194,7 +194,7 @@ def test_the_experimenter_is_told_what_the_voice_can_do(
 ) -> None:
     line = json.dumps({"event": "ready", **ready})
     voice = engine(voices, f"import sys; print({line!r}, flush=True); sys.stdin.read()")
-    qtbot.waitUntil(lambda: voice.health.words == words)
+    qtbot.waitUntil(lambda: voice.health.message == words)
     caplog.clear()
 
 
@@ -202,8 +202,8 @@ def test_a_missing_engine_is_told_in_words(
     qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
 ) -> None:
     voice = engine(voices, HAS_NO_ENGINE)
-    qtbot.waitUntil(lambda: voice.health.words == "sentences are only shown: no speech engine")
-    assert not voice.health.well
+    qtbot.waitUntil(lambda: voice.health.message == "sentences are only shown: no speech engine")
+    assert not voice.health.is_ok
     caplog.clear()
 
 
@@ -219,11 +219,11 @@ def test_another_volume_and_another_language_are_spoken_by_a_new_process(
     qtbot: QtBot, voices: list[EngineVoice]
 ) -> None:
     voice = engine(voices, TELLS_ITS_MANNER)
-    qtbot.waitUntil(lambda: voice.health.words == "the voice of en at 0.9 speaks")
-    voice.turn(0.4)
-    qtbot.waitUntil(lambda: voice.health.words == "the voice of en at 0.4 speaks")
-    voice.speak("it")
-    qtbot.waitUntil(lambda: voice.health.words == "the voice of it at 0.4 speaks")
+    qtbot.waitUntil(lambda: voice.health.message == "the voice of en at 0.9 speaks")
+    voice.set_volume(0.4)
+    qtbot.waitUntil(lambda: voice.health.message == "the voice of en at 0.4 speaks")
+    voice.set_language("it")
+    qtbot.waitUntil(lambda: voice.health.message == "the voice of it at 0.4 speaks")
 
 
 SPEAKS_LATE = """
@@ -240,7 +240,7 @@ for line in sys.stdin:
 """
 
 
-def test_what_comes_late_of_the_last_sitting_is_not_taken_for_this_ones_sentence(
+def test_what_comes_late_of_the_last_session_is_not_taken_for_this_ones_sentence(
     qtbot: QtBot, voices: list[EngineVoice]
 ) -> None:
     voice = engine(voices, SPEAKS_LATE)

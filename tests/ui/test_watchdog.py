@@ -11,9 +11,9 @@ import pytest
 from PySide6.QtQuick import QQuickWindow
 from pytestqt.qtbot import QtBot
 
-from kiosk.keeping.notice import SocketListener
-from kiosk.ui.screens.plain import KioskScreen
-from kiosk.ui.watchdog import watched
+from kiosk.sd_notify import NotifySocketListener
+from kiosk.ui.event_loop import heartbeat
+from kiosk.ui.screens.shell import KioskScreen
 from tests.samples import ENGLISH
 from tests.ui.conftest import Booth
 
@@ -32,14 +32,14 @@ def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
 
 
 @pytest.fixture
-def listener(tmp_path: Path) -> Iterator[SocketListener]:
+def listener(tmp_path: Path) -> Iterator[NotifySocketListener]:
     """Whoever wants to know."""
-    made = SocketListener(tmp_path)
+    made = NotifySocketListener(tmp_path)
     yield made
     made.close()
 
 
-def heard(listener: SocketListener) -> list[tuple[str, str]]:
+def heard(listener: NotifySocketListener) -> list[tuple[str, str]]:
     """Everything that was told since the last time."""
     told: list[tuple[str, str]] = []
     while notice := listener.hear(0):
@@ -48,7 +48,7 @@ def heard(listener: SocketListener) -> list[tuple[str, str]]:
 
 
 def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
-    qtbot: QtBot, window: QQuickWindow, listener: SocketListener
+    qtbot: QtBot, window: QQuickWindow, listener: NotifySocketListener
 ) -> None:
     told: list[tuple[str, str]] = []
 
@@ -56,7 +56,7 @@ def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
         told.extend(heard(listener))
         return told.count(("WATCHDOG", "1")) >= least
 
-    with watched(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
+    with heartbeat(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
         assert heard(listener) == []
         window.show()
         qtbot.waitUntil(lambda: beats(3))
@@ -64,17 +64,19 @@ def test_a_kiosk_is_ready_when_it_was_drawn_and_beats_from_then_on(
     assert heard(listener)[-1] == ("STOPPING", "1")
 
 
-def test_a_loop_that_does_not_turn_is_silent(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
-    with watched(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
+def test_a_loop_that_does_not_turn_is_silent(
+    qtbot: QtBot, window: QQuickWindow, listener: NotifySocketListener
+) -> None:
+    with heartbeat(window, KioskScreen(ENGLISH), listener.environment | EVERY_40_MS):
         window.show()
         qtbot.waitUntil(lambda: ("WATCHDOG", "1") in heard(listener))
         heard(listener)
         assert listener.hear(0.2) == {}
 
 
-def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
+def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, listener: NotifySocketListener) -> None:
     kiosk = KioskScreen(ENGLISH)
-    with watched(window, kiosk, listener.environment):
+    with heartbeat(window, kiosk, listener.environment):
         kiosk.show("game")
         assert heard(listener) == [("STATUS", "game")]
     kiosk.show("result")
@@ -82,8 +84,10 @@ def test_every_screen_is_told_by_its_name(qtbot: QtBot, window: QQuickWindow, li
     del qtbot
 
 
-def test_without_a_wish_for_beats_there_are_none(qtbot: QtBot, window: QQuickWindow, listener: SocketListener) -> None:
-    with watched(window, KioskScreen(ENGLISH), listener.environment):
+def test_without_a_wish_for_beats_there_are_none(
+    qtbot: QtBot, window: QQuickWindow, listener: NotifySocketListener
+) -> None:
+    with heartbeat(window, KioskScreen(ENGLISH), listener.environment):
         window.show()
         qtbot.waitUntil(lambda: ("READY", "1") in heard(listener))
         qtbot.wait(50)
@@ -107,9 +111,9 @@ class Told:
     last: Told
 
 
-def test_a_whole_sitting_is_told_screen_by_screen(booth: Booth, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_whole_session_is_told_screen_by_screen(booth: Booth, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NOTIFY_SOCKET", "somewhere")
-    monkeypatch.setattr("kiosk.ui.watchdog.Notifier", Told)
+    monkeypatch.setattr("kiosk.ui.event_loop.Notifier", Told)
     booth.rehearse(1)
     screens = [screen for screen, _ in groupby(Told.last.screens)]
     assert screens[screens.index("introduction") :] == ["introduction", "game", "result", "form", "attract"]

@@ -11,9 +11,9 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import ASSETS
-from kiosk.study.declared.questionnaire import Questionnaire
-from kiosk.ui.screens.words import FIXED
+from kiosk.config import ASSETS
+from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.ui.screens.texts import FIXED
 from kiosk.ui.window import QML
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
@@ -67,7 +67,7 @@ def test_a_key_that_leaves_other_programs_does_nothing(booth: Booth, key: Qt.Key
     assert len(booth.app.screens.board.closed) == 24
 
 
-def test_a_sitting_needs_no_mouse(booth: Booth) -> None:
+def test_a_session_needs_no_mouse(booth: Booth) -> None:
     booth.press(Qt.Key.Key_Return)
     assert booth.screen == "introduction"
     booth.press(Qt.Key.Key_Space)

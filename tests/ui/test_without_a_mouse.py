@@ -11,14 +11,13 @@ from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from kiosk.settings import Settings
-from kiosk.store.glance import glance
-from kiosk.store.reading import archive
-from kiosk.study.booth.deeds import Reason
-from kiosk.study.booth.notes import Note
-from kiosk.study.events import AnswerGiven, Stage, Status
+from kiosk.config import Settings
+from kiosk.experiment.events import ResponseGiven, Stage, Status
+from kiosk.experiment.experimenter import AuditEvent, DeviationReason
+from kiosk.store.queries import open_repository
+from kiosk.store.snapshot import read_snapshot
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.rehearsal import MakeHand, Rehearsal
+from kiosk.ui.rehearsal import MakeHand, Rehearsal
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import (
     EXPERIMENTERS,
@@ -38,16 +37,16 @@ pytestmark = pytest.mark.usefixtures("spoken")
 
 
 def sit(app: App, hand: MakeHand, seed: int) -> None:
-    """Let a visitor with this hand go through a whole sitting."""
+    """Let a visitor with this hand go through a whole session."""
     Rehearsal(app, seed, hand=hand).run()
 
 
 def answered(booth: Booth) -> tuple[Status | None, int, set[str]]:
-    """How the sitting ended, how many pairs were found, and which items have an answer."""
-    with archive(booth.data) as stored:
-        (sitting,) = stored.sittings()
-        given = {event.item for event in stored.events(sitting.id) if isinstance(event, AnswerGiven)}
-    return sitting.status, sitting.measures.pairs, given
+    """How the session ended, how many pairs were found, and which items have an answer."""
+    with open_repository(booth.data) as stored:
+        (session,) = stored.sessions()
+        given = {event.item for event in stored.events(session.id) if isinstance(event, ResponseGiven)}
+    return session.status, session.measures.pairs, given
 
 
 @pytest.mark.parametrize("hand", [Keyboard, Finger])
@@ -125,22 +124,22 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     keyboard.click("condition-notom")
     keyboard.type("5in their own words")
     keyboard.press(Qt.Key.Key_Return)
-    for name in ("volume-0.2", "deed-quiet"):
+    for name in ("volume-0.2", "action-quiet"):
         keyboard.click(name)
-    keyboard.click("deed-end")
+    keyboard.click("action-end")
     keyboard.type("1")
-    booth.wait_until(lambda: booth.app.conductor.stage is not Stage.ABOUT)
+    booth.wait_until(lambda: booth.app.runner.stage is not Stage.ABOUT)
     if booth.app.experimenter.panel.is_open:
         keyboard.press(Qt.Key.Key_Escape)
     assert not booth.app.experimenter.panel.is_open
     noted = {
         each.note: each.body["reason"]
-        for each in glance(booth.data, 0, simulated=True).deviations
+        for each in read_snapshot(booth.data, 0, simulated=True).deviations
         if each.body.get("reason")
     }
     assert noted == {
-        Note.CONDITION_CHOSEN: Reason.OTHER.in_own_words("in their own words"),
-        Note.SITTING_STOPPED: Reason.TECHNICAL.value,
+        AuditEvent.CONDITION_CHOSEN: DeviationReason.OTHER.in_own_words("in their own words"),
+        AuditEvent.SESSION_ABORTED: DeviationReason.TECHNICAL.value,
     }
 
 

@@ -9,20 +9,20 @@ import pytest
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
-from kiosk.ui.work import AtOnce, Landing, Worker
+from kiosk.ui.event_loop import InlineExecutor, MainThreadExecutor, ThreadExecutor
 
 
 @pytest.fixture
-def worker(qtbot: QtBot) -> Iterator[Worker]:  # noqa: ARG001 - results land in Qt's loop
+def worker(qtbot: QtBot) -> Iterator[ThreadExecutor]:  # noqa: ARG001 - results land in Qt's loop
     """A worker with its landing."""
-    landing = Landing()
-    built = Worker(landing)
+    landing = MainThreadExecutor()
+    built = ThreadExecutor(landing)
     yield built
     landing.close()
     built.close()
 
 
-def test_a_job_is_done_elsewhere_and_its_result_comes_back_here(worker: Worker, qtbot: QtBot) -> None:
+def test_a_job_is_done_elsewhere_and_its_result_comes_back_here(worker: ThreadExecutor, qtbot: QtBot) -> None:
     came: list[tuple[int, int]] = []
     worker(threading.get_ident, lambda elsewhere: came.append((elsewhere, threading.get_ident())))
     qtbot.waitUntil(lambda: bool(came))
@@ -30,7 +30,7 @@ def test_a_job_is_done_elsewhere_and_its_result_comes_back_here(worker: Worker, 
     assert here == threading.get_ident() != elsewhere
 
 
-def test_jobs_are_done_one_after_another(worker: Worker, qtbot: QtBot) -> None:
+def test_jobs_are_done_one_after_another(worker: ThreadExecutor, qtbot: QtBot) -> None:
     came: list[int] = []
     for number in range(20):
         worker(lambda number=number: number, came.append)  # type: ignore[misc]
@@ -39,7 +39,7 @@ def test_jobs_are_done_one_after_another(worker: Worker, qtbot: QtBot) -> None:
 
 
 def test_a_fault_in_a_job_is_raised_where_faults_are_seen_and_the_next_job_is_done(
-    worker: Worker, qtbot: QtBot
+    worker: ThreadExecutor, qtbot: QtBot
 ) -> None:
     came: list[str] = []
     with capture_exceptions() as faults:
@@ -52,5 +52,5 @@ def test_a_fault_in_a_job_is_raised_where_faults_are_seen_and_the_next_job_is_do
 
 def test_where_time_is_virtual_a_job_takes_none() -> None:
     came: list[int] = []
-    AtOnce()(lambda: 1, came.append)
+    InlineExecutor()(lambda: 1, came.append)
     assert came == [1]

@@ -1,4 +1,4 @@
-"""A tour of everything there is to be seen: every screen of a whole sitting, what lies over them, and the panel."""
+"""A tour of everything there is to be seen: every screen of a whole session, what lies over them, and the panel."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.settings import ASSETS, Settings
-from kiosk.study.booth.pin import kept
-from kiosk.study.commands import Wait
-from kiosk.study.declared.questionnaire import Item, Questionnaire, TextPage
+from kiosk.config import ASSETS, Settings
+from kiosk.experiment.effects import BoardWait
+from kiosk.experiment.experimenter import hash_pin
+from kiosk.experiment.questionnaire import Item, Questionnaire, TextPage
 from kiosk.ui.app import App
-from kiosk.ui.clock import VirtualClock
-from kiosk.ui.panel.card import Step
-from kiosk.ui.rehearsing.hand import NO_KEY, Aside, Hand, Stuck, find, lay_out
-from kiosk.ui.rehearsing.rehearsal import Rehearsal
+from kiosk.ui.event_loop import VirtualClock
+from kiosk.ui.experimenter.view_model import AuthorisationStep
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout, find_item, lay_out
 from tests.ui.headless import SMALL
 from tests.ui.reaching import Keyboard
 
 SEED = 1
 """With this seed the visitor practises."""
 PIN, WRONG = "2580", "9999"
-CHORD = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+SHORTCUT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 ASKED: dict[str, Item] = {item.kind: item for item in GALLERY.items if not isinstance(item, TextPage)}
@@ -40,11 +40,11 @@ def whole_study(first: str = "en", **screen: object) -> Settings:
     ``screen`` is that section of the study file.
     """
     languages = sorted(SMALL.languages, key=lambda language: language != first)
-    more = {"languages": languages, "screen": screen, "experimenter": {"pin": kept(PIN, bytes(16))}}
+    more = {"languages": languages, "screen": screen, "experimenter": {"pin": hash_pin(PIN, bytes(16))}}
     return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter", "languages"}), **more})
 
 
-class Looking(Hand):
+class Looking(UiDriver):
     """A hand whose owner looks at every new screen before doing anything to it."""
 
     def __init__(self, window: QQuickWindow, aside: Aside, app: App, look: Look) -> None:
@@ -91,8 +91,8 @@ def looked_at(app: App, look: Look, moment: str) -> None:
     try:
         look(moment)
     except Exception as fault:
-        # It would be taken for a fault of the kiosk's, and the sitting would never end.
-        raise Stuck(f"{moment} could not be looked at: {fault!r}") from fault
+        # It would be taken for a fault of the kiosk's, and the session would never end.
+        raise UiTimeout(f"{moment} could not be looked at: {fault!r}") from fault
 
 
 def tour(app: App, look: Look) -> None:
@@ -108,17 +108,17 @@ def look_over(app: App, look: Look) -> None:
     screens.avatar.say("Something that is said.")
     screens.board.deal(2, 3, 3, "animals")
     screens.kiosk.show("game")
-    screens.kiosk.settle()
-    for wait in Wait:
-        screens.board.hold(wait)
+    screens.kiosk.end_input_guard()
+    for wait in BoardWait:
+        screens.board.lock(wait)
         looked_at(app, look, f"game, {wait.value}")
-    screens.board.hold(None)
+    screens.board.lock(None)
     for name, row, column in (("row", 1, None), ("column", None, 1), ("card", 1, 1)):
-        screens.board.mark(row, column)
+        screens.board.highlight(row, column)
         looked_at(app, look, f"game, a {name} is marked")
     screens.board.clear()
     screens.kiosk.ask_still_there(asks=True)
-    screens.kiosk.settle()
+    screens.kiosk.end_input_guard()
     looked_at(app, look, "still there")
     screens.kiosk.ask_still_there(asks=False)
     screens.kiosk.show("pause")
@@ -126,27 +126,27 @@ def look_over(app: App, look: Look) -> None:
     screens.clear()
     screens.attract.show_trial("Ctrl+Shift+F12")
     screens.kiosk.show("attract")
-    screens.kiosk.settle()
+    screens.kiosk.end_input_guard()
     looked_at(app, look, "attract, a trial")
 
 
 def look_behind(app: App, look: Look) -> None:
     """Look at the experimenter's card, note and panel, while a visitor is there."""
     card, note, _ = app.screens.experimenter.parts
-    hand = Hand(app.window)
+    hand = UiDriver(app.window)
     hand.click(f"start-{app.screens.resting.language}")
-    press(app, Qt.Key.Key_P, CHORD)
+    press(app, Qt.Key.Key_P, SHORTCUT)
     hand.type(PIN[:2])
     looked_at(app, look, "card: pin")
     hand.type(WRONG)
     press(app, Qt.Key.Key_Return)
-    assert card.asks_for is Step.WAIT
+    assert card.asks_for is AuthorisationStep.WAIT
     looked_at(app, look, "card: wait")
-    wait_until(app, lambda: card.asks_for is Step.PIN)
+    wait_until(app, lambda: card.asks_for is AuthorisationStep.PIN)
     hand.type(PIN)
     press(app, Qt.Key.Key_Return)
     assert app.experimenter.panel.is_open
-    wait_until(app, lambda: find(app.window.contentItem(), "resume-1") is None)
+    wait_until(app, lambda: find_item(app.window.contentItem(), "resume-1") is None)
     hand.click("condition-tom")
     looked_at(app, look, "panel, card: reason")
     hand.type("5")
@@ -176,13 +176,13 @@ def wait_until(app: App, condition: Callable[[], bool]) -> None:
         if condition():
             return
         app.clock.jump()
-    raise Stuck("it never came")
+    raise UiTimeout("it never came")
 
 
 def open_panel(app: App) -> Keyboard:
-    """Open the panel with its chord and the PIN."""
+    """Open the panel with its shortcut and the PIN."""
     keyboard = Keyboard(app.window)
-    keyboard.press(Qt.Key.Key_P, CHORD)
+    keyboard.press(Qt.Key.Key_P, SHORTCUT)
     keyboard.type(PIN)
     keyboard.press(Qt.Key.Key_Return)
     wait_until(app, lambda: app.screens.kiosk.takes_input)

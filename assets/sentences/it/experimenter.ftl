@@ -2,155 +2,155 @@
 
 ## The card and the notes at the edge
 
-desk-pin = PIN
-desk-pin-line = Invio per continuare, Esc per tornare
-desk-wait = Non era giusto. Attendere { $seconds } s.
-desk-reason = Perché?
-desk-reason-line = Una cifra sceglie, Esc per tornare
-desk-words-line = Con parole proprie, poi Invio
-desk-reason-technical = problema tecnico
-desk-reason-wished = lo desidera chi gioca
-desk-reason-disturbed = disturbo
-desk-reason-test = prova
-desk-reason-other = altro
-desk-not-now = Non adesso
-desk-not-written = Non è stato possibile annotarlo: nulla è cambiato
-desk-busy = Un momento: un altro programma occupa la base di dati
-desk-done = Fatto
-desk-next-avatar = Poi: avatar
-desk-next-robot = Poi: robot
-desk-quiet-on = Silenzio
-desk-quiet-off = Di nuovo udibile
-desk-cannot-resume = Non può continuare: { $why }
+console-pin = PIN
+console-pin-line = Invio per continuare, Esc per tornare
+console-wait = Non era giusto. Attendere { $seconds } s.
+console-reason = Perché?
+console-reason-line = Una cifra sceglie, Esc per tornare
+console-words-line = Con parole proprie, poi Invio
+console-reason-technical = problema tecnico
+console-reason-wished = lo desidera chi gioca
+console-reason-disturbed = disturbo
+console-reason-test = prova
+console-reason-other = altro
+console-not-now = Non adesso
+console-not-written = Non è stato possibile annotarlo: nulla è cambiato
+console-busy = Un momento: un altro programma occupa la base di dati
+console-done = Fatto
+console-next-avatar = Poi: avatar
+console-next-robot = Poi: robot
+console-quiet-on = Silenzio
+console-quiet-off = Di nuovo udibile
+console-cannot-resume = Non può continuare: { $why }
 
 ## The panel
 
-desk-title = Pannello di controllo
-desk-close = Chiudi
-desk-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
-desk-all-well = Tutto bene
-desk-sitting-none = Non c’è nessuno
-desk-sitting-paused = Una seduta è in corso; attende
+console-title = Pannello di controllo
+console-close = Chiudi
+console-keys = Tab e frecce per spostarsi, Invio per eseguire, Esc per chiudere. Dopo un minuto senza nessuno si chiude da sé.
+console-all-well = Tutto bene
+console-session-none = Non c’è nessuno
+console-session-paused = Una seduta è in corso; attende
 
 ## Health
 
-desk-health = Stato
-desk-robot = Robot
-desk-robot-none = Non ce n’è
-desk-avatar = Avatar
-desk-voice = Voce
-desk-voice-quiet = in silenzio di proposito
-desk-disk = Disco
-desk-disk-free = { $free } liberi
-desk-disk-warn = solo { $free } liberi: fare spazio stasera
-desk-disk-refuse = solo { $free } liberi: nessuno può iniziare
-desk-disk-unknown = non si sa quanto spazio resta
-desk-database = Dati
-desk-backup-none = in uso; ancora nessuna copia
-desk-backup-made = in uso; ultima copia { $ago }
-desk-backup-failed = l’ultima copia non è riuscita: { $why }
-desk-backup-busy = in corso …
-desk-backup-waits = dopo questa seduta
-desk-minutes =
+console-health = Stato
+console-robot = Robot
+console-robot-none = Non ce n’è
+console-avatar = Avatar
+console-voice = Voce
+console-voice-quiet = in silenzio di proposito
+console-disk = Disco
+console-disk-free = { $free } liberi
+console-disk-warn = solo { $free } liberi: fare spazio stasera
+console-disk-refuse = solo { $free } liberi: nessuno può iniziare
+console-disk-unknown = non si sa quanto spazio resta
+console-database = Dati
+console-backup-none = in uso; ancora nessuna copia
+console-backup-made = in uso; ultima copia { $ago }
+console-backup-failed = l’ultima copia non è riuscita: { $why }
+console-backup-busy = in corso …
+console-backup-waits = dopo questa seduta
+console-minutes =
     { $minutes ->
         [0] adesso
        *[other] { $minutes } min fa
     }
-desk-hours = { $hours } h fa
-desk-days =
+console-hours = { $hours } h fa
+console-days =
     { $days ->
         [one] 1 giorno fa
        *[other] { $days } giorni fa
     }
-desk-clock = Orologio
-desk-clock-well = va come deve
-desk-clock-behind = indietro di { $hours } h rispetto all’ultima registrazione: regolarlo
-desk-clock-jumped = è stato spostato di { $seconds } s dall’avvio
-desk-policy = Politica
-desk-study = Studio
-desk-pin-line-name = PIN
-desk-pin-set = viene chiesto
-desk-pin-none = non c’è: ogni sessione è una prova, e chi conosce i tasti può fare tutto
-desk-screen = Schermo
+console-clock = Orologio
+console-clock-well = va come deve
+console-clock-behind = indietro di { $hours } h rispetto all’ultima registrazione: regolarlo
+console-clock-jumped = è stato spostato di { $seconds } s dall’avvio
+console-policy = Politica
+console-study = Studio
+console-pin-line-name = PIN
+console-pin-set = viene chiesto
+console-pin-none = non c’è: ogni sessione è una prova, e chi conosce i tasti può fare tutto
+console-screen = Schermo
 
 ## Counts
 
-desk-counts = Partite completate
-desk-counts-done = su quota
-desk-counts-dropped = lasciate
-desk-counts-overridden = scelte
-desk-counts-beyond = oltre
-desk-counts-withdrawn = ritirate
-desk-visits = Hanno giocato senza essere registrati: { $declined } senza consenso, { $under_age } minorenni, { $left } andati via prima di decidere
-desk-automatic = automatica
-desk-hidden = nascosta
-desk-condition-tom = ToM
-desk-condition-notom = senza ToM
-desk-condition-mentalised-unexplained = ToM, senza motivi
-desk-condition-random-explained = casuale, con motivi
-desk-condition-no-assistance = nessun aiuto
+console-counts = Partite completate
+console-counts-done = su quota
+console-counts-dropped = lasciate
+console-counts-overridden = scelte
+console-counts-beyond = oltre
+console-counts-withdrawn = ritirate
+console-visits = Hanno giocato senza essere registrati: { $declined } senza consenso, { $under_age } minorenni, { $left } andati via prima di decidere
+console-automatic = automatica
+console-hidden = nascosta
+console-condition-tom = ToM
+console-condition-notom = senza ToM
+console-condition-mentalised-unexplained = ToM, senza motivi
+console-condition-random-explained = casuale, con motivi
+console-condition-no-assistance = nessun aiuto
 
-## Sittings
+## Sessions
 
-desk-sittings = Ultime sedute
-desk-sittings-none = Ancora nessuna
-desk-robot-lost = robot perso
-desk-status-running = in corso
-desk-status-completed = completata
-desk-status-abandoned = abbandonata
-desk-status-stopped = fermata
-desk-status-interrupted = interrotta
-desk-stage-attract = nessuno
-desk-stage-about = sullo studio
-desk-stage-consent = consenso
-desk-stage-age = età
-desk-stage-about-you = sulla persona
-desk-stage-introduction = introduzione
-desk-stage-practice = prova
-desk-stage-game = partita
-desk-stage-result = risultato
-desk-stage-questions = domande
-desk-stage-debrief = spiegazione
-desk-stage-thanks = saluti
-desk-stage-over = schermata di attesa
+console-sessions = Ultime sedute
+console-sessions-none = Ancora nessuna
+console-robot-lost = robot perso
+console-status-running = in corso
+console-status-completed = completata
+console-status-abandoned = abbandonata
+console-status-stopped = fermata
+console-status-interrupted = interrotta
+console-stage-attract = nessuno
+console-stage-about = sullo studio
+console-stage-consent = consenso
+console-stage-age = età
+console-stage-about-you = sulla persona
+console-stage-introduction = introduzione
+console-stage-practice = prova
+console-stage-game = partita
+console-stage-result = risultato
+console-stage-questions = domande
+console-stage-debrief = spiegazione
+console-stage-thanks = saluti
+console-stage-over = schermata di attesa
 
 ## Deviations
 
-desk-deviations = Deviazioni di oggi
-desk-deviations-more = e altre { $number }
-desk-deviations-none = Oggi nessuna
-desk-note-condition-chosen = prossima condizione: { $what }
-desk-note-body-chosen = prossimo corpo: { $what }
-desk-note-language-chosen = lingua a riposo: { $what }
-desk-note-volume-changed = volume { $what }
-desk-note-sound-changed = voce e suoni: { $what }
-desk-note-sitting-stopped = seduta fermata in: { $what }
-desk-note-sitting-resumed = seduta { $what } ripresa
-desk-note-pin-refused = PIN errato, errore { $what } di seguito
-desk-note-kiosk-left = chiosco lasciato in: { $what }
-desk-note-backup-failed = copia non fatta: { $what }
-desk-note-room-changed = disco: { $what }
-desk-room-enough = di nuovo spazio
-desk-room-warn = poco spazio
-desk-room-refuse = spazio finito; nessuno può iniziare
+console-deviations = Deviazioni di oggi
+console-deviations-more = e altre { $number }
+console-deviations-none = Oggi nessuna
+console-note-condition-chosen = prossima condizione: { $what }
+console-note-body-chosen = prossimo corpo: { $what }
+console-note-language-chosen = lingua a riposo: { $what }
+console-note-volume-changed = volume { $what }
+console-note-sound-changed = voce e suoni: { $what }
+console-note-session-stopped = seduta fermata in: { $what }
+console-note-session-resumed = seduta { $what } ripresa
+console-note-pin-refused = PIN errato, errore { $what } di seguito
+console-note-kiosk-left = chiosco lasciato in: { $what }
+console-note-backup-failed = copia non fatta: { $what }
+console-note-room-changed = disco: { $what }
+console-room-enough = di nuovo spazio
+console-room-warn = poco spazio
+console-room-refuse = spazio finito; nessuno può iniziare
 
 ## What can be done
 
-desk-next-sitting = Dalla prossima seduta
-desk-condition = Condizione della prossima seduta
-desk-body = Chi aiuta
-desk-language = Lingua a riposo
-desk-volume = Volume
-desk-now = Adesso
-desk-again = Ripeti la frase
-desk-quiet = Silenzio
-desk-heard = Riattiva l’audio
-desk-stay-paused = Resta in pausa dopo
-desk-not-stay-paused = Continua alla chiusura
-desk-end = Termina la seduta
-desk-next = Prossima persona
-desk-resume = Riprendi una seduta interrotta
-desk-resume-none = Non ce n’è
-desk-resume-one = { $participant } · { $when } · { $stage }
-desk-backup = Fai una copia
-desk-leave = Esci dal chiosco
+console-next-session = Dalla prossima seduta
+console-condition = Condizione della prossima seduta
+console-body = Chi aiuta
+console-language = Lingua a riposo
+console-volume = Volume
+console-now = Adesso
+console-again = Ripeti la frase
+console-quiet = Silenzio
+console-heard = Riattiva l’audio
+console-stay-paused = Resta in pausa dopo
+console-not-stay-paused = Continua alla chiusura
+console-end = Termina la seduta
+console-next = Prossima persona
+console-resume = Riprendi una seduta interrotta
+console-resume-none = Non ce n’è
+console-resume-one = { $participant } · { $when } · { $stage }
+console-backup = Fai una copia
+console-leave = Esci dal chiosco

@@ -27,7 +27,7 @@ Window {
     required property real textSize
     required property int motion
     // A replay drives the screens from a bar below them; a kiosk has none.
-    property ReplayBar replay: null
+    property ReplayControls replay: null
     required property bool highContrast
     required property bool boardOnRight
 
@@ -182,6 +182,6 @@ Window {
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
         height: root.replay === null ? 0 : 48
         active: root.replay !== null
-        sourceComponent: ReplayControls { replay: root.replay; words: root.kiosk.words }
+        sourceComponent: ReplayBar { replay: root.replay; words: root.kiosk.words }
     }
 }

@@ -1,18 +1,20 @@
-"""The assistant on the screen: a face, a bubble and a voice, and so a body like any other.
-
-Its mouth follows the loudness of the sound.
-"""
+"""The avatar on the screen, and its small movements while it idles."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
 
 from PySide6.QtCore import Property, QObject, QTimer, Signal
 from PySide6.QtQml import QmlElement
 
-from kiosk.robot import LOUDNESS_MS
-from kiosk.robot.body import Health, Listener, Place
-from kiosk.settings import Side
-from kiosk.study.commands import Mood
-from kiosk.study.events import BodyName
+from kiosk.config import Side
+from kiosk.experiment.effects import Mood
+from kiosk.experiment.events import EmbodimentName
+from kiosk.robots import LOUDNESS_MS
+from kiosk.robots.embodiment import BoardPoint, Health, SpeechListener
+from kiosk.ui.event_loop import Clock
+from kiosk.ui.screens.shell import AttractScreen, KioskScreen
 from kiosk.ui.voice import Voice
 
 QML_IMPORT_NAME = "Recollect"
@@ -131,10 +133,15 @@ class AvatarScreen(QObject):
 class AvatarBody(QObject):
     """The avatar as a body: says a sentence with its voice, and moves its mouth to it."""
 
-    name = BodyName.AVATAR
+    name = EmbodimentName.AVATAR
 
     def __init__(
-        self, face: AvatarScreen, voice: Voice, listener: Listener, board: Side = "left", parent: QObject | None = None
+        self,
+        face: AvatarScreen,
+        voice: Voice,
+        listener: SpeechListener,
+        board: Side = "left",
+        parent: QObject | None = None,
     ) -> None:
         """Speak with this voice and this face, report to ``listener``, and look for the board on this side."""
         super().__init__(parent)
@@ -154,9 +161,9 @@ class AvatarBody(QObject):
         voice.finished.connect(self._finished)
         voice.failed.connect(self._failed)
 
-    def speak(self, language: str) -> None:
+    def set_language(self, language: str) -> None:
         """Speak this language from the next sentence on."""
-        self._voice.speak(language)
+        self._voice.set_language(language)
 
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence."""
@@ -176,22 +183,22 @@ class AvatarBody(QObject):
     @property
     def health(self) -> Health:
         """The avatar is always there; what it cannot say is read."""
-        return Health(well=True, words=f"the avatar is there; {self._voice.health.words}")
+        return Health(is_ok=True, message=f"the avatar is there; {self._voice.health.message}")
 
-    def attend(self, place: Place | None) -> None:
+    def look_at(self, place: BoardPoint | None) -> None:
         """Look at a place on the board, or at the visitor."""
         self._face.look(*((0.0, 0.0) if place is None else (self._left + place.across * 0.5, place.down * 2 - 1)))
 
-    def appear(self) -> None:
+    def activate(self) -> None:
         """Show the face."""
         self._face.appear(present=True)
 
-    def withdraw(self) -> None:
+    def deactivate(self) -> None:
         """Leave the place to another body."""
         self.stop()
         self._face.appear(present=False)
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Be silent, calm, and look straight ahead."""
         self.stop()
         self._voice.restore()
@@ -223,3 +230,93 @@ class AvatarBody(QObject):
         self._found_words()
         self._mouth.stop()
         self._face.open_mouth(0.0)
+
+
+PAUSE_MS = (1_100, 2_200)
+"""Between two acts while nobody plays."""
+PLAYING_PAUSE_MS = (2_500, 6_000)
+"""The same while somebody does."""
+BLINK_MS = 120
+GLANCE_MS = 900
+GLANCE_FAR = 0.3
+LOOK_FAR = 0.8
+"""How far it looks around while nobody plays."""
+TURN_MS = 500
+GREETING_MS = 6_000
+READING_MS = 3_000
+"""How long a title in another language is left to be read."""
+
+Act = Callable[[], int]
+"""Begins something and says how long it takes, in ms."""
+
+
+class IdleLife:
+    """Keeps the screen alive while nobody does anything."""
+
+    def __init__(
+        self, kiosk: KioskScreen, avatar: AvatarScreen, attract: AttractScreen, clock: Clock, rng: Random
+    ) -> None:
+        """Begin at once, and never end."""
+        self._kiosk = kiosk
+        self._avatar = avatar
+        self._attract = attract
+        self._clock = clock
+        self._rng = rng
+        self._greeting = ""
+        kiosk.unsettled.connect(self._mind_visitor)
+        self._pause()
+
+    @property
+    def _nobody_plays(self) -> bool:
+        return self._kiosk.shown == "attract"
+
+    def _pause(self) -> None:
+        """Bring everything to rest, and go on after a while."""
+        self._avatar.blink(shut=False)
+        self._avatar.glance(0, 0)
+        self._take_greeting_away()
+        pause = PAUSE_MS if self._nobody_plays else PLAYING_PAUSE_MS
+        self._clock.after(self._rng.randint(*pause), self._act)
+
+    def _act(self) -> None:
+        self._clock.after(self._choose()(), self._pause)
+
+    def _choose(self) -> Act:
+        if not self._nobody_plays:
+            return self._rng.choice((self._blink, self._blink, self._glance))
+        # A card turns up and back in every few acts, a greeting comes about twice a minute.
+        acts = (self._turn_card, self._blink, self._glance, self._greet, self._change_language)
+        return self._rng.choices(acts, weights=(9, 3, 5, 1, 2))[0]
+
+    def _blink(self) -> int:
+        self._avatar.blink(shut=True)
+        return BLINK_MS
+
+    def _glance(self) -> int:
+        far = LOOK_FAR if self._nobody_plays else GLANCE_FAR
+        self._avatar.glance(self._rng.uniform(-far, far), self._rng.uniform(-GLANCE_FAR, GLANCE_FAR))
+        return GLANCE_MS
+
+    def _turn_card(self) -> int:
+        self._attract.animate()
+        return TURN_MS
+
+    def _greet(self) -> int:
+        """Show a word to whoever passes, which is never said."""
+        self._greeting = self._rng.choice(self._attract.greetings)
+        self._avatar.say(self._greeting)
+        return GREETING_MS
+
+    def _change_language(self) -> int:
+        self._attract.next_language()
+        return READING_MS
+
+    def _mind_visitor(self) -> None:
+        """Somebody has come: what was shown to everybody goes, unless something else is said by now."""
+        if not self._nobody_plays:
+            self._take_greeting_away()
+
+    def _take_greeting_away(self) -> None:
+        greeting, self._greeting = self._greeting, ""
+        if greeting and self._avatar.property("bubble") == greeting:
+            self._avatar.say("")

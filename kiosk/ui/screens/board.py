@@ -22,17 +22,17 @@ from PySide6.QtCore import (
 )
 from PySide6.QtQml import QmlElement
 
-from kiosk.assistant.wording import Catalogue
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.effects import BoardWait
 from kiosk.game import Position
-from kiosk.robot.body import Place
-from kiosk.study.commands import Wait
+from kiosk.robots.embodiment import BoardPoint
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _NOWHERE = -1
 _NO_FOLDER = Path()
-_WAITS = {Wait.SPEAKING: "game-wait-speaking", Wait.TURNING_BACK: "game-wait-turning-back"}
+_WAITS = {BoardWait.SPEAKING: "game-wait-speaking", BoardWait.TURNING_BACK: "game-wait-turning-back"}
 
 
 class Role(IntEnum):
@@ -72,10 +72,10 @@ class BoardScreen(QAbstractListModel):
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
-        self._wait: Wait | None = None
+        self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
 
-    def speak(self, catalogue: Catalogue) -> None:
+    def set_language(self, catalogue: Catalogue) -> None:
         """Name the cards, and tell the progress, in this language, from the next board on."""
         self._catalogue = catalogue
         self.changed.emit()
@@ -98,21 +98,21 @@ class BoardScreen(QAbstractListModel):
         self.endResetModel()
         self._pairs_found = self._moves = 0
         self._wait = None
-        self.clear_mark()
+        self.clear_highlight()
 
-    def turn_up(self, position: Position, card: str) -> None:
+    def reveal(self, position: Position, card: str) -> None:
         """Show one card's picture."""
         self._face(position).card = card
         self._face(position).up = True
         self._tell(position)
 
-    def turn_back(self, positions: tuple[Position, ...]) -> None:
+    def hide(self, positions: tuple[Position, ...]) -> None:
         """Close these cards."""
         for position in positions:
             self._face(position).up = False
             self._tell(position)
 
-    def show_pair(self, positions: tuple[Position, ...]) -> None:
+    def mark_matched(self, positions: tuple[Position, ...]) -> None:
         """Show that these cards are found."""
         for position in positions:
             self._face(position).found = True
@@ -123,20 +123,20 @@ class BoardScreen(QAbstractListModel):
         self._pairs_found, self._moves = pairs_found, moves
         self.changed.emit()
 
-    def hold(self, wait: Wait | None) -> None:
+    def lock(self, wait: BoardWait | None) -> None:
         """Show why taps do not count just now, or, with None, that they do."""
         self._wait = wait
         self.changed.emit()
 
-    def mark(self, row: int | None, column: int | None) -> None:
+    def highlight(self, row: int | None, column: int | None) -> None:
         """Mark a card, a row or a column."""
         self._mark_row = _NOWHERE if row is None else row
         self._mark_column = _NOWHERE if column is None else column
         self.changed.emit()
 
-    def clear_mark(self) -> None:
+    def clear_highlight(self) -> None:
         """Take the mark away."""
-        self.mark(None, None)
+        self.highlight(None, None)
 
     @property
     def closed(self) -> tuple[Position, ...]:
@@ -149,7 +149,7 @@ class BoardScreen(QAbstractListModel):
         return {self._position(i): face.card for i, face in enumerate(self._faces) if face.up and not face.found}
 
     @property
-    def marked(self) -> tuple[int | None, int | None]:
+    def highlighted(self) -> tuple[int | None, int | None]:
         """The row and the column of the mark, None where it has none."""
         row, column = self._mark_row, self._mark_column
         return (None if row == _NOWHERE else row, None if column == _NOWHERE else column)
@@ -159,11 +159,11 @@ class BoardScreen(QAbstractListModel):
         """Whether a tap counts."""
         return self._wait is None
 
-    def place(self, row: int | None, column: int | None) -> Place:
+    def place(self, row: int | None, column: int | None) -> BoardPoint:
         """Where the middle of a mark lies."""
         across = 0.5 if column is None else (column + 0.5) / self._columns
         down = 0.5 if row is None else (row + 0.5) / self._rows
-        return Place(across, down)
+        return BoardPoint(across, down)
 
     def location(self, position: Position) -> int:
         """The number of a card, row by row from 0."""
@@ -241,7 +241,7 @@ class BoardScreen(QAbstractListModel):
     @Property(bool, notify=changed)
     def speaking(self) -> bool:
         """Whether taps do not count because the assistant speaks."""
-        return self._wait is Wait.SPEAKING
+        return self._wait is BoardWait.SPEAKING
 
     @Property(str, notify=changed)
     def wait(self) -> str:

@@ -30,7 +30,7 @@ REMOVE, ADD = 0, 1
 ICONIC = 3
 ALL_DESKTOPS = 0xFFFFFFFF
 
-CHORDS = (
+SHORTCUTS = (
     *("alt+F4", "Escape", "ctrl+w", "ctrl+q", "ctrl+c", "ctrl+z", "alt+Tab", "alt+shift+Tab", "ctrl+alt+Tab"),
     *("alt+Escape", "alt+space", "alt+Return", "super", "super+d", "super+e", "super+l", "super+r", "super+Tab"),
     *("super+F1", "super+F2", "super+F3", "super+F4", "ctrl+alt+Left", "ctrl+alt+Right", "ctrl+alt+Up"),
@@ -62,13 +62,13 @@ class Attempt:
 
 def _keys() -> list[Attempt]:
     all_of = {"F1 to F12": FUNCTION_KEYS, "Alt+F1 to Alt+F10": [f"alt+{key}" for key in FUNCTION_KEYS[:10]]}
-    rows = [Attempt(name, partial(_press_all, chords)) for name, chords in all_of.items()]
-    return [*(Attempt(_spelt(chord), methodcaller("key", chord)) for chord in CHORDS), *rows]
+    rows = [Attempt(name, partial(_press_all, shortcuts)) for name, shortcuts in all_of.items()]
+    return [*(Attempt(_spelt(shortcut), methodcaller("key", shortcut)) for shortcut in SHORTCUTS), *rows]
 
 
-def _press_all(chords: Iterable[str], hands: Hands) -> None:
-    for chord in chords:
-        hands.key(chord)
+def _press_all(shortcuts: Iterable[str], hands: Hands) -> None:
+    for shortcut in shortcuts:
+        hands.key(shortcut)
 
 
 def _back_and_forward(hands: Hands) -> None:
@@ -81,9 +81,9 @@ def _visit_corners(hands: Hands) -> None:
         hands.point(corner)
 
 
-def _spelt(chord: str) -> str:
+def _spelt(shortcut: str) -> str:
     """As people write it: Ctrl+Alt+T."""
-    return "+".join(part[0].upper() + part[1:] for part in chord.split("+"))
+    return "+".join(part[0].upper() + part[1:] for part in shortcut.split("+"))
 
 
 MOUSE = [
@@ -97,15 +97,17 @@ MOUSE = [
     Attempt("back and forward buttons", _back_and_forward),
     *(Attempt(f"drag from the {edge} edge", methodcaller("drag", *path)) for edge, path in EDGES.items()),
     Attempt("drag out of the window", lambda hands: hands.drag(MIDDLE, (WIDTH + 200, HEIGHT + 200))),
-    Attempt("drag with Alt (moves windows)", lambda hands: hands.drag(MIDDLE, (50, 50), chord="alt")),
+    Attempt("drag with Alt (moves windows)", lambda hands: hands.drag(MIDDLE, (50, 50), shortcut="alt")),
     Attempt("right drag with Alt (resizes)", lambda hands: hands.drag(MIDDLE, (50, 50), "right", "alt")),
-    Attempt("drag with Super", lambda hands: hands.drag(MIDDLE, (50, 50), chord="super")),
-    Attempt("middle click with Alt (lowers)", lambda hands: hands.press("middle", MIDDLE, chord="alt")),
-    Attempt("right click with Alt", lambda hands: hands.press("right", MIDDLE, chord="alt")),
-    Attempt("wheel with Ctrl (zooms)", lambda hands: hands.press("wheel up", MIDDLE, times=3, chord="ctrl")),
-    Attempt("wheel with Alt (changes desktops)", lambda hands: hands.press("wheel down", MIDDLE, times=2, chord="alt")),
-    Attempt("wheel with Ctrl+Alt", lambda hands: hands.press("wheel down", MIDDLE, chord="ctrl+alt")),
-    Attempt("wheel with Alt+Shift", lambda hands: hands.press("wheel down", MIDDLE, chord="alt+shift")),
+    Attempt("drag with Super", lambda hands: hands.drag(MIDDLE, (50, 50), shortcut="super")),
+    Attempt("middle click with Alt (lowers)", lambda hands: hands.press("middle", MIDDLE, shortcut="alt")),
+    Attempt("right click with Alt", lambda hands: hands.press("right", MIDDLE, shortcut="alt")),
+    Attempt("wheel with Ctrl (zooms)", lambda hands: hands.press("wheel up", MIDDLE, times=3, shortcut="ctrl")),
+    Attempt(
+        "wheel with Alt (changes desktops)", lambda hands: hands.press("wheel down", MIDDLE, times=2, shortcut="alt")
+    ),
+    Attempt("wheel with Ctrl+Alt", lambda hands: hands.press("wheel down", MIDDLE, shortcut="ctrl+alt")),
+    Attempt("wheel with Alt+Shift", lambda hands: hands.press("wheel down", MIDDLE, shortcut="alt+shift")),
     Attempt("hot corners", _visit_corners),
 ]
 

@@ -68,18 +68,18 @@ class Hands:
 
     # Input
 
-    def key(self, chord: str) -> None:
+    def key(self, shortcut: str) -> None:
         """Press and release keys together: ``ctrl+alt+Right``."""
-        *held, last = chord.split("+")
+        *held, last = shortcut.split("+")
         codes = [self._code(MODIFIERS.get(name, name)) for name in (*held, last)]
         for code in codes:
             self._fake(X.KeyPress, code)
         for code in reversed(codes):
             self._fake(X.KeyRelease, code)
 
-    def press(self, button: str, at: tuple[int, int], times: int = 1, hold_s: float = 0.0, chord: str = "") -> None:
+    def press(self, button: str, at: tuple[int, int], times: int = 1, hold_s: float = 0.0, shortcut: str = "") -> None:
         """Click somewhere, perhaps several times, for long, or with keys held down."""
-        with_keys = [self._code(MODIFIERS[name]) for name in chord.split("+") if name]
+        with_keys = [self._code(MODIFIERS[name]) for name in shortcut.split("+") if name]
         self.point(at)
         for code in with_keys:
             self._fake(X.KeyPress, code)
@@ -90,9 +90,9 @@ class Hands:
         for code in with_keys:
             self._fake(X.KeyRelease, code)
 
-    def drag(self, start: tuple[int, int], end: tuple[int, int], button: str = "left", chord: str = "") -> None:
+    def drag(self, start: tuple[int, int], end: tuple[int, int], button: str = "left", shortcut: str = "") -> None:
         """Press somewhere, move, and let go somewhere else."""
-        with_keys = [self._code(MODIFIERS[name]) for name in chord.split("+") if name]
+        with_keys = [self._code(MODIFIERS[name]) for name in shortcut.split("+") if name]
         self.point(start)
         for code in with_keys:
             self._fake(X.KeyPress, code)

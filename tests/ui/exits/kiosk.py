@@ -18,11 +18,11 @@ from PySide6.QtTest import QTest
 from Xlib import X
 from Xlib.display import Display
 
-from kiosk.cli.wiring import log_into
-from kiosk.settings import Settings
+from kiosk.cli.composition import log_into
+from kiosk.config import Settings
 from kiosk.ui.app import App
-from kiosk.ui.rehearsing.hand import find, lay_out, middle
-from kiosk.ui.window import Mode
+from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
+from kiosk.ui.window import RunMode
 from tests.ui.headless import headless
 
 CARDS = 24
@@ -41,12 +41,12 @@ def show_board(app: App) -> None:
     """Show a closed board that takes taps, and tell where its cards are."""
     app.screens.board.deal(4, 6, 12, "animals")
     app.screens.kiosk.show("game")
-    app.screens.kiosk.settle()
+    app.screens.kiosk.end_input_guard()
     app.screens.board.tapped.connect(lambda position: tell(tapped=app.screens.board.location(position)))
     lay_out(app.window)
-    cards = [find(app.window.contentItem(), f"card-{number}") for number in range(CARDS)]
+    cards = [find_item(app.window.contentItem(), f"card-{number}") for number in range(CARDS)]
     ratio = app.window.devicePixelRatio()
-    places = [middle(card) * ratio for card in cards if card is not None]
+    places = [item_centre(card) * ratio for card in cards if card is not None]
     _let_others_watch()
     tell(
         window=int(app.window.winId()),
@@ -110,7 +110,7 @@ TOUCHES: dict[str, Callable[[Fingers], None]] = {
 def main(data: Path) -> None:
     """Open the kiosk until its standard input ends."""
     settings = Settings.model_validate({"voice": {"enabled": False, "sounds": False}})
-    with headless(settings, data, mode=Mode()) as app:
+    with headless(settings, data, mode=RunMode()) as app:
         log_into(data)
         fingers = Fingers(app)
 

@@ -9,7 +9,7 @@ Column {
     required property string title
     required property var options
     required property string chosen
-    required property string deed
+    required property string action
     signal picked(string value)
 
     spacing: 8 * Theme.unit
@@ -29,7 +29,7 @@ Column {
             model: choice.options
             delegate: PanelButton {
                 required property var modelData
-                objectName: choice.deed + "-" + modelData.value
+                objectName: choice.action + "-" + modelData.value
                 words: modelData.label
                 chosen: modelData.value === choice.chosen
                 choosable: true

@@ -14,17 +14,17 @@ PanelSection {
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
 
-    title: words["desk-counts"]
+    title: words["console-counts"]
 
     Row {
         PlainText { width: counts.first; text: " "; font.pixelSize: Theme.dense }
-        PanelCell { width: counts.second; words: counts.words["desk-counts-done"]; heading: true }
+        PanelCell { width: counts.second; words: counts.words["console-counts-done"]; heading: true }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
                 required property string modelData
                 width: counts.other
-                words: counts.words["desk-counts-" + modelData]
+                words: counts.words["console-counts-" + modelData]
                 heading: true
                 number: true
             }
@@ -62,7 +62,7 @@ PanelSection {
                     id: done
                     x: parent.width * 0.56
                     text: cell.modelData.done
-                    Accessible.name: `${text} ${counts.words["desk-counts-done"]}`
+                    Accessible.name: `${text} ${counts.words["console-counts-done"]}`
                     font.pixelSize: Theme.dense
                     color: Theme.ink
                 }
@@ -74,7 +74,7 @@ PanelSection {
                     required property string modelData
                     width: counts.other
                     words: modelData
-                    column: counts.words["desk-counts-" + counts.columns[index]]
+                    column: counts.words["console-counts-" + counts.columns[index]]
                     number: true
                 }
             }

@@ -1,11 +1,11 @@
-// What can be done: at once, or from the next sitting on.
+// What can be done: at once, or from the next session on.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
 import ".."
 
 Column {
-    id: deeds
+    id: actions
 
     required property PanelScreen panel
     required property real space
@@ -16,87 +16,87 @@ Column {
 
     PanelSection {
         width: parent.width
-        title: deeds.words["desk-next-sitting"]
+        title: actions.words["console-next-session"]
         PanelChoice {
             width: parent.width
-            deed: "condition"
-            title: deeds.words["desk-condition"]
-            options: deeds.choices.conditions
-            chosen: deeds.choices.condition
-            onPicked: value => deeds.panel.wish("condition", value)
+            action: "condition"
+            title: actions.words["console-condition"]
+            options: actions.choices.conditions
+            chosen: actions.choices.condition
+            onPicked: value => actions.panel.wish("condition", value)
         }
         PanelChoice {
             width: parent.width
-            deed: "body"
-            title: deeds.words["desk-body"]
-            options: deeds.choices.bodies
-            chosen: deeds.choices.body
-            onPicked: value => deeds.panel.wish("body", value)
+            action: "body"
+            title: actions.words["console-body"]
+            options: actions.choices.embodiments
+            chosen: actions.choices.body
+            onPicked: value => actions.panel.wish("body", value)
         }
         PanelChoice {
             width: parent.width
-            deed: "language"
-            title: deeds.words["desk-language"]
-            options: deeds.choices.languages
-            chosen: deeds.choices.language
-            onPicked: value => deeds.panel.wish("language", value)
+            action: "language"
+            title: actions.words["console-language"]
+            options: actions.choices.languages
+            chosen: actions.choices.language
+            onPicked: value => actions.panel.wish("language", value)
         }
         PanelChoice {
             width: parent.width
-            deed: "volume"
-            title: deeds.words["desk-volume"]
-            options: deeds.choices.volumes
-            chosen: deeds.choices.volume
-            onPicked: value => deeds.panel.wish("volume", value)
+            action: "volume"
+            title: actions.words["console-volume"]
+            options: actions.choices.volumes
+            chosen: actions.choices.volume
+            onPicked: value => actions.panel.wish("volume", value)
         }
     }
     PanelSection {
         width: parent.width
-        title: deeds.words["desk-now"]
+        title: actions.words["console-now"]
         Flow {
             width: parent.width
             spacing: 9 * Theme.unit
             PanelButton {
-                objectName: "deed-quiet"
-                words: deeds.choices.quiet ? deeds.words["desk-heard"] : deeds.words["desk-quiet"]
-                chosen: deeds.choices.quiet
-                onClicked: deeds.panel.wish("quiet", "")
+                objectName: "action-quiet"
+                words: actions.choices.quiet ? actions.words["console-heard"] : actions.words["console-quiet"]
+                chosen: actions.choices.quiet
+                onClicked: actions.panel.wish("quiet", "")
             }
             PanelButton {
-                objectName: "deed-again"
-                visible: deeds.choices.underWay
-                words: deeds.words["desk-again"]
-                onClicked: deeds.panel.wish("again", "")
+                objectName: "action-again"
+                visible: actions.choices.underWay
+                words: actions.words["console-again"]
+                onClicked: actions.panel.wish("again", "")
             }
             PanelButton {
-                objectName: "deed-pause"
-                visible: deeds.choices.underWay
-                words: deeds.choices.staysPaused ? deeds.words["desk-not-stay-paused"] : deeds.words["desk-stay-paused"]
-                chosen: deeds.choices.staysPaused
-                onClicked: deeds.panel.wish("pause", "")
+                objectName: "action-pause"
+                visible: actions.choices.underWay
+                words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
+                chosen: actions.choices.staysPaused
+                onClicked: actions.panel.wish("pause", "")
             }
             PanelButton {
-                objectName: "deed-end"
-                visible: deeds.choices.underWay
-                words: deeds.words["desk-end"]
-                onClicked: deeds.panel.wish("end", "")
+                objectName: "action-end"
+                visible: actions.choices.underWay
+                words: actions.words["console-end"]
+                onClicked: actions.panel.wish("end", "")
             }
             PanelButton {
-                objectName: "deed-next"
-                visible: deeds.choices.canBeNext
-                words: deeds.words["desk-next"]
-                onClicked: deeds.panel.wish("next", "")
+                objectName: "action-next"
+                visible: actions.choices.canBeNext
+                words: actions.words["console-next"]
+                onClicked: actions.panel.wish("next", "")
             }
             PanelButton {
-                objectName: "deed-backup"
-                enabled: deeds.choices.backup === ""
-                words: deeds.words["desk-backup"] + (enabled ? "" : ": " + deeds.choices.backup)
-                onClicked: deeds.panel.wish("backup", "")
+                objectName: "action-backup"
+                enabled: actions.choices.backup === ""
+                words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
+                onClicked: actions.panel.wish("backup", "")
             }
             PanelButton {
-                objectName: "deed-leave"
-                words: deeds.words["desk-leave"]
-                onClicked: deeds.panel.wish("leave", "")
+                objectName: "action-leave"
+                words: actions.words["console-leave"]
+                onClicked: actions.panel.wish("leave", "")
             }
         }
     }

@@ -1,4 +1,4 @@
-// All of the experimenter: the chords, the card that asks, the note at the edge, and the panel over everything.
+// All of the experimenter: the shortcuts, the card that asks, the note at the edge, and the panel over everything.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQml
@@ -11,14 +11,14 @@ Item {
     required property ExperimenterScreen experimenter
 
     Instantiator {
-        model: desk.experimenter.chords
+        model: desk.experimenter.shortcuts
         delegate: Shortcut {
-            id: chord
+            id: shortcut
             required property var modelData
-            sequence: chord.modelData.chord
+            sequence: shortcut.modelData.shortcut
             context: Qt.ApplicationShortcut
             autoRepeat: false
-            onActivated: desk.experimenter.press(chord.modelData.deed)
+            onActivated: desk.experimenter.press(shortcut.modelData.action)
         }
     }
     Loader {

@@ -1,4 +1,4 @@
-// The sittings that were cut off and can go on.
+// The sessions that were cut off and can go on.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -9,10 +9,10 @@ PanelSection {
 
     required property PanelScreen panel
 
-    title: panel.words["desk-resume"]
+    title: panel.words["console-resume"]
 
     PanelEmpty {
-        words: resume.panel.words["desk-resume-none"]
+        words: resume.panel.words["console-resume-none"]
         visible: resume.panel.records.resumable.length === 0
     }
     Flow {

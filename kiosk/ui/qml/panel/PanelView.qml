@@ -25,19 +25,19 @@ FocusScope {
     Item {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        height: Math.max(close.height, title.height, sitting.height)
+        height: Math.max(close.height, title.height, session.height)
 
         PlainText {
             id: title
             anchors.verticalCenter: parent.verticalCenter
-            text: view.words["desk-title"]
+            text: view.words["console-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
         }
         PlainText {
-            id: sitting
+            id: session
             anchors { left: title.right; right: close.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
-            text: view.panel.choices.sitting
+            text: view.panel.choices.session
             font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
@@ -46,7 +46,7 @@ FocusScope {
             id: close
             objectName: "panel-close"
             anchors.right: parent.right
-            words: view.words["desk-close"]
+            words: view.words["console-close"]
             focus: true
             onClicked: view.panel.wish("panel", "")
         }
@@ -103,7 +103,7 @@ FocusScope {
                 spacing: view.space
                 PanelSection {
                     width: parent.width
-                    title: view.words["desk-health"]
+                    title: view.words["console-health"]
                     Repeater {
                         model: view.panel.health.lines
                         delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
@@ -121,12 +121,12 @@ FocusScope {
                 width: view.wide ? content.width * 0.41 : content.width
                 spacing: view.space
                 PanelCounts { width: parent.width; words: view.words; records: view.panel.records }
-                PanelSittings { width: parent.width; words: view.words; records: view.panel.records }
+                PanelSessions { width: parent.width; words: view.words; records: view.panel.records }
                 PanelSection {
                     width: parent.width
-                    title: view.words["desk-deviations"]
+                    title: view.words["console-deviations"]
                     PanelEmpty {
-                        words: view.words["desk-deviations-none"]
+                        words: view.words["console-deviations-none"]
                         visible: view.panel.records.deviations.length === 0
                     }
                     Repeater {
@@ -153,7 +153,7 @@ FocusScope {
     PlainText {
         id: foot
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; margins: view.space }
-        text: view.words["desk-keys"]
+        text: view.words["console-keys"]
         font.pixelSize: Theme.denser
         color: Theme.faintInk
         wrapMode: Text.Wrap

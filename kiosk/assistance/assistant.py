@@ -1,0 +1,318 @@
+"""Both layers together: one decision before every flip, learnt from and explained."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from random import Random
+from typing import Any, Protocol
+
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
+from kiosk.assistance.policy import Action, FlipInMove, Gate, GateDecision, Phase, QTable, State
+from kiosk.game import Board, Concentration, IllegalFlip, Position
+
+
+class Policy(Protocol):
+    """What an assistant asks how much to help: a table, frozen or not, and the gate before it."""
+
+    @property
+    def gate(self) -> Gate:
+        """When the table is asked at all."""
+        ...
+
+    def row(self, state: State) -> tuple[float, ...]:
+        """The four action values of a state."""
+        ...
+
+    def action(self, state: State) -> Action:
+        """The action to take in a state."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What was decided before a flip, and from what: state, gate, row of the table, action, and the hint if any."""
+
+    state: State
+    gate_decision: GateDecision
+    q: tuple[float, ...]
+    action: Action
+    hint: Hint | None
+
+
+def decide(
+    game: Concentration,
+    last: Action,
+    policy: Policy,
+    point: Callable[[Concentration], Target],
+    override: Action | None = None,
+) -> Decision:
+    """The decision before the coming flip of ``game``, after ``last``; ``point`` is asked only if there is a hint.
+
+    ``override`` is taken instead of the action that gate and table come to.
+    """
+    state, verdict = State.of(game, last), policy.gate.decide(game)
+    action = override
+    if action is None:
+        action = policy.action(state) if verdict.is_open else Action.NO_HELP
+    hint = None
+    if action is not Action.NO_HELP:
+        target = point(game)
+        hint = Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
+    return Decision(state, verdict, policy.row(state), action, hint)
+
+
+class Assistant:
+    """Decides the help for one game; it remembers only its own last action."""
+
+    def __init__(self, policy: Policy, mentaliser: Mentaliser) -> None:
+        """Take a table, whose gate it obeys, and a mentaliser, whose condition it does not know."""
+        self._policy = policy
+        self._mentaliser = mentaliser
+        self._last = Action.NO_HELP
+
+    def decide(self, game: Concentration) -> Decision:
+        """Decide how much to help with the coming flip of ``game``, and where to point; the game must not be over."""
+        decision = decide(game, self._last, self._policy, self._mentaliser.target)
+        self._last = decision.action
+        return decision
+
+    def finish(self, game: Concentration) -> str | None:  # noqa: ARG002 - for those that learn
+        """Close a game that is over; the sha256 of the table as it came out, or None where nothing is ever learnt."""
+        return None
+
+
+class HintWording(Protocol):
+    """Whoever knows all that can be said with a hint."""
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
+        """All the sentences that there are for one hint."""
+        ...
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """One decision with everything around it.
+
+    ``candidates`` are all cards the target rule could choose before this flip; they do not depend on the action, so
+    they are there when no help is given as well. They are empty where nobody helps. ``said`` is the sentence that
+    was said, where the moment is one that has been.
+    """
+
+    board: Board
+    decision: Decision
+    candidates: tuple[Position, ...]
+    sentences: tuple[str, ...]
+    overridden: bool = False
+    spoken: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """The explanation as JSON values: locations from 0 row by row, rows and columns from 1.
+
+        Without a hint ``target``, ``counts`` and ``reason`` are null. ``overridden`` is there only when the action
+        was not left to gate and table, ``said`` only when it is known.
+        """
+        decision = self.decision
+        return {
+            "state": {part: getattr(decision.state, part).name.lower() for part in ("game", "last", "outcome")}
+            | {"index": decision.state.index},
+            "gate": {"open": decision.gate_decision.is_open, "reason": decision.gate_decision.value},
+            "q": {action.label: value for action, value in zip(Action, decision.q, strict=True)},
+            "action": decision.action.label,
+            **({"overridden": True} if self.overridden else {}),
+            **self._pointing(decision.hint),
+            "targets": [self.board.location(position) for position in self.candidates],
+            "sentences": list(self.sentences),
+            **({"said": self.spoken} if self.spoken else {}),
+        }
+
+    def _pointing(self, hint: Hint | None) -> dict[str, Any]:
+        if hint is None:
+            return {"target": None, "counts": None, "reason": None}
+        position = hint.target.position
+        return {
+            "target": {
+                "location": self.board.location(position),
+                "row": position.row + 1,
+                "column": position.column + 1,
+                "card": hint.name,
+            },
+            "counts": {"target": hint.target.seen, "other": hint.target.mate_seen},
+            "reason": hint.target.reason.value,
+        }
+
+
+def explain_decision(
+    game: Concentration,
+    decision: Decision,
+    mentaliser: Mentaliser | None,
+    speaker: HintWording | None,
+    *,
+    overridden: bool = False,
+) -> Explanation:
+    """Lay open a decision about the coming flip of ``game``; without a mentaliser and a speaker nobody helps."""
+    candidates = mentaliser.candidates(game) if mentaliser else ()
+    sentences = speaker.all_wordings(decision.hint) if speaker and decision.hint else ()
+    return Explanation(game.board, decision, candidates, sentences, overridden)
+
+
+def game_after(board: Board, flips: Iterable[Position]) -> Concentration:
+    """The game after these flips, ready for the next one: unmatched cards have turned back.
+
+    Raises BadInput, naming the flip by its number, if the rules do not allow it or nothing is left to flip.
+    """
+    game = Concentration(board)
+    for number, position in enumerate(flips, 1):
+        try:
+            game.flip(position)
+        except IllegalFlip as refusal:
+            raise UserInputError(f"flip {number} (location {board.location(position)}): {refusal}") from refusal
+        game.turn_back()
+    if game.over:
+        raise UserInputError(f"the game is finished after {game.flips} flips, so there is no next flip to help with")
+    return game
+
+
+GAMMA = 0.8
+"""How much less a payment is worth for every flip that it comes later; as in training."""
+RATE = 0.1
+"""How far a value moves towards one sample, as long as that is less than a step."""
+COST = 5
+"""One hint costs a share (COST - g) / (2 nf) of the match, with g = 3, 2, 1 by phase; as in training."""
+
+
+@dataclass(frozen=True, slots=True)
+class UpcomingFlip:
+    """A flip that is about to be made: ``nf`` counts the flips since the last match, this one included.
+
+    ``before`` is the help with the flip before it, ``action`` the help with this one.
+    """
+
+    before: Action
+    action: Action
+    nf: int
+    phase: Phase
+
+    def value(self, *, matched: bool) -> float:
+        """The reward "retrieval": how much of a match was the player's own. A first card never matches."""
+        if not matched:
+            return 0.0
+        hints = sum(action is not Action.NO_HELP for action in (self.before, self.action))
+        if hints == 0:
+            return 1.0
+        if self.action is Action.SUG_CARD or hints > 1:
+            return 0.0
+        return 1 - (COST - (len(Phase) - self.phase)) / (2 * self.nf)
+
+
+class LearningTable:
+    """A frozen table's values and gate, and a way to move the values by at most ``step``."""
+
+    def __init__(self, frozen: QTable, step: float) -> None:
+        """Start from ``frozen``; raises ValueError for a step below 0."""
+        if step < 0:
+            raise ValueError(f"the step of an adaptive table must be 0 or more, not {step}")
+        self._frozen = frozen
+        self._step = step
+        self._values = [list(row) for row in frozen.values]
+
+    @property
+    def gate(self) -> Gate:
+        """The gate of the frozen table."""
+        return self._frozen.gate
+
+    def row(self, state: State) -> tuple[float, ...]:
+        """The four action values of a state, as they are now."""
+        return tuple(self._values[state.index])
+
+    def action(self, state: State) -> Action:
+        """The greedy action; ties go to the lowest, which helps least."""
+        row = self.row(state)
+        return Action(row.index(max(row)))
+
+    def learn(self, state: State, action: Action, sample: float) -> None:
+        """Move one value towards a sample, by no more than a step."""
+        wish = RATE * (sample - self._values[state.index][action])
+        self._values[state.index][action] += max(-self._step, min(self._step, wish))
+
+    def frozen(self) -> QTable:
+        """The table as it is now; unless something was learnt, it is the one that it began as, to the sha256."""
+        return QTable.freeze(self._frozen.name, self.gate, self._values, self._frozen.training)
+
+
+@dataclass(slots=True)
+class _Pending:
+    """A decision that is still being paid for, flip by flip."""
+
+    state: State
+    action: Action
+    paid: float = 0.0
+    weight: float = 1.0
+
+    def pay(self, worth: float) -> None:
+        """Add what one more flip was worth."""
+        self.paid += self.weight * worth
+        self.weight *= GAMMA
+
+
+class LearningAssistant(Assistant):
+    """An assistant whose table learns, at each decision, from what the one before it came to."""
+
+    def __init__(self, policy: QTable, mentaliser: Mentaliser, step: float) -> None:
+        """Start from the frozen table ``policy``; ``step`` bounds every change of a value."""
+        self.table = LearningTable(policy, step)
+        super().__init__(self.table, mentaliser)
+        self._coming: UpcomingFlip | None = None
+        self._pending: _Pending | None = None
+
+    def decide(self, game: Concentration) -> Decision:
+        """Learn from the flip that was made since the last decision, then decide about the coming one."""
+        self._collect(game)
+        if self.table.gate.decide(game).is_open:
+            self._learn(max(self.table.row(State.of(game, self._last))))
+        decision = super().decide(game)
+        if decision.gate_decision.is_open:
+            self._pending = _Pending(decision.state, decision.action)
+        nf = game.flips_since_match + 1
+        self._coming = UpcomingFlip(decision.state.last, decision.action, nf, decision.state.game)
+        return decision
+
+    def finish(self, game: Concentration) -> str:
+        """Learn from the last flip of a game that is over; the sha256 of the table as it came out."""
+        self._collect(game)
+        self._learn(0.0)
+        return self.table.frozen().sha256
+
+    def _collect(self, game: Concentration) -> None:
+        """Pay for the flip that was made since the last decision."""
+        if self._coming is not None and self._pending is not None:
+            self._pending.pay(self._coming.value(matched=game.last_match == game.flips))
+        self._coming = None
+
+    def _learn(self, to_come: float) -> None:
+        """Close the account of the pending decision; ``to_come`` is what the state reached is worth."""
+        if self._pending is not None:
+            pending, self._pending = self._pending, None
+            self.table.learn(pending.state, pending.action, pending.paid + pending.weight * to_come)
+
+
+def assistant_with(policy: QTable, mentaliser: Mentaliser, step: float) -> Assistant:
+    """An assistant whose table stays as it is, or, with a step above 0, goes on learning."""
+    return LearningAssistant(policy, mentaliser, step) if step else Assistant(policy, mentaliser)
+
+
+def table_before_flip(policy: QTable, step: float, game: Concentration, flips: Iterable[Position]) -> Policy:
+    """The table as it stood when the flip after ``flips`` was decided; ``game`` is a new one, and is played.
+
+    Where the hints pointed does not matter here: only how much help there was, and what came of it, is learnt from.
+    """
+    if not step:
+        return policy
+    assistant = LearningAssistant(policy, Mentaliser(TargetRule.RANDOM, Random(0)), step)
+    for position in flips:
+        assistant.decide(game)
+        game.flip(position)
+        game.turn_back()
+    assistant.decide(game)
+    return assistant.table

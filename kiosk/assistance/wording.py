@@ -1,0 +1,292 @@
+"""The sentences of a language, and how a hint is put into words."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+from pathlib import Path
+from random import Random
+
+from fluent.runtime import FluentBundle, FluentResource
+from fluent.runtime.resolver import Pattern
+from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
+
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import Hint
+from kiosk.assistance.policy import Action
+from kiosk.config import ASSETS, read_text
+from kiosk.language_codes import babel_codes, standard
+
+_log = logging.getLogger(__name__)
+
+CARD = "card"
+"""The variable that is a card's name, and what the messages of cards begin with."""
+
+
+class Catalogue:
+    """All messages of one language: the ``*.ftl`` files of one folder, kept as text in ``sources`` by file name."""
+
+    def __init__(
+        self, folder: Path, sources: Mapping[str, str] | None = None, files: Mapping[str, Path] | None = None
+    ) -> None:
+        """Read the folder, or take ``sources`` for what once stood in it; ``files`` names those that lie elsewhere.
+
+        Raises BadInput if there are no messages, or a file cannot be read or is not well-formed.
+        """
+        try:
+            self.language = standard(folder.name)
+        except ValueError as error:
+            raise UserInputError(f"the folder of sentences {folder}: {error}") from error
+        self.sources = dict(sources_in(folder) if sources is None else sources)
+        self.written: dict[str, Written] = {}
+        # The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
+        self._bundle = FluentBundle(babel_codes(self.language), use_isolating=False)
+        self._forms: set[str] = set()
+        self._next: tuple[Catalogue, ...] = ()
+        self._warned: set[str] = set()
+        for name, source in sorted(self.sources.items()):
+            resource = FluentResource(source)
+            for entry in resource.body:
+                self._check(entry, (files or {}).get(name, folder / name), source)
+            self._bundle.add_resource(resource)
+
+    def _check(self, entry: EntryType, file: Path, source: str) -> None:
+        """Refuse what is no message, and what Fluent would pass over in silence."""
+        if isinstance(entry, Junk):
+            raise UserInputError(f"{file} is not well-formed near: {str(entry.content).strip().splitlines()[0]}")
+        if not isinstance(entry, Message | Term):
+            return
+        name = entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
+        if name in self.written:
+            raise UserInputError(f"{file}: the message {name} stands twice")
+        self.written[name] = Written(entry, file, source)
+        if name.startswith(f"{CARD}-"):
+            self._forms |= {attribute.id.name for attribute in entry.attributes}
+
+    def followed_by(self, others: Iterable[Catalogue]) -> None:
+        """Name the catalogues that speak where this one cannot, in turn; the shipped English one is always the last."""
+        self._next = tuple(others)
+
+    def text(self, message: str, **variables: str | int) -> str:
+        """The message with its variables filled in, or that of the next language that can say it.
+
+        A message or a variable that the shipped English one does not know either is our mistake and raises.
+        """
+        for catalogue in self._in_turn():
+            said = catalogue._text(message, variables)
+            if said is not None:
+                return said
+            self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
+        raise KeyError(self._why_not(message, variables))
+
+    def wordings(self, message: str, **variables: str | int) -> tuple[str, ...]:
+        """Every wording of a message that has several, or those of the next language that has one."""
+        for catalogue in self._in_turn():
+            said = catalogue._wordings(message, variables)
+            if said:
+                return said
+            self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
+        raise KeyError(self._why_not(message, variables))
+
+    def card(self, name: str) -> dict[str, str]:
+        """What a sentence may say of a card: ``$card``, its name, and ``$card-<form>`` for every form there is.
+
+        A card that the catalogue does not know goes by its file's name in every form; sentences about a deck that
+        nobody has translated yet are clumsy, but nobody is left without help.
+        """
+        if not self.names(name):
+            self._warn(f"{CARD}-{name}", f"the card {name!r} has no name in {self.language!r}; its file's name is said")
+        return self.forms_of(name)
+
+    def names(self, card: str) -> bool:
+        """Whether it has a name for a card."""
+        return self._text(f"{CARD}-{card}", {}) is not None
+
+    @property
+    def forms(self) -> tuple[str, ...]:
+        """The variables that stand for a card: its name, and every form that some card has."""
+        return (CARD, *(f"{CARD}-{form}" for form in sorted(self._forms)))
+
+    def forms_of(self, name: str) -> dict[str, str]:
+        """All forms of a card; a form that it lacks is its name, and a name that it lacks is its file's."""
+        message = f"{CARD}-{name}"
+        called = self._text(message, {})
+        if called is None:
+            return dict.fromkeys(self.forms, name)
+        attributes = self._bundle.get_message(message).attributes
+        told = {f"{CARD}-{form}": self._format(pattern, {}) for form, pattern in attributes.items()}
+        return dict.fromkeys(self.forms, called) | {form: text for form, text in told.items() if text is not None}
+
+    @property
+    def messages(self) -> frozenset[str]:
+        """The names of all messages."""
+        return frozenset(name for name in self.written if not name.startswith("-"))
+
+    def __contains__(self, message: str) -> bool:
+        """Whether there is such a message."""
+        return self._bundle.has_message(message)
+
+    def _in_turn(self) -> Iterator[Catalogue]:
+        yield self
+        yield from self._next
+        yield _english()
+
+    def _why_not(self, message: str, variables: Mapping[str, str | int]) -> str:
+        why = self.fault(message, variables) if message in self else "there is no such message"
+        return f"{self.language}: the message {message} cannot be filled in: {why or 'it is of another form'}"
+
+    def _warn(self, message: str, words: str) -> None:
+        """Log what is missing, once for each message."""
+        if message not in self._warned:
+            self._warned.add(message)
+            _log.warning("%s", words)
+
+    def _text(self, message: str, variables: Mapping[str, str | int]) -> str | None:
+        """The message, or None if it cannot be said."""
+        pattern = self._bundle.get_message(message).value if message in self else None
+        return None if pattern is None else self._format(pattern, variables)
+
+    def _wordings(self, message: str, variables: Mapping[str, str | int]) -> tuple[str, ...]:
+        """The wordings of a message that can be said."""
+        attributes = self._bundle.get_message(message).attributes if message in self else {}
+        formed = (self._format(attributes[name], variables) for name in sorted(attributes))
+        said = tuple(text for text in formed if text is not None)
+        if 0 < len(said) < len(attributes):
+            self._warn(message, f"a wording of the message {message!r} cannot be said in {self.language!r}")
+        return said
+
+    def _format(self, pattern: Pattern, variables: Mapping[str, str | int]) -> str | None:
+        try:
+            text, errors = self._bundle.format_pattern(pattern, dict(variables))
+        except Exception:  # noqa: BLE001 - whatever a library raises, the next language speaks
+            return None
+        return None if errors else str(text)
+
+    def fault(self, message: str, variables: Mapping[str, str | int]) -> str | None:
+        """Say why a message, or a wording of it, cannot be formed with these variables; None if it can."""
+        formed = self._bundle.get_message(message)
+        for pattern in (formed.value, *formed.attributes.values()):
+            if pattern is None:
+                continue
+            try:
+                _, errors = self._bundle.format_pattern(pattern, dict(variables))
+            except Exception as error:  # noqa: BLE001 - any error is reported
+                errors = [error]
+            if errors:
+                return str(errors[0]) or type(errors[0]).__name__
+        return None
+
+
+@dataclass(frozen=True)
+class Written:
+    """A message or a term as it is written, and where."""
+
+    entry: Message | Term
+    file: Path
+    source: str
+
+    def line(self, node: SyntaxNode) -> int:
+        """The line in which a part of it begins, counted from 1."""
+        return self.source.count("\n", 0, node.span.start if node.span else 0) + 1
+
+
+@cache
+def _english() -> Catalogue:
+    """The catalogue that can say everything."""
+    return Catalogue(ASSETS / "sentences" / "en")
+
+
+def sources_in(folder: Path) -> dict[str, str]:
+    """Read the text of every file of sentences in a folder; raises BadInput."""
+    files = sorted(folder.glob("*.ftl"))
+    if not files:
+        raise UserInputError(f"there are no sentences for the language {folder.name!r} in {folder}")
+    return {file.name: read_text(f"the file {file}", file) for file in files}
+
+
+class Wording:
+    """Chooses among the wordings of a message, never the same one twice running.
+
+    Every message has its own stream of chance, drawn from ``rng`` once: a condition that also gives reasons says the
+    rest in the same words, at the same seed, as one that does not.
+    """
+
+    def __init__(self, catalogue: Catalogue, rng: Random) -> None:
+        """Speak from one language's catalogue."""
+        self.catalogue = catalogue
+        self._seed = rng.getrandbits(64)
+        self._chance: dict[str, Random] = {}
+        self._last: dict[str, int] = {}
+
+    def say(self, message: str, **variables: str | int) -> str:
+        """One wording of the message."""
+        wordings = self.catalogue.wordings(message, **variables)
+        fresh = [index for index in range(len(wordings)) if index != self._last.get(message)] or [0]
+        chance = self._chance.setdefault(message, Random(f"{self._seed}/{message}"))
+        self._last[message] = chance.choice(fresh)
+        return wordings[self._last[message]]
+
+
+class PlainSentences:
+    """Says where, and gives no reason."""
+
+    def __init__(self, wording: Wording) -> None:
+        """Speak with this wording."""
+        self._wording = wording
+
+    def sentence(self, hint: Hint) -> str:
+        """What is said with a hint; it names no more of the place than the action gives away."""
+        return self._wording.say(pointing(hint), **place(hint))
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
+        """All that could be said with a hint."""
+        return self._wording.catalogue.wordings(pointing(hint), **place(hint))
+
+
+class ReasonedSentences(PlainSentences):
+    """Says first what this player's history gives as the reason, then where."""
+
+    def sentence(self, hint: Hint) -> str:
+        """What is said with a hint: the reason, then the place."""
+        card = self._wording.catalogue.card(hint.name)
+        return f"{self._wording.say(reasoning(hint), **card)} {super().sentence(hint)}"
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
+        """All that could be said with a hint: every reason with every place."""
+        catalogue = self._wording.catalogue
+        reasons = catalogue.wordings(reasoning(hint), **catalogue.card(hint.name))
+        return tuple(f"{reason} {where}" for reason, where in product(reasons, super().all_wordings(hint)))
+
+
+def reasoning(hint: Hint) -> str:
+    """The message that gives a hint's reason."""
+    return f"reason-{hint.card.value}-{hint.target.reason.value}"
+
+
+def pointing(hint: Hint) -> str:
+    """The message that says where a hint points."""
+    return f"point-{hint.card.value}-{_PRECISION[hint.action]}"
+
+
+def place(hint: Hint) -> dict[str, str | int]:
+    """The rows and columns that a hint gives away, counted from 1 as people do."""
+    given = {"row": hint.row, "column": hint.column}
+    return {name: number + 1 for name, number in given.items() if number is not None}
+
+
+_PRECISION = {Action.SUG_COL: "column", Action.SUG_ROW: "row", Action.SUG_CARD: "card"}
+
+
+def given_with(message: str) -> frozenset[str] | None:
+    """Name the variables that a message of a hint is given, ``card`` for all of its forms; None for other messages."""
+    if message.startswith("reason-"):
+        return frozenset({CARD})
+    if message.startswith("point-"):
+        return _PLACES.get(message.rpartition("-")[2])
+    return None
+
+
+_PLACES = {"column": frozenset({"column"}), "row": frozenset({"row"}), "card": frozenset({"row", "column"})}

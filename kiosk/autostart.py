@@ -1,0 +1,65 @@
+"""Check what restarts the kiosk: a running supervisor, an enabled service, or the desktop's autostart."""
+
+from __future__ import annotations
+
+import getpass
+import shutil
+import subprocess
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import psutil
+
+from kiosk.preflight import CheckResult
+
+WHAT = "kept up"
+
+SERVICES = (("--user", "recollect.service"), ("--system", "recollect-cage@{user}.service"))
+AUTOSTART = Path(".config", "autostart")
+
+_ANSWER_S = 1.5
+
+
+def autostart_check() -> Iterator[CheckResult]:
+    """Whether the kiosk is started again when it dies, and comes up with the machine."""
+    keepers = [*(("a supervisor runs",) if supervisor_runs() else ()), *(f"{name} is enabled" for name in enabled())]
+    if keepers:
+        yield CheckResult.good(WHAT, ", ".join(keepers))
+    else:
+        remedy = "open it with 'recollect keep', or enable the service (packaging/README.md)"
+        yield CheckResult.warning(WHAT, "nobody starts the kiosk again if it dies or hangs", remedy)
+
+
+def supervisor_runs() -> bool:
+    """Whether a supervisor is among the programs of this machine."""
+    return any(is_supervisor(process.info["cmdline"] or ()) for process in psutil.process_iter(["cmdline"]))
+
+
+def is_supervisor(command: Sequence[str]) -> bool:
+    """Whether a command line is a supervisor's: ``recollect keep``, or ``python -m kiosk keep``."""
+    try:
+        ours = command[command.index("keep") - 1]
+    except ValueError:
+        return False
+    return ours == "kiosk" or Path(ours).stem == "recollect"
+
+
+def enabled() -> Iterator[str]:
+    """The services and desktop files that open the kiosk with the machine, or with its user's session."""
+    systemctl = shutil.which("systemctl")
+    for manager, name in SERVICES if systemctl else ():
+        service = name.format(user=getpass.getuser())
+        if _answers(str(systemctl), manager, "is-enabled", "--quiet", service):
+            yield service
+    for file in (Path.home() / AUTOSTART).glob("recollect*.desktop"):
+        yield file.name
+
+
+def _answers(*command: str) -> bool:
+    try:
+        done = subprocess.run(  # noqa: S603 - the system's own program
+            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_ANSWER_S, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0

@@ -1,1 +1,0 @@
-"""Commands at a booth: opening and keeping the kiosk, checking and rehearsing it, and the processes it starts."""

@@ -1,0 +1,349 @@
+"""The command `check`: every preflight check with a remedy on each line."""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import Self
+
+import click
+import psutil
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from kiosk import UserInputError, __version__, program
+from kiosk.autostart import WHAT, autostart_check
+from kiosk.cli.composition import LOG, LOG_BYTES, LOGS_KEPT, code_commit, code_made, read_settings
+from kiosk.cli.options import (
+    ProgressCallback,
+    data_option,
+    json_option,
+    progress_bar,
+    robot_host_option,
+    robot_port_option,
+    site_option,
+    study_option,
+)
+from kiosk.config import Settings
+from kiosk.experiment.session_config import StudyConfig, kind_of
+from kiosk.preflight import Check, CheckResult, Severity
+from kiosk.robots import checks as robots_checks
+from kiosk.robots.tts_worker import player_command
+from kiosk.store import checks as store_checks
+from kiosk.store.database import in_use
+from kiosk.store.maintenance import FOLDER
+from kiosk.store.participants import checked_site
+from kiosk.study import loader
+from kiosk.study.loader import read_study
+from kiosk.ui.checks import DRAWN_S, READY_S, CannotDraw, run_check_process, undrawn
+from kiosk.units import MIB
+
+MACHINE, PROGRAM, LOGGED = "machine", "program", "log"
+
+LEAST_MIB = 400
+"""At rest, at 1080p, the kiosk, its voice, the supervisor and the splash window took 328 MiB, 174 of them theirs
+alone; a day adds nothing."""
+BUSY = 1.0
+"""Programs that wait for each processor, over the last five minutes; the kiosk itself needs 14 % of one."""
+
+SHORT_COMMIT = 8
+_DIRTY = "-dirty"
+
+
+@dataclass(frozen=True)
+class Load:
+    """What is left of the machine."""
+
+    free_mib: int
+    processors: int
+    waiting: float
+    """Programs that ran or waited for a processor, on average over five minutes."""
+
+    @classmethod
+    def now(cls) -> Self:
+        """As it is."""
+        _, waiting, _ = psutil.getloadavg()
+        return cls(psutil.virtual_memory().available // MIB, psutil.cpu_count() or 1, waiting)
+
+
+def machine_check(load: Load) -> Iterator[CheckResult]:
+    """Whether the kiosk will have the memory and the time that it needs."""
+    processors = "1 processor" if load.processors == 1 else f"{load.processors} processors"
+    words = f"{load.free_mib:,} MiB of memory are free; {processors}, {load.waiting:.1f} programs at work"
+    if load.free_mib < LEAST_MIB:
+        yield CheckResult.warning(MACHINE, words, f"end other programs: the kiosk needs {LEAST_MIB} MiB")
+    elif load.waiting > BUSY * load.processors:
+        yield CheckResult.warning(MACHINE, words, "end other programs: they take the time that frames and sounds need")
+    else:
+        yield CheckResult.good(MACHINE, words)
+
+
+def program_check(commit: str) -> Iterator[CheckResult]:
+    """Which Recollect this is; what was changed since its commit cannot be named in the data."""
+    words = f"{__version__}, {commit.removesuffix(_DIRTY)[:SHORT_COMMIT]}"
+    if commit.endswith(_DIRTY):
+        remedy = "commit the changes, or undo them, before people come: the data name the commit"
+        yield CheckResult.warning(PROGRAM, f"{words}, and changed since", remedy)
+    else:
+        yield CheckResult.good(PROGRAM, words)
+
+
+def log_check(folder: Path) -> Iterator[CheckResult]:
+    """Whether faults can be written down, and how much there is."""
+    file = folder / LOG
+    size = sum(each.stat().st_size for each in folder.glob(f"{LOG}*")) if folder.is_dir() else 0
+    if file.exists() and not os.access(file, os.W_OK):
+        yield CheckResult.bad(LOGGED, f"{file} cannot be written", "give it to the user who runs the kiosk")
+    elif size > LOG_BYTES * (LOGS_KEPT + 2):
+        words = f"{size / MIB:.1f} MiB; it should be renewed at {LOG_BYTES / MIB:.0f} MiB"
+        yield CheckResult.warning(LOGGED, words, f"look into {file}, then remove it while no kiosk is open")
+    else:
+        yield CheckResult.good(LOGGED, f"{size / MIB:.1f} MiB in {LOG}" if size else "nothing was logged yet")
+
+
+_TICK_S = 0.1
+_LATE = "start the machine again, if it stays so"
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of the probe of a number: what it found, or a fault of ours."""
+
+    number: int
+    found: tuple[CheckResult, ...]
+    fault: Exception | None = None
+
+
+def run_checks(probes: Sequence[Check], tell: ProgressCallback) -> tuple[CheckResult, ...]:
+    """What all probes find, in their order; a fault of ours is raised when all have had their time."""
+    begun = time.monotonic()
+    heard: queue.SimpleQueue[_Outcome] = queue.SimpleQueue()
+    for number, probe in enumerate(probes):
+        # A thread that hangs must not keep the program from ending.
+        threading.Thread(target=_look, args=(number, probe, heard), daemon=True).start()
+    outcomes: dict[int, _Outcome] = {}
+    while len(outcomes) < len(probes):
+        tell(len(outcomes))
+        try:
+            outcome = heard.get(timeout=_TICK_S)
+            outcomes.setdefault(outcome.number, outcome)
+        except queue.Empty:
+            outcomes |= _late(probes, outcomes, time.monotonic() - begun)
+    tell(len(outcomes))
+    for outcome in outcomes.values():
+        if outcome.fault is not None:
+            raise outcome.fault
+    return tuple(finding for number in range(len(probes)) for finding in outcomes[number].found)
+
+
+def _look(number: int, probe: Check, heard: queue.SimpleQueue[_Outcome]) -> None:
+    try:
+        heard.put(_Outcome(number, tuple(probe.look())))
+    except Exception as fault:  # noqa: BLE001 - it is raised again by whoever waits
+        heard.put(_Outcome(number, (), fault))
+
+
+def _late(probes: Sequence[Check], outcomes: dict[int, _Outcome], passed_s: float) -> dict[int, _Outcome]:
+    """What is said of probes whose time is over."""
+    over = ((n, probe) for n, probe in enumerate(probes) if n not in outcomes and passed_s > probe.within_s)
+    return {
+        number: _Outcome(
+            number, (CheckResult(probe.what, probe.late, f"no answer within {probe.within_s:g} s", _LATE),)
+        )
+        for number, probe in over
+    }
+
+
+_DISPLAY_S, _MARGIN_S = 14.0, 1.0
+PICTURES = "pictures"
+SENTENCE = "introduction-help"
+"""What every language has a sentence for."""
+
+
+@dataclass(frozen=True)
+class CheckTargets:
+    """What is to be looked at; without ``settings``, or ``study``, whatever needs them is left out."""
+
+    folder: Path
+    site: str
+    busy: bool
+    """Whether a kiosk is open on the folder: nothing may then take the card or the robot from it."""
+    file: Path | None
+    """The study file, if one was named."""
+    settings: Settings | None
+    study: StudyConfig | None
+    faults: tuple[str, ...]
+
+
+def all_checks(booth: CheckTargets) -> Iterator[Check]:
+    """Every look, in order."""
+    yield from _study(booth)
+    yield from _shown(booth)
+    yield from _heard(booth)
+    yield from _kept(booth)
+    yield from _machine(booth.folder)
+
+
+def _study(booth: CheckTargets) -> Iterator[Check]:
+    if booth.faults:
+        yield Check(loader.FILE, partial(loader.faults_check, booth.faults))
+    if booth.study is not None:
+        yield Check(loader.FILE, partial(loader.study_file_check, booth.study))
+        yield Check(loader.LANGUAGES, partial(loader.languages_check, booth.study))
+        yield Check(loader.POLICY, partial(loader.policy_check, booth.study))
+    if booth.settings is not None:
+        yield Check(loader.PIN, partial(loader.pin_check, booth.settings.experimenter))
+        yield Check(loader.KEYS, partial(loader.shortcuts_check, booth.settings.keys))
+
+
+def _shown(booth: CheckTargets) -> Iterator[Check]:
+    number = str(booth.settings.screen.number if booth.settings else 0)
+    remedy = "see that the session has a screen, and run this in it"
+    screens = partial(run_check_process, "screen", program("display", "screens", number), _DISPLAY_S, remedy)
+    yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.BAD)
+    if booth.study is not None and booth.study.own_pictures:
+        drawn = partial(found_pictures, booth.study.own_pictures)
+        yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.BAD)
+    remedy = "install Recollect anew, with the system's packages that packaging/README.md names"
+    study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
+    frame = partial(run_check_process, "drawing", program("display", "frame", *study), _DISPLAY_S, remedy)
+    yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.BAD)
+
+
+def found_pictures(files: Sequence[Path]) -> Iterator[CheckResult]:
+    """Draw the pictures that do not come with the program."""
+    try:
+        faults = tuple(undrawn(program("display", "pictures"), files))
+    except CannotDraw as error:
+        yield CheckResult.warning(PICTURES, f"they were not tried: {error}", "see what is said of the drawing")
+        return
+    yield from (CheckResult.bad(PICTURES, fault, "draw it anew, with plain shapes") for fault in faults)
+    if not faults:
+        yield CheckResult.good(PICTURES, f"{len(files)} of the study's own can be drawn")
+
+
+def _heard(booth: CheckTargets) -> Iterator[Check]:
+    settings = booth.settings
+    if settings is None:
+        return
+    yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, player_command(), busy=booth.busy))
+    if not settings.voice.enabled:
+        yield Check("voice", lambda: [CheckResult.good("voice", "switched off in the study file")])
+    elif booth.study is not None:
+        for plan in booth.study.plans:
+            command = program("voice", plan.language, str(settings.voice.rate), str(settings.voice.volume))
+            say = partial(robots_checks.voice_check, command, plan.language, plan.catalogue.text(SENTENCE))
+            yield Check(f"voice: {plan.language}", say, robots_checks.WITHIN_S + _MARGIN_S)
+    ask_robot = partial(robots_checks.robot_check, settings.robot, settings.language_codes, busy=booth.busy)
+    yield Check(robots_checks.ROBOT, ask_robot, robots_checks.within_s(settings.robot))
+
+
+def _kept(booth: CheckTargets) -> Iterator[Check]:
+    folder, busy, now = booth.folder, booth.busy, datetime.now().astimezone()
+    yield Check(store_checks.ROOM, partial(store_checks.free_space_check, folder), late=Severity.BAD)
+    yield Check(store_checks.FOLDER, partial(store_checks.access_check, folder), late=Severity.BAD)
+    yield Check(store_checks.WRITING, partial(store_checks.write_speed_check, folder), late=Severity.BAD)
+    yield Check(store_checks.DATABASE, partial(store_checks.database_check, folder, busy=busy), late=Severity.BAD)
+    yield Check(store_checks.SESSIONS, partial(store_checks.sessions_check, folder, busy=busy))
+    yield Check(store_checks.COPY, partial(store_checks.backup_check, folder, folder / FOLDER, now))
+    if booth.settings is not None and booth.study is not None:
+        kind = kind_of(booth.settings)
+        yield Check(
+            store_checks.LIST,
+            partial(store_checks.allocation_check, folder, booth.site, booth.settings.allocation, kind),
+        )
+        yield Check(store_checks.FORMS, partial(store_checks.forms, folder, booth.study.plans[0]))
+    yield Check(store_checks.WHAT, partial(store_checks.clock_check, folder, now, code_made()))
+
+
+def _machine(folder: Path) -> Iterator[Check]:
+    load = Load.now()
+    yield Check(MACHINE, partial(machine_check, load))
+    yield Check(PROGRAM, lambda: program_check(code_commit()))
+    yield Check(LOGGED, partial(log_check, folder))
+    yield Check(WHAT, autostart_check)
+
+
+NOT_READY = 1
+"""The exit code when no session can be held."""
+
+_MARKS = {Severity.GOOD: "yes", Severity.WARNING: "but", Severity.BAD: "NO"}
+_STYLES = {Severity.GOOD: "green", Severity.WARNING: "yellow", Severity.BAD: "bold red"}
+LEAST_WIDTH = 100
+
+
+@click.command()
+@data_option
+@study_option
+@site_option
+@robot_host_option
+@robot_port_option
+@json_option
+@click.pass_context
+def check_command(
+    context: click.Context,
+    data: Path,
+    study: Path | None,
+    site: str,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    as_json: bool,
+) -> None:
+    """Try everything that a booth needs; exit code 1 if no session can be held. Nothing is heard, shown or kept."""
+    booth = _booth(data, checked_site(site), study, robot_host, robot_port)
+    looks = tuple(all_checks(booth))
+    with progress_bar("looking", len(looks), hidden=as_json) as tell:
+        found = run_checks(looks, tell)
+    ready = all(finding.state is not Severity.BAD for finding in found)
+    if as_json:
+        rows = [asdict(finding) | {"state": finding.state.value} for finding in found]
+        click.echo(json.dumps({"ready": ready, "findings": rows}))
+    else:
+        _show(found, ready=ready)
+    if booth.faults:
+        raise UserInputError(*booth.faults)
+    context.exit(0 if ready else NOT_READY)
+
+
+def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int | None) -> CheckTargets:
+    """What is to be looked at; what is wrong with the study file is among it."""
+    if data.exists() and not data.is_dir():
+        raise UserInputError(f"the data folder {data} cannot be used: it is a file")
+    settings: Settings | None = None
+    study: StudyConfig | None = None
+    faults: tuple[str, ...] = ()
+    try:
+        settings = read_settings(file, host, port)
+        study = read_study(settings)
+    except UserInputError as refusal:
+        faults = refusal.sentences
+    return CheckTargets(data, site, in_use(data), file, settings, study, faults)
+
+
+def _show(found: tuple[CheckResult, ...], *, ready: bool) -> None:
+    console = Console()
+    console.width = max(console.width, LEAST_WIDTH)
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for finding in found:
+        style = _STYLES[finding.state]
+        words = finding.words if finding.well else f"{finding.words}\n-> {finding.remedy}"
+        table.add_row(f"[{style}]{_MARKS[finding.state]}[/]", finding.what, escape(words))
+    console.print(table)
+    bad, warnings = (sum(finding.state is state for finding in found) for state in (Severity.BAD, Severity.WARNING))
+    console.print(_verdict(bad, warnings, ready=ready))
+
+
+def _verdict(bad: int, warnings: int, *, ready: bool) -> str:
+    if not ready:
+        return f"No session can be held before what is marked {_MARKS[Severity.BAD]} is mended ({bad})."
+    return f"A session can be held; to see to: {warnings or 'nothing'}."

@@ -1,0 +1,173 @@
+"""Commands on the stored data: backup, verify, withdraw, merge, export."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from kiosk import StoreFailed
+from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset as write
+from kiosk.export.layouts import Bids, PsychDs
+from kiosk.store import maintenance as copies
+from kiosk.store import merge as merging
+from kiosk.store import verify as checking
+from kiosk.store import withdrawal as withdrawing
+from kiosk.store.verify import Flaw, Verification
+
+SOMETHING_WRONG = 1
+"""The exit code when something is found, or the disk fails."""
+
+
+@contextmanager
+def _disk_in_words() -> Iterator[None]:
+    try:
+        yield
+    except StoreFailed as failure:
+        raise click.ClickException(str(failure)) from failure
+
+
+@click.command()
+@database_data_option
+@click.option("--to", type=click.Path(path_type=Path), help="Where copies are kept; by default in the data folder.")
+@click.option(
+    "--keep", type=click.IntRange(min=1), default=copies.KEPT, show_default=True, help="How many copies are kept."
+)
+@json_option
+def backup_command(data: Path, to: Path | None, keep: int, *, as_json: bool) -> None:
+    """Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed."""
+    into = to or data / copies.FOLDER
+    with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
+        copy = copies.back_up(data, into, keep, tell)
+    told = {"backup": str(copy), "bytes": copy.stat().st_size, "kept": len(copies.list_backups(into))}
+    click.echo(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
+
+
+@click.command()
+@database_data_option
+@json_option
+def verify_command(data: Path, *, as_json: bool) -> None:
+    """Check the database row by row; exit code 1 if anything is wrong. It is never changed."""
+    with progress_bar("checking", hidden=as_json) as tell:
+        flaws = checking.verify(data, tell)
+    if as_json:
+        rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
+        click.echo(json.dumps({"data": str(data), "sound": not flaws, "findings": rows}))
+    else:
+        Console().print(_table(flaws))
+    sys.exit(SOMETHING_WRONG if flaws else 0)
+
+
+def _table(flaws: list[Flaw]) -> Table:
+    table = Table(box=None)
+    for heading in ("what should be", "where", "what is"):
+        table.add_column(heading)
+    for check in Verification:
+        found = [flaw for flaw in flaws if flaw.check is check]
+        for number, flaw in enumerate(found):
+            table.add_row("" if number else check.value, flaw.where, flaw.what)
+        if not found:
+            table.add_row(check.value, "", "it is so")
+    return table
+
+
+@click.command()
+@click.argument("code")
+@sessions_data_option
+@click.option("--yes", is_flag=True, help="Do not ask.")
+@json_option
+def withdraw_command(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
+    """Delete all that is stored of the participant who has this CODE; only a count stays.
+
+    If a withdrawal was cut off, the same command finishes it.
+    """
+    going = withdrawing.find_withdrawal(data, code)
+    if not yes and not going.cut_off:
+        begun = (going.started_at or "")[:16].replace("T", " ")
+        click.echo(
+            f"Participant {going.participant}, session {going.session}, begun {begun} (UTC): {going.events} events "
+            f"will be deleted for ever, and the copies in the data folder ({going.backups}) replaced by a fresh one. "
+            "Copies that are kept elsewhere, and folders that this one was merged into, are not touched.",
+            err=True,
+        )
+        click.confirm("Delete them?", abort=True, err=True)
+    with _disk_in_words():
+        gone = withdrawing.withdraw(data, code)
+    told = f"All of participant {gone.participant} is deleted."
+    if gone.cut_off:
+        told = f"The withdrawal of participant {gone.participant}, which had been cut off, is finished."
+    click.echo(json.dumps(gone.to_json()) if as_json else told)
+
+
+class FolderAndSite(click.ParamType[tuple[Path, str]]):
+    """A data folder and the site it gets: ``A=ROME``."""
+
+    name = "FOLDER=SITE"
+
+    def convert(
+        self, value: str | tuple[Path, str], param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Path, str]:
+        """Read both; the name of a folder may have an equals sign, that of a site has none."""
+        if isinstance(value, tuple):
+            return value
+        folder, equals, site = value.rpartition("=")
+        if not (folder and equals):
+            self.fail(f"{value!r} must be a folder and its site, such as A=ROME", param, ctx)
+        return Path(folder), site
+
+
+@click.command()
+@click.argument("folders", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="A B [C ...]")
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="The new data folder, not there or empty.")
+@click.option(
+    "--site",
+    "sites",
+    multiple=True,
+    type=FolderAndSite(),
+    help="Give all that a folder holds this site, for kiosks that recorded without one; once for each folder.",
+)
+@json_option
+def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path, str], ...], *, as_json: bool) -> None:
+    """Bring the data folders A, B and so on together in a new one; they stay as they are."""
+    with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
+        sessions = merging.merge(folders, out, tell, sites)
+    told = {"out": str(out), "folders": len(folders), "sessions": sessions}
+    click.echo(json.dumps(told) if as_json else f"{sessions} sessions of {len(folders)} folders are in {out}.")
+
+
+@click.command()
+@sessions_data_option
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The folder to write; new, or empty.")
+@click.option("--bids", is_flag=True, help="Names like those of BIDS, instead of Psych-DS.")
+@click.option("--with-dates", is_flag=True, help="Also when each session began.")
+@click.option("--with-rehearsals", is_flag=True, help="Also rehearsals, told apart by a column.")
+@click.option("--with-trials", is_flag=True, help="Also sessions without a PIN, told apart by a column.")
+@click.option("--with-texts", is_flag=True, help="Also what people typed; it may name somebody.")
+@click.option("--with-unshared", is_flag=True, help="Also who did not agree to publishing; then keep it to yourself.")
+@json_option
+def export_command(data: Path, out: Path, *, bids: bool, as_json: bool, **also: bool) -> None:
+    """Write a data set for publishing: every table with a codebook, as Psych-DS asks for."""
+    extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
+    with progress_bar("sessions", hidden=as_json) as bar:
+        exported = write(data, out, Bids if bids else PsychDs, extras, bar)
+    if as_json:
+        click.echo(json.dumps({"out": str(out)} | exported.to_json()))
+        return
+    click.echo(f"The data set in {out} holds {exported.participants} sessions.")
+    if exported.not_shared:
+        click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
+    if exported.under_way:
+        click.echo(f"Left out, as they are still under way: {exported.under_way}.")
+    if exported.trials:
+        click.echo(f"Left out, as no PIN was set, so that they were trials: {exported.trials}.")
+    for caution in exported.cautions:
+        click.echo(f"caution: {caution}")

@@ -1,0 +1,366 @@
+"""The commands of the learning layer: train, simulate, and a group about policy files."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, fields, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import click
+
+from kiosk import UserInputError
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import NO_GATE, STATES, Action, Gate, QTable, State
+from kiosk.cli import evidence
+from kiosk.cli.options import progress_bar
+from kiosk.experiment.condition import Condition, target_rule
+from kiosk.training import policies, simulation
+from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
+from kiosk.training.rewards import Reward
+from kiosk.training.simulated_players import ChancePlayer, Counting, MemoryPlayer, SimulatedPlayer, TextPlayer
+
+STOPPED = 130
+"""The exit code after Ctrl-C."""
+GATES = {"on": Gate(), "off": NO_GATE}
+_PLAYERS: dict[str, SimulatedPlayer] = {
+    player.name: player for player in (ChancePlayer(), MemoryPlayer(), TextPlayer())
+}
+
+
+class Forgetting(click.ParamType[tuple[float, float]]):
+    """A chance to forget, or a range of it: ``.2`` or ``.1:.45``."""
+
+    name = "number or low:high"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
+        """Read one number or two."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            low, _, high = str(value).partition(":")
+            return float(low), float(high or low)
+        except ValueError:
+            self.fail(f"{value!r} is neither a number nor a range such as .1:.45", param, ctx)
+
+
+def _choice(kind: Any) -> click.Choice[str]:
+    return click.Choice([member.value for member in kind])
+
+
+def _options(*options: Callable[..., Any]) -> Callable[[Any], Any]:
+    def add(function: Any) -> Any:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return add
+
+
+as_json = click.option("--json", "json_", is_flag=True, help="Print one JSON object and nothing else.")
+player_options = _options(
+    click.option("--player", type=click.Choice(list(_PLAYERS)), help="Who plays."),
+    click.option("--threshold", type=float, help="Chance player: from which chance on it may remember (.5)."),
+    click.option(
+        "--forgetting", type=Forgetting(), help="Memory player: forgotten per flip (.2), or a range. Text player: .12."
+    ),
+    click.option("--counting", type=_choice(Counting), help="Text player: what NF counts (since_match)."),
+    click.option("--follow", type=float, help="The chance to follow a hint (1)."),
+)
+
+
+def player_from_options(base: SimulatedPlayer, player: str | None, **given: Any) -> SimulatedPlayer:
+    """The player that the options describe; what they leave out is as in ``base`` or in that player's nature."""
+    start = base if player in (None, base.name) else _PLAYERS[player or ""]
+    wanted = {name: value for name, value in given.items() if value is not None}
+    known = {field.name for field in fields(start)}  # type: ignore[arg-type]  # every player is a dataclass
+    foreign = sorted(wanted.keys() - known)
+    if foreign:
+        raise UserInputError(f"the {start.name} player has no --{foreign[0]}")
+    if "counting" in wanted:
+        wanted["counting"] = Counting(wanted["counting"])
+    if isinstance(start, TextPlayer) and "forgetting" in wanted:
+        wanted["forgetting"] = _one_number(wanted["forgetting"])
+    seated: SimulatedPlayer = replace(start, **wanted)  # type: ignore[type-var]  # as above
+    return seated
+
+
+def _one_number(forgetting: tuple[float, float]) -> float:
+    if forgetting[0] != forgetting[1]:
+        raise UserInputError("the text player's --forgetting is one number, not a range")
+    return forgetting[0]
+
+
+@contextmanager
+def ctrl_c() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C was pressed, instead of being torn out of whatever is under way; heard in the background too."""
+    pressed: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: pressed.append(number))
+    try:
+        yield lambda: bool(pressed)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@click.command()
+@click.option(
+    "--reward", type=_choice(Reward), default="retrieval", show_default=True, help="What the robot is paid for."
+)
+@player_options
+@click.option("--episodes", type=int, help="Games to learn from (retrieval and paper 25000, released 100000).")
+@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
+@click.option("--epsilon", type=_choice(Exploration), help="How often to try an action at random.")
+@click.option("--alpha", type=_choice(LearningRate), help="The learning rate.")
+@click.option("--averaging", type=_choice(Averaging), help="Which table is frozen.")
+@click.option("--decisions", type=_choice(Decisions), help="Which flips are learnt from.")
+@click.option("--target", type=_choice(TargetRule), help="Where first-card hints point in training.")
+@click.option("--gamma", type=float, help="The discount per flip (.8).")
+@click.option("--gate", type=click.Choice(list(GATES)), help="Whether hints wait for the gate (on).")
+@click.option("--name", help="The table's name (the name of the file).")
+@click.option(
+    "--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="Where to write the policy file."
+)
+@as_json
+def train_command(out: Path, name: str | None, reward: str, json_: bool, **options: Any) -> None:  # noqa: FBT001 - click's flag
+    """Learn a table and freeze it. What is not said follows from the reward; see docs/learning.md."""
+    recipe = recipe_of(Reward(reward), **options)
+    name = name or out.stem
+    policies.check_writable(out)
+    learner = Learner(recipe)
+    with progress_bar("training", recipe.episodes, hidden=json_) as progress, ctrl_c() as pressed:
+        learner.study(progress, pressed)
+    if learner.episodes < recipe.episodes:
+        _leave_checkpoint(learner, name, out)
+    table = learner.freeze(name, train_command_line(recipe, name))
+    policies.write_policy(out, table.to_json())
+    _say(
+        {"policy": name, "file": str(out), "episodes": learner.episodes, "sha256": table.sha256},
+        f"{out}: the table {name!r} after {learner.episodes:,} episodes, sha256 {table.sha256}",
+        json_=json_,
+    )
+
+
+def _leave_checkpoint(learner: Learner, name: str, out: Path) -> None:
+    if learner.episodes == 0:
+        click.echo("recollect: stopped before the first episodes were through; nothing was written", err=True)
+        sys.exit(STOPPED)
+    beside = out.with_suffix(f".checkpoint{out.suffix}")
+    policies.write_policy(beside, learner.freeze(name, train_command_line(learner.recipe, name)).to_json())
+    click.echo(
+        f"recollect: stopped after {learner.episodes:,} of {learner.recipe.episodes:,} episodes; "
+        f"what is known so far is a usable policy in {beside}, and {out} is as it was",
+        err=True,
+    )
+    sys.exit(STOPPED)
+
+
+def recipe_of(reward: Reward, **options: Any) -> Recipe:
+    """The reward's recipe with what the options change."""
+    base = RECIPES[reward]
+    kinds = {
+        "epsilon": Exploration,
+        "alpha": LearningRate,
+        "averaging": Averaging,
+        "decisions": Decisions,
+        "target": TargetRule,
+    }
+    seated = {name: options.pop(name) for name in ("player", "threshold", "forgetting", "counting", "follow")}
+    given = {name: value for name, value in options.items() if value is not None}
+    for name, kind in kinds.items():
+        if name in given:
+            given[name] = kind(given[name])
+    if "gate" in given:
+        given["gate"] = GATES[given["gate"]]
+    return replace(base, player=player_from_options(base.player, **seated), **given)
+
+
+def train_command_line(recipe: Recipe, name: str) -> str:
+    """The command that makes this table again, without ``--out``."""
+    player = recipe.player.parameters()
+    words = {"reward": recipe.reward.value, "player": player.pop("name")}
+    words |= {key: _word(value) for key, value in player.items() if (key, value) != ("follow", 1.0)}
+    words |= {"episodes": str(recipe.episodes), "seed": str(recipe.seed)}
+    base = RECIPES[recipe.reward]
+    for key in ("epsilon", "alpha", "averaging", "decisions", "target"):
+        if getattr(recipe, key) is not getattr(base, key):
+            words[key] = getattr(recipe, key).value
+    if recipe.gamma != base.gamma:
+        words["gamma"] = _word(recipe.gamma)
+    if recipe.gate != base.gate:
+        words["gate"] = "off"
+    return " ".join(
+        ["recollect train", *(f"--{key} {value}" for key, value in words.items()), f"--name {shlex.quote(name)}"]
+    )
+
+
+def _word(value: Any) -> str:
+    return ":".join(map(repr, value)) if isinstance(value, list) else str(value)
+
+
+def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
+    click.echo(json.dumps(document) if json_ else text)
+
+
+@click.command()
+@player_options
+@click.option(
+    "--policy", "name", default="default", show_default=True, help="A file, default, study-like, no-help or none."
+)
+@click.option("--condition", type=_choice(Condition), default="tom", show_default=True, help="Where hints point.")
+@click.option("--target", type=_choice(TargetRule), help="Another target rule than the condition's.")
+@click.option("--games", type=int, default=5000, show_default=True, help="How many games.")
+@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
+@as_json
+def simulate_command(
+    name: str,
+    condition: str,
+    target: str | None,
+    games: int,
+    seed: int,
+    json_: bool,  # noqa: FBT001 - click's flag
+    **options: Any,
+) -> None:
+    """Play many games with a simulated player under a frozen table, and measure them as the study does."""
+    where = target_rule(Condition(condition), TargetRule.MOST_FLIPPED)
+    table = QTable.named(name) if where else QTable.blank()
+    player = player_from_options(ChancePlayer(), **options)
+    rule = TargetRule(target) if target else where or TargetRule.RANDOM
+    with progress_bar("playing", games, hidden=json_) as progress:
+        measures = simulation.simulate_games(table, player, rule, games, seed, progress).measures()
+    asked = {"player": player.parameters(), "policy": table.name, "policy_sha256": table.sha256, "seed": seed}
+    _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
+
+
+def _told(measures: dict[str, Any]) -> str:
+    lines = [f"{'games':<28}{measures['games']:,}"]
+    measures |= measures["spreads"]
+    for name in ("moves", "flips", "assistance_per_flip", "first_card_hints_per_game"):
+        spread = measures[name]
+        low, high = spread["ci95"]
+        text = f"mean {spread['mean']:.3f}  sd {spread['sd']:.3f}  95 % interval {low:.3f} to {high:.3f}"
+        lines.append(f"{name.replace('_', ' '):<28}{text}")
+    rates = {
+        "hint rate, first card": measures["hint_rate"]["first"],
+        "hint rate, second card": measures["hint_rate"]["second"],
+    }
+    rates |= {"followed, first card": measures["followed_first_card"], "followed, all": measures["followed"]}
+    rates |= {"led to match": measures["led_to_match"]}
+    lines += [f"{name:<28}{'no hints' if rate is None else f'{rate:.3f}'}" for name, rate in rates.items()]
+    return "\n".join(lines)
+
+
+@click.group()
+def policy_group() -> None:
+    """Look at policy files."""
+
+
+@policy_group.command("show")
+@click.argument("file")
+@click.option("--figure", type=click.Path(path_type=Path, dir_okay=False), help="Draw a heat map here (.png or .svg).")
+@as_json
+def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: FBT001 - click's flag
+    """Print a table: what it does in each state, the values, and how often the state was met in training."""
+    table = QTable.named(file)
+    if figure is not None:
+        policies.write_policy(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
+    met = policies.visits(table)
+    rows = {state.label: {"action": table.action(state).label, "visits": met.get(state, 0)} for state in STATES}
+    document = {"policy": table.name, "sha256": table.sha256, "training": dict(table.training), "states": rows}
+    _say(document, _printed(table, met), json_=json_)
+
+
+def _printed(table: QTable, met: dict[State, int]) -> str:
+    made = str(table.training.get("command", "the file does not say how"))
+    head = [f"{table.name}  sha256 {table.sha256}", f"made by: {made}", ""]
+    head.append(f"{'state':<30}{'does':<10}" + "".join(f"{action.label:>10}" for action in Action) + f"{'visits':>10}")
+    return "\n".join(head + [_line(table, state, met) for state in STATES])
+
+
+def _line(table: QTable, state: State, met: dict[State, int]) -> str:
+    numbers = "".join(f"{value:>10.4f}" for value in table.row(state))
+    action = table.action(state)
+    does = "-" if met and state not in met else "" if action is Action.NO_HELP else action.label
+    return f"{state.label:<30}{does:<10}{numbers}{met.get(state, 0):>10,}"
+
+
+def _ending(figure: Path) -> str:
+    ending = figure.suffix.removeprefix(".").lower()
+    if ending not in ("png", "svg"):
+        raise UserInputError(f"the figure {figure} must end in .png or .svg")
+    return ending
+
+
+def _drawn() -> Any:
+    try:
+        return import_module("kiosk.analysis.policy_figures")
+    except ImportError as error:
+        raise UserInputError('figures need matplotlib: pip install "recollect[analysis]"') from error
+
+
+@policy_group.command("compare")
+@click.argument("one")
+@click.argument("other")
+@as_json
+def policy_compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click's flag
+    """Say in which states two tables act differently, over the states that both have met in training."""
+    tables = QTable.named(one), QTable.named(other)
+    found = policies.compare_policies(*tables)
+    differences = {state.label: [table.action(state).label for table in tables] for state in found.different}
+    document = {"compared": len(found.compared), "agreement": found.agreement, "largest_difference": found.largest}
+    text = [f"the same action in {len(found.compared) - len(found.different)} of {len(found.compared)} states"]
+    text += [f"  {state:<30}{a:<10}{b}" for state, (a, b) in differences.items()]
+    text.append(f"largest difference of a value: {found.largest:.4f}")
+    _say(document | {"different": differences}, "\n".join(text), json_=json_)
+
+
+@policy_group.command("card")
+@click.argument("file")
+@click.option("--games", type=int, default=20_000, show_default=True, help="How many games in each line.")
+@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
+@as_json
+def policy_card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa: FBT001 - click's flag
+    """Measure a table with the players of the policy card, as rows of Markdown."""
+    table = QTable.named(file)
+    rows = []
+    with progress_bar("playing", len(evidence.ARMS), hidden=json_) as progress:
+        for number, arm in enumerate(evidence.ARMS, 1):
+            rows.append((arm, evidence.measure_arm(table, arm, games, seed)))
+            progress(number)
+    document = {arm.label: played.measures() for arm, played in rows}
+    _say(document, evidence.card_table(table, rows, games, seed), json_=json_)
+
+
+@policy_group.command("evidence")
+@click.option("--games", type=int, default=20_000, show_default=True, help="How many games in each arm.")
+@click.option(
+    "--seeds", type=click.IntRange(min=2), default=10, show_default=True, help="How many trainings of each reward."
+)
+@click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random in play.")
+@click.option(
+    "--figures", type=click.Path(path_type=Path, file_okay=False), help="Also draw the figures of the docs here."
+)
+@as_json
+def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_: bool) -> None:  # noqa: FBT001
+    """Make every number that docs/learning.md gives, and say of each claim whether it holds."""
+    with progress_bar("checking", evidence.STEPS, hidden=json_) as progress:
+        claims = evidence.gather_claims(games, seeds, seed, progress)
+    if figures is not None:
+        _draw_figures(figures, games, seed)
+    _say(
+        {"games": games, "seeds": seeds, "seed": seed, "claims": [asdict(claim) for claim in claims]},
+        evidence.claims_table(claims),
+        json_=json_,
+    )
+
+
+def _draw_figures(folder: Path, games: int, seed: int) -> None:
+    drawn = _drawn()
+    table = QTable.named("default")
+    policies.write_policy(folder / "policy.svg", drawn.heat_map(table, policies.visits(table), "svg"))
+    policies.write_policy(folder / "games.svg", drawn.distributions(evidence.figure_samples(games, seed), "svg"))

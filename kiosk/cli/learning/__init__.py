@@ -1,1 +1,0 @@
-"""The commands of the learning layer, and the evidence for what its documents claim."""

@@ -1,1 +1,0 @@
-"""Commands for what is stored: listing, copying, checking, withdrawing, merging, exporting, playing again."""

@@ -1,0 +1,271 @@
+"""The command with which simulated visitors use the real window: one, looked at closely, or a whole day of them."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from itertools import count
+from math import isfinite
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import click
+
+from kiosk import UserInputError
+from kiosk.cli.composition import code_commit, read_settings
+from kiosk.cli.options import (
+    json_option,
+    progress_bar,
+    rehearsal_data_option,
+    robot_host_option,
+    robot_port_option,
+    study_option,
+)
+from kiosk.config import STAGES
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.projections import count_embodiment_changes, count_speech
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.robots.simulated import FlakyRobot
+from kiosk.store.recorder import Recorder
+from kiosk.study.loader import read_study
+from kiosk.supervisor import guarded
+from kiosk.ui.app import App
+from kiosk.ui.rehearsal import (
+    ProcessUsage,
+    Rehearsal,
+    Screenshots,
+    day_summary,
+    draw_visitors,
+    make_folder,
+    rehearse_day,
+)
+from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, UiTimeout
+from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
+
+LARGEST_SEED = 2**63 - 1
+SETTLE_MS = 450
+"""When a picture is taken after its moment, so that nothing moves any more."""
+
+WAIT_MS = 1_000
+"""How long virtual time stands still, at each attempt to write, for another program that holds the database."""
+
+manner_option = click.option(
+    "--visitor",
+    type=click.Choice([manner.value for manner in BehaviourKind]),
+    default=BehaviourKind.COMPLETES.value,
+    show_default=True,
+    help="What kind of visitor comes.",
+)
+leaves_option = click.option(
+    "--leaves-in",
+    type=click.Choice(STAGES),
+    default=Stage.GAME.value,
+    show_default=True,
+    help="Where a visitor who leaves walks away.",
+)
+
+
+@click.command()
+@click.option(
+    "--seed",
+    type=click.IntRange(0, LARGEST_SEED),
+    default=1,
+    show_default=True,
+    help="The same seed plays the same session.",
+)
+@click.option("--headless", is_flag=True, help="Use no screen, and play as fast as the machine allows.")
+@click.option("--speed", type=click.FloatRange(0.01, 1000), help="How many times as fast as in real life.")
+@click.option("--condition", help="The help that the visitor gets: tom, notom, or another cell of the design.")
+@click.option("--language", help="The language that the visitor chooses; by default the study's first.")
+@manner_option
+@leaves_option
+@click.option(
+    "--sessions",
+    type=click.IntRange(1, 100_000),
+    default=1,
+    show_default=True,
+    help="More than one is a day at the booth: visitors of every kind, and a robot that comes and goes.",
+)
+@click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
+@rehearsal_data_option
+@study_option
+@robot_host_option
+@robot_port_option
+@json_option
+def rehearse(
+    seed: int,
+    speed: float | None,
+    condition: str | None,
+    language: str | None,
+    visitor: str,
+    leaves_in: str,
+    sessions: int,
+    shots: Path | None,
+    data: Path,
+    study: Path | None,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    headless: bool,
+    as_json: bool,
+) -> None:
+    """Let a simulated visitor go through a session at the real window, or many of them through a day.
+
+    A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
+    """
+    prepared = read_study(read_settings(study, robot_host, robot_port))
+    _check(prepared, speed, language)
+    mode = _mode(speed, headless=headless)
+    check_screen(mode.display)
+    if sessions > 1:
+        _rehearse_day(prepared, mode, data, seed, sessions, as_json=as_json)
+        return
+    if shots is not None:
+        make_folder(shots)
+    character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language or prepared.languages[0])
+    fixed = Condition.from_name(condition or prepared.settings.assistance.condition)
+    origin = RunContext(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
+    with (
+        guarded() as beat,
+        _recorder(data, mode) as recorder,
+        App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app,
+    ):
+        pictures = (
+            Screenshots(app.window, shots, app.clock, 0 if mode.pace is ClockMode.VIRTUAL else SETTLE_MS)
+            if shots
+            else None
+        )
+        rehearsal = Rehearsal(app, seed, pictures, character)
+        with _stuck_in_words():
+            rehearsal.run()
+        if app.stop_requested:
+            raise click.Abort
+        begun = recorder.sessions_begun
+    told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
+    _tell(told, data, shots, as_json=as_json)
+
+
+def _check(study: StudyConfig, speed: float | None, language: str | None) -> None:
+    """Raise BadInput for what no rehearsal can do."""
+    if speed is not None and not isfinite(speed):
+        raise UserInputError(f"--speed must be a number, not {speed}")
+    if _has_robot(study) and speed not in {None, 1}:
+        raise UserInputError("a robot speaks at its own speed, so a rehearsal with one cannot have another")
+    if language is not None and language not in study.languages:
+        raise UserInputError(f"the study has no language {language!r}; it has {', '.join(study.languages)}")
+
+
+def _has_robot(study: StudyConfig) -> bool:
+    return study.settings.robot.kind != "none"
+
+
+def _mode(speed: float | None, *, headless: bool) -> RunMode:
+    """Without a screen and without a wish for a speed, nothing is waited for."""
+    display = WindowMode.NOWHERE if headless else WindowMode.FULL_SCREEN
+    if headless and speed is None:
+        return RunMode(display, ClockMode.VIRTUAL)
+    return RunMode(display, ClockMode.WALL, speed or 1.0)
+
+
+def _recorder(data: Path, mode: RunMode) -> Recorder:
+    """Open the recorder; where time is virtual it stands still while another program holds the database."""
+    return Recorder(data, wait_ms=WAIT_MS if mode.pace is ClockMode.VIRTUAL else 0)
+
+
+@contextmanager
+def _stuck_in_words() -> Iterator[None]:
+    try:
+        yield
+    except UiTimeout as stuck:
+        raise click.ClickException(f"the rehearsal cannot go on: {stuck}") from stuck
+
+
+def _rehearse_day(study: StudyConfig, mode: RunMode, data: Path, seed: int, sessions: int, *, as_json: bool) -> None:
+    """Visitors of every kind, one after another, in one process."""
+    visitors = tuple(draw_visitors(sessions, seed, study.languages))
+    seeds = count(seed)
+    origin = RunContext(code_commit(), simulated=True, seed=lambda: next(seeds))
+    robot = None if _has_robot(study) else FlakyRobot(seed)
+    begun = monotonic()
+    with (
+        guarded() as beat,
+        _recorder(data, mode) as recorder,
+        App(mode, recorder, ConditionAssigner(study, recorder, origin), robot, beat) as app,
+    ):
+        holdings: list[ProcessUsage] = []
+        with _stuck_in_words(), progress_bar("sessions", sessions, hidden=as_json) as tell:
+            for holding in rehearse_day(app, seed, visitors, data):
+                holdings.append(holding)
+                tell(len(holdings))
+        if app.stop_requested:
+            raise click.Abort
+        stored = recorder.sessions_begun
+    told = (
+        day_summary(visitors, holdings)
+        | {"stored": stored, "seconds": round(monotonic() - begun)}
+        | _ends(data, stored)
+    )
+    click.echo(json.dumps(told) if as_json else _in_words(told))
+
+
+def _ends(data: Path, stored: int) -> dict[str, Any]:
+    """How the stored sessions ended, and how often another body had to help."""
+    from kiosk.store.queries import open_repository  # noqa: PLC0415 - a tenth of a second that opening need not pay
+
+    with open_repository(data) as there:
+        played = there.sessions()[-stored:] if stored else []
+        changes = sum(count_embodiment_changes(there.events(session.id)) for session in played)
+    ends = Counter(session.status.value if session.status else "running" for session in played)
+    return {"ends": dict(ends), "body_changes": changes}
+
+
+def _in_words(told: dict[str, Any]) -> str:
+    lines = [
+        f"{told['sessions']} visitors in {told['seconds']} s, {told['stored']} sessions stored: {told['ends']}.",
+        f"The robot was lost {told['body_changes']} times.",
+        f"Longest gap of the event loop {told['longest_gap_ms']} ms, median of a session's {told['median_gap_ms']} ms.",
+        "              after warm-up   at the end   per session",
+    ]
+    begun, ended, slopes = told["after_warm_up"], told["at_the_end"], told["slopes_per_session"]
+    lines += [
+        f"{name:15}{begun[name]:12}{ended[name]:13}{slopes[name]:14}" for name in ProcessUsage.__dataclass_fields__
+    ]
+    left = "Nothing is left over." if told["nothing_is_left"] else "Something is left over at the end of the day."
+    return "\n".join((*lines, left))
+
+
+def _last_session(data: Path, longest_gap_ms: float | None) -> dict[str, Any]:
+    """The session that was just stored; with a robot, what became of its sentences besides."""
+    from kiosk.store.queries import open_repository  # noqa: PLC0415 - a tenth of a second that opening need not pay
+
+    with open_repository(data) as stored:
+        played = stored.sessions()[-1].to_json()
+        if longest_gap_ms is not None:
+            played |= _with_robot(stored.events(played["session"]), longest_gap_ms)
+    return played
+
+
+def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
+    return {
+        "longest_gap_ms": round(longest_gap_ms, 1),
+        "body_changes": count_embodiment_changes(events),
+        "utterances": asdict(count_speech(events)),
+    }
+
+
+def _tell(played: dict[str, Any], data: Path, shots: Path | None, *, as_json: bool) -> None:
+    if as_json:
+        click.echo(json.dumps(played))
+        return
+    if "session" in played:
+        line = "Session {session} ({condition}) {status}: {pairs} pairs in {moves} moves, {hints} hints."
+        click.echo(line.format(**played))
+        click.echo(f"Its record is in {data}" + (f", its pictures are in {shots}." if shots else "."))
+    else:
+        click.echo("The visitor did not take part, so nothing is stored but that they came.")

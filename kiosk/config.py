@@ -1,0 +1,588 @@
+"""The typed settings of a study file; every name carries its unit."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import tomllib
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, field_validator, model_validator
+
+from kiosk import UserInputError
+from kiosk.errors import shortened, toml_error_message, validation_messages
+from kiosk.language_codes import is_right, standard
+from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
+
+STAGES = (
+    "about",
+    "consent",
+    "age",
+    "about_you",
+    "introduction",
+    "practice",
+    "game",
+    "result",
+    "questions",
+    "debrief",
+    "thanks",
+)
+"""Every stage that a session can have between attract and its end, in the study's order."""
+
+
+class ConfigModel(BaseModel):
+    """Something that is declared in a TOML file, in whole or in part.
+
+    It is unchangeable once read; a key that does not exist is refused, and so is a value that would have to be bent.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+
+    file_kind: ClassVar[str] = "file"
+    """What such a file is called in a refusal."""
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """Read a file; raises BadInput with a sentence for everything that is wrong, naming the file and the key."""
+        name = f"the {cls.file_kind} {path}"
+        given = _toml(name, path)
+        try:
+            return cls.model_validate(given)
+        except ValidationError as error:
+            raise UserInputError(
+                *(f"{name}: {sentence}" for sentence in validation_messages(error, given, cls))
+            ) from error
+
+
+MOST_BYTES = 1024 * 1024
+"""No file that a person writes for a study is longer; a longer one is a mistake, and slow to read."""
+
+_MOST_DOTS = 1000
+"""A key with very many dots takes the reader of TOML hours."""
+
+_LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
+"""Far beyond all bounds; Python refuses to read whole numbers of more than 4,300 digits."""
+
+
+def read_text(name: str, path: Path) -> str:
+    """Read a text file of a study; raises BadInput, in which the file is called ``name``."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
+        # Some editors begin a file with a mark that is no text, and some end lines in two characters.
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
+    except OSError as error:
+        raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise UserInputError(f"{name} is not UTF-8; save it with that encoding") from error
+
+
+def _toml(name: str, path: Path) -> dict[str, Any]:
+    text = read_text(name, path)
+    dotted = next((n for n, line in enumerate(text.splitlines(), 1) if line.count(".") > _MOST_DOTS), None)
+    if dotted is not None:
+        raise UserInputError(f"{name} is not for reading: line {dotted} has more than {_MOST_DOTS} dots")
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise UserInputError(f"{name} is not TOML: {toml_error_message(error)}") from error
+    except ValueError:
+        # Cut short, the number is still too large wherever it stands, so the key that has it gets its sentence.
+        return tomllib.loads(_LONG_NUMBER.sub(shortened, text))
+
+
+Milliseconds = Annotated[int, Field(ge=1, le=MS_PER_HOUR), Unit("ms")]
+Delay = Annotated[int, Field(ge=0, le=MS_PER_MINUTE), Unit("ms")]
+PerCharacter = Annotated[int, Field(ge=1, le=10_000), Unit("ms")]
+"""Times; none is so long that a visitor would take the kiosk for broken."""
+
+Lines = Annotated[int, Field(ge=1, le=12)]
+"""Rows or columns of a board."""
+
+Metres = Annotated[float, Field(ge=-10, le=10), Unit("m")]
+Size = Annotated[float, Field(ge=0.01, le=10), Unit("m")]
+
+
+MOST_CHARACTERS = 500
+"""A title or an address that is longer fits on no screen."""
+
+MOST_ENTRIES = 50
+"""More languages or questionnaires than any visitor would bear."""
+
+
+class Timing(ConfigModel):
+    """When things happen in a session; all times in milliseconds."""
+
+    turn_back: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
+    mark_delay: Annotated[
+        Delay,
+        Field(description="From the start of a spoken hint to its mark; never later than its end."),
+    ] = 3500
+    mark_delay_silent: Annotated[Delay, Field(description="The same for a hint that is only shown as text.")] = 600
+    reading: Annotated[PerCharacter, Field(description="Time to read a sentence without voice, per character.")] = 55
+    reading_least: Annotated[Milliseconds, Field(description="The least time to read any sentence.")] = 1500
+    speech_deadline: Annotated[
+        PerCharacter, Field(description="The longest that a spoken sentence may hold up the game, per character.")
+    ] = 130
+    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
+    mood: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
+    finish: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
+    thanks: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = 12_000
+
+    def reading_time(self, sentence: str) -> int:
+        """How long a sentence is shown for reading, in ms."""
+        return max(self.reading_least, self.reading * len(sentence))
+
+    def speech_time(self, sentence: str) -> int:
+        """How long a spoken sentence may hold up the game, in ms."""
+        return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+
+
+class Idle(ConfigModel):
+    """Ask the visitor of a stage "still there?" after so long without a tap, a key or a scroll.
+
+    All times are in milliseconds. A text that takes longer to read, at the `reading` of `[timing]`, puts the question
+    off until then.
+    """
+
+    about: Annotated[Milliseconds, Field(description="While the study is described.")] = 60_000
+    consent: Annotated[Milliseconds, Field(description="While consent is asked for.")] = 90_000
+    age: Annotated[Milliseconds, Field(description="While the age is asked for.")] = 45_000
+    about_you: Annotated[Milliseconds, Field(description="During the questions about the visitor.")] = 60_000
+    introduction: Annotated[Milliseconds, Field(description="During the introduction.")] = 45_000
+    practice: Annotated[Milliseconds, Field(description="During the practice.")] = 60_000
+    game: Annotated[Milliseconds, Field(description="During the game.")] = 120_000
+    result: Annotated[Milliseconds, Field(description="While the result is shown.")] = 45_000
+    questions: Annotated[Milliseconds, Field(description="During the questionnaires.")] = 60_000
+    debrief: Annotated[Milliseconds, Field(description="While the study is explained.")] = 90_000
+    thanks: Annotated[Milliseconds, Field(description="While thanks are shown.")] = 45_000
+    still_there: Annotated[Milliseconds, Field(description="From that question to the end of the session.")] = 20_000
+    pause: Annotated[
+        Milliseconds, Field(description="The longest that the experimenter's pause lasts; then the session is over.")
+    ] = 900_000
+
+    def of(self, stage: str) -> int:
+        """The time of the stage of this name, in ms."""
+        after: int = getattr(self, stage)
+        return after
+
+
+class Practice(ConfigModel):
+    """The game before the game: nobody helps, nothing is measured, and it may be left at any time."""
+
+    rows: Annotated[Lines, Field(description="Rows of its board.")] = 3
+    columns: Annotated[Lines, Field(description="Columns of its board.")] = 4
+    deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
+    longest: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
+
+
+class Allocation(ConfigModel):
+    """Who gets which condition: permuted blocks, from a list that is fixed before the first visitor."""
+
+    quotas: Annotated[
+        dict[str, Annotated[int, Field(ge=1, le=10_000)]],
+        Field(description="How many completed games each condition shall have, per site; empty: no allocation."),
+    ] = {"tom": 28, "notom": 28}
+    block: Annotated[
+        int, Field(ge=1, le=1000, description="How many visitors make a block, in which every condition has its share.")
+    ] = 8
+    seed: Annotated[
+        int | None,
+        Field(
+            ge=0,
+            le=2**63 - 1,
+            description="From which the list is drawn; by default a secret one, drawn and stored once.",
+        ),
+    ] = None
+
+
+class ConsentConfig(ConfigModel):
+    """What visitors are told, what they agree to, and how old they must be."""
+
+    text: Annotated[str, Field(description="The folder of assets/consent, or a path: one file per language.")] = "study"
+    adult: Annotated[
+        int, Unit("years"), Field(ge=1, le=120, description="From this age on a visitor's session may be stored.")
+    ] = 18
+    contact: Annotated[
+        str,
+        Field(
+            max_length=MOST_CHARACTERS,
+            description="Whom to write to for withdrawing, best a mail address; shown with the code.",
+        ),
+    ] = ""
+
+
+class Game(ConfigModel):
+    """The board."""
+
+    rows: Annotated[Lines, Field(description="Rows of the board.")] = 4
+    columns: Annotated[Lines, Field(description="Columns of the board.")] = 6
+    deck: Annotated[str, Field(description="The folder of assets/cards that holds the pictures.")] = "animals"
+
+
+class AssistanceConfig(ConfigModel):
+    """Who helps, and how."""
+
+    condition: Annotated[
+        str,
+        Field(
+            description="Which help visitors get where nothing is allocated: tom, notom, mentalised_unexplained, "
+            "random_explained or no_assistance."
+        ),
+    ] = "tom"
+    policy: Annotated[str, Field(description="The frozen Q-table: a name in policies/, or a path.")] = "default"
+    target_rule: Annotated[
+        Literal["most_flipped", "most_recent"], Field(description="Where a mentalised hint for a first card points.")
+    ] = "most_flipped"
+    step: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="How far one flip may move a value of the table within a session; 0 keeps it frozen.",
+        ),
+    ] = 0.0
+
+
+class VoiceConfig(ConfigModel):
+    """The avatar's voice."""
+
+    enabled: Annotated[bool, Field(description="Whether sentences are spoken as well as shown.")] = True
+    rate: Annotated[
+        int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks; 110 is slow.")
+    ] = 150
+    volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
+    sounds: Annotated[
+        bool, Field(description="Whether cards are heard: quiet sounds, never while somebody speaks.")
+    ] = True
+
+
+Side = Literal["left", "right"]
+
+
+class Screen(ConfigModel):
+    """The window."""
+
+    number: Annotated[int, Field(ge=0, le=63, description="Which screen it covers; 0 is the primary one.")] = 0
+    text_size: Annotated[float, Field(ge=0.5, le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
+    motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
+    contrast: Annotated[
+        Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
+    ] = "normal"
+    board: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = "left"
+
+
+class RobotConfig(ConfigModel):
+    """The robot that speaks in the avatar's place, if there is one; all times in milliseconds, all lengths in metres.
+
+    ``board_middle`` and ``board_size`` are told as the robot sees them: sideways, up, and forward.
+    """
+
+    kind: Annotated[
+        Literal["none", "furhat", "furhat-realtime"], Field(description="Which robot, or none: the avatar alone.")
+    ] = "none"
+    host: Annotated[str, Field(min_length=1, description="Its name or address on the network.")] = "localhost"
+    port: Annotated[
+        int | None, Field(ge=1, le=65535, description="Its port; by default 54321, or 9000 for furhat-realtime.")
+    ] = None
+    key: Annotated[
+        str, Field(exclude=True, description="The key of the Realtime API, if it asks for one; never recorded.")
+    ] = ""
+    voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
+    connect_deadline: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
+    answer_deadline: Annotated[Milliseconds, Field(description="The longest that any answer but speech may take.")] = (
+        1500
+    )
+    speech_deadline: Annotated[
+        PerCharacter, Field(description="The longest that it may take to say a sentence, per character.")
+    ] = 110
+    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 3500
+    look_every: Annotated[Milliseconds, Field(description="While it speaks, how often to see if it still answers.")] = (
+        1000
+    )
+    probe_every: Annotated[Milliseconds, Field(description="Between sessions, how often to see if it is well.")] = (
+        10_000
+    )
+    retry_first: Annotated[Milliseconds, Field(description="The first pause before a lost robot is tried again.")] = (
+        2000
+    )
+    retry_longest: Annotated[Milliseconds, Field(description="The longest such pause; each is twice the last.")] = (
+        120_000
+    )
+    gestures: Annotated[bool, Field(description="Whether it shows moods with its face.")] = True
+    attend: Annotated[bool, Field(description="Whether it looks at the player, and at the hinted place.")] = True
+    axes: Annotated[
+        str,
+        Field(
+            description="Its axes for sideways (the visitor's right), up and forward, each with a minus if reversed."
+        ),
+    ] = "x y z"
+    board_middle: Annotated[
+        tuple[Metres, Metres, Metres],
+        Unit("m"),
+        Field(strict=False, description="Where the middle of the board is, seen from its eyes."),
+    ] = (0.4, -0.2, 0.5)
+    board_size: Annotated[
+        tuple[Size, Size],
+        Unit("m"),
+        Field(strict=False, description="How wide and how high the board is on the screen."),
+    ] = (0.4, 0.25)
+
+    @field_validator("axes")
+    @classmethod
+    def _name_every_axis(cls, axes: str) -> str:
+        if sorted(axis.removeprefix("-") for axis in axes.split(" ")) != ["x", "y", "z"]:
+            raise ValueError(f"{axes!r} does not name x, y and z once each, such as 'x -z y'")
+        return axes
+
+    def speech_time(self, sentence: str) -> int:
+        """How long it may take to say a sentence, in ms."""
+        return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+
+
+class Keys(ConfigModel):
+    """The experimenter's shortcuts, in Qt's spelling; an empty one switches the key off."""
+
+    panel: Annotated[str, Field(description="Opens and closes the panel.")] = "Ctrl+Shift+P"
+    condition: Annotated[str, Field(description="Chooses the next visitor's condition, one after another.")] = (
+        "Ctrl+Shift+C"
+    )
+    body: Annotated[str, Field(description="Lets the robot or the avatar help from the next session on.")] = (
+        "Ctrl+Shift+B"
+    )
+    again: Annotated[str, Field(description="Says the last sentence again.")] = "Ctrl+Shift+A"
+    quiet: Annotated[str, Field(description="Makes the voice and the sounds silent, or heard again.")] = "Ctrl+Shift+M"
+    pause: Annotated[str, Field(description="Stops the session for a while, and lets it go on.")] = "Ctrl+Shift+Space"
+    end: Annotated[str, Field(description="Ends the session, with a reason.")] = "Ctrl+Shift+E"
+    next: Annotated[str, Field(description="Gets ready for the next visitor at once.")] = "Ctrl+Shift+N"
+    leave: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
+
+    @field_validator("*")
+    @classmethod
+    def _be_out_of_a_visitors_way(cls, shortcut: str) -> str:
+        if shortcut and not re.fullmatch(
+            r"(Shift\+)?F[1-9]\d?|(?=.*(Ctrl|Alt|Meta)\+)((Ctrl|Shift|Alt|Meta)\+)+[^+\s]+", shortcut
+        ):
+            raise ValueError(f"{shortcut!r} is no shortcut, such as 'Ctrl+Shift+P', and no function key")
+        return shortcut
+
+    @model_validator(mode="after")
+    def _name_each_once(self) -> Self:
+        shortcuts: dict[frozenset[str], str] = {}
+        for key, shortcut in self.model_dump().items():
+            other = shortcuts.setdefault(frozenset(shortcut.lower().split("+")), key) if shortcut else key
+            if other != key:
+                raise ValueError(f"{shortcut!r} stands for {other!r} and for {key!r}")
+        return self
+
+
+class ExperimenterConfig(ConfigModel):
+    """Who may change a running study."""
+
+    pin: Annotated[
+        str,
+        Field(
+            exclude=True,
+            description="The PIN, salted and hashed, as 'study set-pin' prints it; never recorded. Empty: none.",
+        ),
+    ] = ""
+    backup_every: Annotated[
+        int,
+        Unit("minutes"),
+        Field(
+            ge=1, le=10_080, description="How long after the last one a backup is made, in minutes, between sessions."
+        ),
+    ] = 60
+    backups: Annotated[int, Field(ge=1, le=1000, description="How many backups are kept.")] = 24
+
+    @field_validator("pin")
+    @classmethod
+    def _hash_the_pin(cls, pin: str) -> str:
+        # It is not repeated: it may be the PIN itself.
+        if not re.fullmatch(r"(scrypt:[0-9a-f]{32}:[0-9a-f]{64})?", pin):
+            raise ValueError("this is no hashed PIN, such as 'recollect study set-pin' prints")
+        return pin
+
+
+class Settings(ConfigModel):
+    """Everything that one study may set."""
+
+    file_kind = "study file"
+
+    title: Annotated[
+        str, Field(min_length=1, max_length=MOST_CHARACTERS, description="What the study is called, in the data set.")
+    ] = "A memory game with a helping robot"
+    languages: Annotated[
+        tuple[str, ...],
+        Field(
+            min_length=1,
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="The languages to choose from; the first is shown at rest.",
+        ),
+    ] = ("en", "it", "es")
+    stages: Annotated[
+        tuple[str, ...], Field(min_length=1, strict=False, description="The stages of a session, in their order.")
+    ] = STAGES
+    about_you: Annotated[
+        str, Field(description="The questionnaire about the visitor: a name in assets/questionnaires, or a path.")
+    ] = "about-you"
+    questionnaires: Annotated[
+        tuple[str, ...],
+        Field(
+            min_length=1,
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="The questionnaires after the game: names, or paths.",
+        ),
+    ] = ("social-intelligence", "trust")
+    game: Game = Game()
+    practice: Practice = Practice()
+    assistance: AssistanceConfig = AssistanceConfig()
+    allocation: Allocation = Allocation()
+    consent: ConsentConfig = ConsentConfig()
+    timing: Timing = Timing()
+    idle: Idle = Idle()
+    voice: VoiceConfig = VoiceConfig()
+    robot: RobotConfig = RobotConfig()
+    screen: Screen = Screen()
+    keys: Keys = Keys()
+    experimenter: ExperimenterConfig = ExperimenterConfig()
+
+    _file: Path | None = PrivateAttr(None)
+    """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """Read a study file; the paths in it start from its own folder."""
+        settings = super().read(path)
+        settings._file = path
+        return settings
+
+    @property
+    def name(self) -> str:
+        """What to call them in a refusal."""
+        return f"the {self.file_kind} {self._file}" if self._file else "the study"
+
+    @model_validator(mode="after")
+    def _name_things_once(self) -> Self:
+        for key, names in (
+            ("languages", self.languages),
+            ("stages", self.stages),
+            ("questionnaires", (self.about_you, *self.questionnaires)),
+        ):
+            twice = [name for name, count in Counter(names).items() if count > 1]
+            if twice:
+                raise ValueError(f"{key}: {twice[0]!r} stands twice")
+        return self
+
+    @property
+    def sha256(self) -> str:
+        """The hash of every setting, given or default, so that a session's settings can be told apart later."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    def with_base_dir(self, other: Settings) -> Settings:
+        """The same settings, whose paths start from the folder of another study file."""
+        copied = self.model_copy()
+        copied._file = other._file
+        return copied
+
+    @property
+    def language_codes(self) -> tuple[str, ...]:
+        """List the codes of the languages; a language that is named by a path has its folder's name as its code."""
+        return tuple(code_of(name) for name in self.languages)
+
+    def find(self, kind: str, name: str) -> Path:
+        """Return the path of what the study file calls by this name, whether it is there or not."""
+        found = self.locate(kind, name)
+        return self.beside(name) if found is None else found.path
+
+    def locate(self, kind: str, name: str) -> Located | None:
+        """Find what the study file calls by this name; None if there is nothing.
+
+        A name with a slash or an ending is a path from the study file's own folder, and nothing else. Any other name
+        is that of something shipped or, if nothing shipped has it, of something in the study file's folder.
+        """
+        if not name:
+            return None
+        ending = _ENDINGS.get(kind, "")
+        names = (f"{name}{ending}", name) if ending else (name,)
+        own = next((path for path in map(self.beside, names) if _is_there(path, ending)), None)
+        shipped = None if is_path(name) else _shipped(kind, name)
+        if shipped is not None:
+            return Located(shipped, is_shipped=True, unused=own)
+        return None if own is None else Located(own)
+
+    def beside(self, name: str) -> Path:
+        """Return a path as the study file means it: from its own folder; a backslash is a slash, too."""
+        path = Path(name.replace("\\", "/"))
+        return self._file.parent / path if self._file else path
+
+
+_ENDINGS = {"questionnaires": ".toml", "policies": ".json"}
+"""What goes by a name is a file with this ending; anything else is a folder."""
+
+
+@dataclass(frozen=True)
+class Located:
+    """Where something lies that goes by a name; ``unused`` is what has the same name beside the study file."""
+
+    path: Path
+    is_shipped: bool = False
+    unused: Path | None = None
+
+
+def is_path(name: str) -> bool:
+    """Return whether a name is a path: it has a slash, begins with a dot, or has an ending."""
+    return "/" in name or "\\" in name or name.startswith(".") or bool(Path(name).suffix)
+
+
+def code_of(name: str) -> str:
+    """Return the language code in the name of a language, which may be a path; the name itself if there is none."""
+    last = Path(name.replace("\\", "/")).name
+    return standard(last) if is_right(last) else last
+
+
+def shipped_names(kind: str) -> dict[str, Path]:
+    """Map the names of everything shipped of this kind to its path."""
+    ending = _ENDINGS.get(kind, "")
+    folder = POLICIES if kind == "policies" else ASSETS / kind
+    there = (path for path in sorted(folder.glob(f"*{ending}")) if _is_there(path, ending))
+    return {path.name.removesuffix(ending): path for path in there}
+
+
+def _shipped(kind: str, name: str) -> Path | None:
+    there = shipped_names(kind)
+    if kind == "sentences":
+        return next((path for each, path in there.items() if code_of(each) == code_of(name)), None)
+    return there.get(name)
+
+
+def _is_there(path: Path, ending: str) -> bool:
+    """Return whether there is such a file or, without an ending, such a folder."""
+    try:
+        return path.is_file() if ending else path.is_dir()
+    except (OSError, ValueError):
+        # No file can have such a name.
+        return False
+
+
+def _beside_or_inside(name: str) -> Path:
+    """A folder that stands inside the installed package, or beside it in a checkout."""
+    package = Path(__file__).parent
+    return package / name if (package / name).is_dir() else package.parent / name
+
+
+ASSETS = _beside_or_inside("assets")
+POLICIES = _beside_or_inside("policies")
+
+
+def policy_path(name: str) -> Path:
+    """Return the file of a shipped policy by its name, or the path itself."""
+    shipped = None if is_path(name) else _shipped("policies", name)
+    return Path(name) if shipped is None else shipped

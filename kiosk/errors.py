@@ -1,0 +1,269 @@
+"""Turn validation errors of study files and forms into sentences for people."""
+
+from __future__ import annotations
+
+import re
+import reprlib
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Annotated, Any, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
+
+from kiosk.units import Unit
+
+KIND = "kind"
+"""The key by which the tables of one list are told apart."""
+
+_MUST: Mapping[str, str] = {
+    "int_type": "must be a whole number",
+    "float_type": "must be a number",
+    "string_type": "must be text in quotes",
+    "bool_type": "must be true or false",
+    "tuple_type": "must be a list in square brackets",
+    "model_type": "must be a table with keys of its own",
+    "model_attributes_type": "must be a table with keys of its own",
+    "dict_type": "must be a table in braces",
+    "finite_number": "must be a number",
+    "literal_error": "must be {expected}",
+    "enum": "must be {expected}",
+}
+"""What a value must be, by pydantic's type of error; what it is comes after it."""
+
+_TELLS: Mapping[str, str] = {
+    "string_too_short": "must not be empty",
+    "string_too_long": "must have at most {max_length} characters",
+    "union_tag_not_found": f"the key {KIND!r} is missing",
+    "union_tag_invalid": f"{KIND} must be one of {{expected_tags}}, but it is {{tag!r}}",
+    "value_error": "{error}",
+}
+"""What says all there is to say."""
+
+_OUT_OF_BOUNDS = frozenset({"greater_than", "greater_than_equal", "less_than_equal", "finite_number"})
+
+_SAID_OF_WHAT_IS_ABOVE = frozenset({"missing", "extra_forbidden"})
+"""What is told of the table that lacks a key or has one too many."""
+
+
+_NOT_TOML: Mapping[str, str] = {
+    "Invalid value": "this is no value; text stands in quotes, and true and false are written small",
+    "Cannot overwrite a value": "a key is there twice",
+    "Cannot declare": "a section is there twice",
+    "Unescaped": "a \\ has no place in a text in double quotes; write paths with /",
+}
+"""How tomllib's shortest messages begin, and what they mean."""
+
+
+def toml_error_message(error: Exception) -> str:
+    """Why a text is no TOML, and where."""
+    if isinstance(error, RecursionError):
+        return "brackets stand in brackets too often"
+    said = str(error)
+    _, bracket, place = said.rpartition(" (")
+    meant = next((words for begins, words in _NOT_TOML.items() if said.startswith(begins)), None)
+    return f"{meant}{bracket}{place}" if meant else said
+
+
+def validation_messages(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
+    """A sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
+    found = validation_errors(error)
+    said = dict.fromkeys(_sentence(fault, given, model) for fault in found[:_MOST_SENTENCES])
+    more = len(found) - _MOST_SENTENCES
+    return (*said, *((f"{more} more things are wrong",) if more > 0 else ()))
+
+
+_MOST_SENTENCES = 100
+"""A file with more faults than this is none of its kind; the sentences would take long, and tell no more."""
+
+
+def validation_errors(error: ValidationError) -> tuple[ErrorDetails, ...]:
+    """What pydantic found, but for lists that are too short only because something in them is wrong."""
+    found = error.errors()
+    places = {fault["loc"] for fault in found}
+    return tuple(fault for fault in found if fault["type"] != "too_short" or not _holds(fault["loc"], places))
+
+
+def _holds(here: tuple[int | str, ...], places: Collection[tuple[int | str, ...]]) -> bool:
+    return any(len(place) > len(here) and place[: len(here)] == here for place in places)
+
+
+def _sentence(fault: ErrorDetails, given: Any, model: type[BaseModel]) -> str:
+    place = _place(fault["loc"][:-1] if fault["type"] in _SAID_OF_WHAT_IS_ABOVE else fault["loc"], given)
+    what = error_message(fault, model)
+    between = " " if what.startswith("must ") else ": "
+    return f"{place}{between}{what}" if place else what
+
+
+def error_message(fault: ErrorDetails, model: type[BaseModel]) -> str:
+    """What is wrong, without where."""
+    context = fault.get("ctx", {})
+    match fault["type"]:
+        case "missing":
+            return _missing(fault)
+        case "extra_forbidden":
+            *table, key = fault["loc"]
+            return f"there is no key {toml_value(key)}{_meant(str(key), _keys(model, table))}"
+        case "too_short" | "too_long":
+            return f"must have {_entries(context)}, but it has {len(fault['input'])}"
+        case kind if kind in _OUT_OF_BOUNDS and (range_ := bounds(_declared(model, fault["loc"]))):
+            return f"must be {range_}, but it is {toml_value(fault['input'])}"
+        case kind if kind in _TELLS:
+            return _TELLS[kind].format(**context)
+        case kind:
+            says = _MUST.get(kind, fault["msg"].removeprefix("Input ").replace("should", "must"))
+            return f"{says.format(**context)}, but it is {toml_value(fault['input'])}"
+
+
+def _missing(fault: ErrorDetails) -> str:
+    """A key that is missing, or an entry of a list that has to have so many."""
+    last = fault["loc"][-1]
+    if isinstance(last, int):
+        return f"must have at least {last + 1} entries, but it has {len(fault['input'])}"
+    return f"the key {last!r} is missing"
+
+
+def _entries(context: Mapping[str, Any]) -> str:
+    side, bound = ("least", context["min_length"]) if "min_length" in context else ("most", context["max_length"])
+    return f"at {side} {bound} {'entry' if bound == 1 else 'entries'}"
+
+
+_COMPARED = 40
+
+
+def _meant(key: str, keys: Sequence[str]) -> str:
+    close = get_close_matches(key[:_COMPARED], keys, n=1)
+    if close:
+        return f"; did you mean {close[0]!r}?"
+    return f"; there are {', '.join(keys)}" if keys else ""
+
+
+def bounds(metadata: Sequence[Any]) -> str:
+    """Say the bounds of a number with its unit, such as "from 80 to 300 words per minute"; empty without bounds."""
+    ends = {end: getattr(each, end) for each in metadata for end in ("ge", "gt", "le") if hasattr(each, end)}
+    least, most = ends.get("ge", ends.get("gt")), ends.get("le")
+    unit = "".join(f" {each.name}" for each in metadata if isinstance(each, Unit))
+    if least is None and most is None:
+        return ""
+    if most is None:
+        return f"{'at least' if 'ge' in ends else 'more than'} {least}{unit}"
+    return f"at most {most}{unit}" if least is None else f"from {least} to {most}{unit}"
+
+
+def _declared(model: type[BaseModel], place: Sequence[int | str]) -> list[Any]:
+    """List what is declared of the value at a place, such as its bounds and its unit."""
+    here: list[tuple[Any, list[Any]]] = [(model, [])]
+    for step in place:
+        here = [each for annotation, _ in here for each in _inside(annotation, step)]
+    return next((metadata for _, metadata in here if metadata), [])
+
+
+def _inside(annotation: Any, step: int | str) -> Iterator[tuple[Any, list[Any]]]:
+    """Yield what stands at one step inside of a type, with what is declared of it."""
+    origin, of = get_origin(annotation), get_args(annotation)
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        if step in annotation.model_fields:
+            field = annotation.model_fields[str(step)]
+            yield from _plain(field.annotation, field.metadata)
+        elif KIND in annotation.model_fields and step in _kinds(annotation):
+            yield annotation, []
+    elif origin in {tuple, list} and isinstance(step, int):
+        yield from _plain(of[0 if of[-1] is Ellipsis else min(step, len(of) - 1)], [])
+    elif origin is dict:
+        yield from _plain(of[1], [])
+    else:
+        yield from (found for each in of for found in _inside(each, step))
+
+
+def _plain(annotation: Any, metadata: Sequence[Any]) -> Iterator[tuple[Any, list[Any]]]:
+    """Yield a type without what is declared of it, and that beside it; each type of a union by itself."""
+    if get_origin(annotation) is Annotated:
+        inner, *more = get_args(annotation)
+        flat = [each for one in more for each in (one.metadata if isinstance(one, FieldInfo) else [one])]
+        yield from _plain(inner, [*metadata, *flat])
+    else:
+        yield annotation, list(metadata)
+
+
+def shortened(digits: re.Match[str]) -> str:
+    """Cut a number of very many digits short, and keep it far too large."""
+    return digits[0].replace("_", "")[:_SHORT_DIGITS]
+
+
+_SHORT_DIGITS, _SHOWN_DIGITS = 60, 12
+
+
+class _Short(reprlib.Repr):
+    """Cuts long values short; Python refuses to write whole numbers of more than 4,300 digits at all."""
+
+    def repr_int(self, x: int, level: int) -> str:  # noqa: ARG002 - reprlib's signature
+        if abs(x) < 10 ** (2 * _SHOWN_DIGITS):
+            return str(x)
+        return f"{(str if abs(x) < 10**_SHORT_DIGITS else hex)(x)[:_SHOWN_DIGITS]}..."
+
+
+_SHORT = _Short()
+
+
+def toml_value(value: object) -> str:
+    """A value as a TOML file writes it, cut short if it is long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "a table" if isinstance(value, dict) else _SHORT.repr(value)
+
+
+def _place(steps: Sequence[int | str], given: Any) -> str:
+    """A place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``."""
+    entries: list[str] = []
+    keys: list[str] = []
+    here = given
+    for at, step in enumerate(steps):
+        if isinstance(step, int):
+            here = here[step] if isinstance(here, list) and step < len(here) else None
+            *above, name = keys or ["entry"]
+            entries.append(".".join((*above, _entry(name, step + 1, here))))
+            keys = []
+        elif not keys and isinstance(here, dict) and here.get(KIND) == step and _is_entry(steps, at):
+            # Pydantic names the kind of a table as a step; what all of a kind share stands under that name itself.
+            key = steps[at + 1] if at + 1 < len(steps) else None
+            if key not in here and isinstance(given.get(step), dict) and key in given[step]:
+                entries, keys, here = [], [step], given[step]
+        else:
+            keys.append(step)
+            here = here.get(step) if isinstance(here, dict) else None
+    return ": ".join(part for part in (", ".join(entries), ".".join(keys)) if part)
+
+
+def _is_entry(steps: Sequence[int | str], at: int) -> bool:
+    return at > 0 and isinstance(steps[at - 1], int)
+
+
+def _entry(name: str, number: int, entry: Any) -> str:
+    named = f" ({entry['id']})" if isinstance(entry, dict) and isinstance(entry.get("id"), str) else ""
+    singular = name.removesuffix("s")
+    return f"{singular} {number}{named}" if singular != name else f"{name}, number {number}{named}"
+
+
+def _keys(model: type[BaseModel], place: Sequence[int | str]) -> tuple[str, ...]:
+    """The keys of the table at a place; none if there is more than one table that it could be."""
+    models: tuple[type[BaseModel], ...] = (model,)
+    for step in place:
+        if isinstance(step, int):
+            continue
+        of_kind = tuple(each for each in models if KIND in each.model_fields and step in _kinds(each))
+        fields = (each.model_fields[step].annotation for each in models if step in each.model_fields)
+        models = of_kind or tuple(found for field in fields for found in _models(field))
+    return tuple(models[0].model_fields) if len(models) == 1 else ()
+
+
+def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
+    return get_args(model.model_fields[KIND].annotation)
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Every model in a type, however deep."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)

@@ -1,0 +1,489 @@
+"""What happened in a session, in the past tense; every event is written before its effect is shown.
+
+World events come from outside and are what ``Session.handle`` takes. Session events are what the session concluded;
+they follow from the world events, and are recorded beside them so that nobody needs the program to read the data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from typing import Any, ClassVar
+
+from cattrs import BaseValidationError, Converter, transform_error
+from cattrs.strategies import configure_tagged_union, include_subclasses
+
+from kiosk.assistance.mentaliser import HintReason
+from kiosk.assistance.policy import Action, FlipInMove, GateDecision, Outcome, Phase
+from kiosk.experiment.questionnaire import Answer
+from kiosk.game import FlipRejection, Position
+
+
+class Stage(Enum):
+    """A part of the session."""
+
+    ATTRACT = "attract"
+    ABOUT = "about"
+    CONSENT = "consent"
+    AGE = "age"
+    ABOUT_YOU = "about_you"
+    INTRODUCTION = "introduction"
+    PRACTICE = "practice"
+    GAME = "game"
+    RESULT = "result"
+    QUESTIONS = "questions"
+    DEBRIEF = "debrief"
+    THANKS = "thanks"
+    OVER = "over"
+
+
+class Timer(Enum):
+    """Something that a session waits for; one that is started while it runs starts anew."""
+
+    TURN_BACK = "turn_back"
+    MARK = "mark"
+    READING = "reading"
+    SPEECH_DEADLINE = "speech_deadline"
+    MOOD = "mood"
+    FINISH = "finish"
+    PRACTICE = "practice"
+    THANKS = "thanks"
+    PAUSE = "pause"
+    IDLE = "idle"
+    STILL_THERE = "still_there"
+
+
+class Status(Enum):
+    """How a session ended."""
+
+    COMPLETED = "completed"
+    ABANDONED = "abandoned"
+    STOPPED = "stopped"
+    """The experimenter ended it, with a reason."""
+    INTERRUPTED = "interrupted"
+
+
+class NotRecordedReason(Enum):
+    """Why nothing of a session is kept but that it was."""
+
+    DECLINED = "declined"
+    UNDER_AGE = "under_age"
+    LEFT = "left"
+    """Whoever it was left before they had decided."""
+
+
+class PracticeEnd(Enum):
+    """How the practice came to its end."""
+
+    FOUND = "found"
+    LEFT = "left"
+    TIME = "time"
+
+
+class EmbodimentName(Enum):
+    """Who helps with voice and face."""
+
+    AVATAR = "avatar"
+    FURHAT = "furhat"
+    FURHAT_REALTIME = "furhat-realtime"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Anything that happened, ``at_ms`` milliseconds after the session's first event."""
+
+    at_ms: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorldEvent(Event):
+    """Something that came from outside."""
+
+    by_visitor: ClassVar[bool] = False
+    """Whether it shows that somebody is there."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SessionStarted(WorldEvent):
+    """The visitor began; the session exists from here."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContinuePressed(WorldEvent):
+    """The visitor goes on to what comes next."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsentPurposeToggled(WorldEvent):
+    """The visitor set or took away the tick of one purpose of the consent."""
+
+    by_visitor = True
+    purpose: str
+    ticked: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsentSubmitted(WorldEvent):
+    """The visitor agrees to what is ticked; it counts once every purpose that is required is."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsentDeclined(WorldEvent):
+    """The visitor wants to play without anything being stored."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class AgeConfirmed(WorldEvent):
+    """The visitor said whether they are old enough for the study."""
+
+    by_visitor = True
+    adult: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class PracticeSkipped(WorldEvent):
+    """The visitor leaves the practice early."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class CardSelected(WorldEvent):
+    """The visitor tapped a card, whether or not it could be turned."""
+
+    by_visitor = True
+    position: Position
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResponseGiven(WorldEvent):
+    """The visitor chose an answer to an item that is shown; the last one given counts, and None takes it back."""
+
+    by_visitor = True
+    item: str
+    value: Answer | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TypingActivity(WorldEvent):
+    """The visitor is typing an answer; what it says is theirs until they are done. Told every few letters."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class UserActivity(WorldEvent):
+    """The visitor scrolled, dragged or moved by keyboard, and did it last ``ago_ms`` milliseconds before.
+
+    It is told when the idle time ends, and so at most once in each.
+    """
+
+    by_visitor = True
+    ago_ms: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PresenceConfirmed(WorldEvent):
+    """The visitor is still there."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimerExpired(WorldEvent):
+    """A wait that the session asked for is over."""
+
+    timer: Timer
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeechStarted(WorldEvent):
+    """The body began to say a sentence."""
+
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeechFinished(WorldEvent):
+    """The body has said the sentence to its end."""
+
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeechFailed(WorldEvent):
+    """The sentence will not be heard, or not to its end; it stays on the screen to be read."""
+
+    utterance: int
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotDisconnected(WorldEvent):
+    """The robot that was helping cannot be counted on any more in this session."""
+
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class RepeatRequested(WorldEvent):
+    """The experimenter wants the last sentence said again."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PauseRequested(WorldEvent):
+    """The experimenter stops the session for a while; no clock of the game counts that time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PauseEnded(WorldEvent):
+    """The experimenter lets the session go on."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AbortRequested(WorldEvent):
+    """The experimenter ends the session."""
+
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextParticipantRequested(WorldEvent):
+    """The experimenter gets ready for the next visitor, as this one is being thanked already."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MuteChanged(WorldEvent):
+    """The experimenter made voice and sounds silent, or heard again; the text stays."""
+
+    quiet: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class SessionResumed(WorldEvent):
+    """A session that was cut off goes on, from the start of the stage it was in; ``body`` helps from here on."""
+
+    body: EmbodimentName
+
+
+@dataclass(frozen=True, kw_only=True)
+class ApplicationClosed(WorldEvent):
+    """The program is being closed in the middle of a session."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SessionEvent(Event):
+    """Something that the session concluded."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StageEntered(SessionEvent):
+    """The session went on to another stage."""
+
+    stage: Stage
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsentGiven(SessionEvent):
+    """The visitor agreed: to this text, by its version and hash, in this language, for these purposes."""
+
+    version: str
+    sha256: str
+    language: str
+    purposes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionnairePageShown(SessionEvent):
+    """A page of a questionnaire came; response times count from here."""
+
+    questionnaire: str
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SentenceRequested(SessionEvent):
+    """The body was asked to say a sentence that is no hint; a hint's sentence stands in HintGiven."""
+
+    utterance: int
+    sentence: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class EmbodimentChanged(SessionEvent):
+    """Another body helps from here on; the one at the start stands with the session."""
+
+    body: EmbodimentName
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoardDealt(SessionEvent):
+    """A game began: the cards by name, row by row."""
+
+    rows: int
+    columns: int
+    cards: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AssistanceDecided(SessionEvent):
+    """Before flip number ``flip`` (from 1): what the two layers saw and how much help they chose."""
+
+    flip: int
+    card: FlipInMove
+    game: Phase
+    last: Action
+    outcome: Outcome
+    gate: GateDecision
+    action: Action
+
+
+@dataclass(frozen=True, kw_only=True)
+class HintGiven(SessionEvent):
+    """A hint for flip number ``flip``; ``row`` and ``column`` are what it gave away, from 0, None where it did not."""
+
+    flip: int
+    card: FlipInMove
+    action: Action
+    target: Position
+    name: str
+    seen: int
+    mate_seen: int
+    reason: HintReason
+    row: int | None
+    column: int | None
+    sentence: str
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class HintHighlighted(SessionEvent):
+    """The hint's card, row or column was marked on the board."""
+
+    flip: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoardUnlocked(SessionEvent):
+    """Cards may be tapped again after a hint; from HintGiven until here the clock without speech stands still."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CardSelectionRejected(SessionEvent):
+    """A card was tapped that could not be turned."""
+
+    position: Position
+    why: FlipRejection | None
+    """The rule that forbids it; None while the assistant speaks."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CardFlipped(SessionEvent):
+    """A card was turned up; ``matched`` is None for the first card of a move; numbers count from 1."""
+
+    number: int
+    move: int
+    position: Position
+    card: str
+    matched: bool | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PolicyUpdated(SessionEvent):
+    """The table that went on learning during this game came out of it with this hash; the file is as it was."""
+
+    sha256: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SentenceRepeated(SessionEvent):
+    """The body was asked to say this sentence once more, under a new number."""
+
+    of: int
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PracticeFinished(SessionEvent):
+    """The practice is over."""
+
+    how: PracticeEnd
+
+
+@dataclass(frozen=True, kw_only=True)
+class GameFinished(SessionEvent):
+    """Every pair was found and has been looked at."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionnairesCompleted(SessionEvent):
+    """The visitor went past the last page of this stage's questionnaires."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThanksTimedOut(SessionEvent):
+    """The thanks have been up long enough."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdleTimedOut(SessionEvent):
+    """Nobody answered whether they are still there."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SessionEnded(SessionEvent):
+    """The session is over; nothing of it follows, unless it is resumed."""
+
+    status: Status
+
+
+def _answer(value: object, _: object) -> Answer | None:
+    """An answer as it was written: a number, a text, a list of options, or none."""
+    match value:
+        case bool():
+            raise ValueError(f"{value} is no answer")
+        case None | int() | str():
+            return value
+        case list() | tuple() if all(isinstance(option, str) for option in value):
+            return tuple(value)
+    raise ValueError(f"{value!r} is no answer")
+
+
+def _converter() -> Converter:
+    """A converter to and from JSON values in which every closed set goes by name."""
+    converter = Converter(forbid_extra_keys=True)
+    converter.register_structure_hook(Answer | None, _answer)
+    for closed_set in (Action, Phase, Outcome, GateDecision):
+        # Their values count rows and columns of a table, or explain; in the records they go by name.
+        converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())
+        converter.register_structure_hook(closed_set, lambda name, enum: enum[name.upper()])
+    return converter
+
+
+_CONVERTER = _converter()
+include_subclasses(Event, _CONVERTER, union_strategy=partial(configure_tagged_union, tag_name="type"))
+
+
+def to_record(event: Event) -> dict[str, Any]:
+    """An event as JSON values: its class under ``type``, its fields under their names."""
+    record: dict[str, Any] = _CONVERTER.unstructure(event, unstructure_as=Event)
+    return record
+
+
+def from_record(record: Mapping[str, Any]) -> Event:
+    """The event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
+    try:
+        return _CONVERTER.structure(record, Event)
+    except (BaseValidationError, KeyError) as error:
+        raise ValueError("; ".join(transform_error(error, path="event"))) from error

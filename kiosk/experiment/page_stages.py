@@ -1,0 +1,339 @@
+"""The stages that are pages: information, age, consent, questionnaires, result, debrief."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from random import Random
+from typing import ClassVar
+
+from kiosk.assistance.wording import Wording
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Mood, Script
+from kiosk.experiment.events import Event, Timer, WorldEvent
+from kiosk.experiment.information import Information, Page
+from kiosk.experiment.projections import Measures, effective_answer, measure
+from kiosk.experiment.questionnaire import Answer, Item, ItemOrder, Questionnaire, TextPage, in_language
+
+
+class StageHandler:
+    """One stage; by default it shows nothing and takes whatever the table of stages lets through."""
+
+    mood: ClassVar[Mood] = Mood.IDLE
+    """The assistant's face as the stage begins, whatever it showed before."""
+
+    @property
+    def characters(self) -> int:
+        """How much there is to read on its longest page, in characters."""
+        return 0
+
+    def enter(self, script: Script) -> None:
+        """Begin, or begin anew."""
+
+    def accepts(self, event: WorldEvent) -> bool:  # noqa: ARG002 - most scenes take whatever comes
+        """Whether this event makes sense now."""
+        return True
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """What an event leads to within the scene."""
+
+
+class SpeechWriter:
+    """Says what stands in the catalogue; every sentence of a session has a number of its own."""
+
+    def __init__(self, wording: Wording, numbers: Iterator[int]) -> None:
+        """Speak in these words; ``numbers`` go on through the whole session."""
+        self._wording = wording
+        self._numbers = numbers
+
+    def say(self, message: str, script: Script, **variables: str | int) -> None:
+        """Have one wording of the message said."""
+        sentence, number = self._wording.say(message, **variables), next(self._numbers)
+        script.note(happened.SentenceRequested(at_ms=script.at_ms, utterance=number, sentence=sentence))
+        script.do(do.Speak(number, sentence))
+
+    def repeat(self, said: do.Speak, script: Script) -> None:
+        """Have a sentence said once more."""
+        number = next(self._numbers)
+        script.note(happened.SentenceRepeated(at_ms=script.at_ms, of=said.utterance, utterance=number))
+        script.do(do.Speak(number, said.sentence))
+
+
+class ConsentStage(StageHandler):
+    """One box for each purpose, none ticked; agreeing counts once every required one is."""
+
+    def __init__(self, information: Information, language: str) -> None:
+        """Ask for the consent of this sheet."""
+        self._information = information
+        self._language = language
+        self._ticked: frozenset[str] = frozenset()
+
+    @property
+    def characters(self) -> int:
+        """How long the page is, boxes and all."""
+        return self._information.consent.characters
+
+    def enter(self, script: Script) -> None:
+        """Show the boxes."""
+        self._ticked = frozenset()
+        script.do(do.ShowConsent(self._information.consent))
+
+    def accepts(self, event: WorldEvent) -> bool:
+        """Whether the purpose is one of those that are shown."""
+        match event:
+            case happened.ConsentPurposeToggled(purpose=purpose):
+                return purpose in (offered.id for offered in self._information.consent.purposes)
+        return True
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """Keep the ticks, or conclude from them."""
+        match event:
+            case happened.ConsentPurposeToggled(purpose=purpose, ticked=ticked):
+                self._ticked = self._ticked | {purpose} if ticked else self._ticked - {purpose}
+                script.do(do.ShowTicks(self._ticked))
+            case happened.ConsentSubmitted():
+                self._agree(script)
+
+    def _agree(self, script: Script) -> None:
+        missing = self._information.consent.required - self._ticked
+        purposes = tuple(purpose.id for purpose in self._information.consent.purposes)
+        if missing:
+            script.do(do.ShowValidationErrors(tuple(purpose for purpose in purposes if purpose in missing)))
+            return
+        script.note(
+            happened.ConsentGiven(
+                at_ms=script.at_ms,
+                version=self._information.version,
+                sha256=self._information.sha256,
+                language=self._language,
+                purposes=tuple(purpose for purpose in purposes if purpose in self._ticked),
+            )
+        )
+
+
+class AgeStage(StageHandler):
+    """Whether the visitor is old enough for their session to be stored."""
+
+    def __init__(self, adult: int) -> None:
+        """Ask for this age in years."""
+        self._adult = adult
+
+    def enter(self, script: Script) -> None:
+        """Ask."""
+        script.do(do.ShowAgeQuestion(self._adult))
+
+
+FEW_MOVES = 25
+SOME_MOVES = 30
+"""Below FEW_MOVES and below SOME_MOVES the assistant praises; the study's two limits, for its twelve pairs."""
+
+STUDY_PAIRS = 12
+
+
+class AboutStage(StageHandler):
+    """What the study is about."""
+
+    def __init__(self, page: Page) -> None:
+        """Show this page."""
+        self._page = page
+
+    @property
+    def characters(self) -> int:
+        """How long the page is."""
+        return self._page.characters
+
+    def enter(self, script: Script) -> None:
+        """Show it."""
+        script.do(do.ShowAbout(self._page))
+
+
+class IntroductionStage(StageHandler):
+    """The assistant greets, and says what is to be done."""
+
+    def __init__(self, speaker: SpeechWriter, pairs: int, *, helped: bool) -> None:
+        """Introduce a game of so many pairs, in which somebody helps or nobody does."""
+        self._speaker = speaker
+        self._pairs = pairs
+        self._helped = helped
+
+    def enter(self, script: Script) -> None:
+        """Show the rules and say them."""
+        script.do(do.ShowIntroduction(helped=self._helped))
+        speech = "introduction-speech" if self._helped else "introduction-speech-alone"
+        self._speaker.say(speech, script, cards=2 * self._pairs, pairs=self._pairs)
+
+
+class ResultStage(StageHandler):
+    """What the visitor achieved."""
+
+    mood = Mood.HAPPY
+
+    def __init__(self, speaker: SpeechWriter, log: Callable[[Script], Sequence[Event]]) -> None:
+        """``log`` tells everything that was concluded, with what the script at hand adds."""
+        self._speaker = speaker
+        self._log = log
+
+    def enter(self, script: Script) -> None:
+        """Show the figures and remark on them."""
+        measures = measure(self._log(script))
+        script.do(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
+        self._speaker.say(_remark(measures), script, moves=measures.moves)
+
+
+class DebriefStage(StageHandler):
+    """What the study was about, and how to withdraw."""
+
+    def __init__(self, page: Page) -> None:
+        """Show this page."""
+        self._page = page
+
+    @property
+    def characters(self) -> int:
+        """How long the page is."""
+        return self._page.characters
+
+    def enter(self, script: Script) -> None:
+        """Show it."""
+        script.do(do.ShowDebrief(self._page))
+
+
+class ThanksStage(StageHandler):
+    """The end, for a moment, or until it is tapped away."""
+
+    mood = Mood.HAPPY
+
+    def __init__(self, speaker: SpeechWriter, stay_ms: int) -> None:
+        """Stay so long."""
+        self._speaker = speaker
+        self._stay_ms = stay_ms
+
+    def enter(self, script: Script) -> None:
+        """Thank the visitor."""
+        script.do(do.ShowThanks(), do.StartTimer(Timer.THANKS, self._stay_ms))
+        self._speaker.say("thanks-speech", script)
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """Leave when the time is over."""
+        match event:
+            case happened.TimerExpired(timer=Timer.THANKS):
+                script.note(happened.ThanksTimedOut(at_ms=script.at_ms))
+
+
+def _remark(measures: Measures) -> str:
+    """The message for the end of a game; the study's limits hold for its own board, others in proportion."""
+    moves = measures.moves * STUDY_PAIRS / max(1, measures.pairs)
+    if moves < FEW_MOVES:
+        return "result-speech-few"
+    return "result-speech-some" if moves < SOME_MOVES else "result-speech-many"
+
+
+@dataclass(frozen=True)
+class ItemPage:
+    """Items that are shown together; all of one questionnaire."""
+
+    questionnaire: str
+    items: tuple[Item, ...]
+
+
+def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPage]:
+    """The pages of a questionnaire, in the order of this session."""
+    together: list[Item] = []
+    for item in _ordered(questionnaire, chance):
+        if isinstance(item, TextPage) or len(together) == questionnaire.per_page:
+            yield from _sheet(questionnaire, together)
+            together = []
+        if isinstance(item, TextPage):
+            yield ItemPage(questionnaire.id, (item,))
+        else:
+            together.append(item)
+    yield from _sheet(questionnaire, together)
+
+
+def _sheet(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage]:
+    if items:
+        yield ItemPage(questionnaire.id, tuple(items))
+
+
+def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
+    """The items in their order, or shuffled between the text pages, which keep their places."""
+    if questionnaire.order is ItemOrder.FIXED:
+        return list(questionnaire.items)
+    shuffled = [item for item in questionnaire.items if not isinstance(item, TextPage)]
+    chance.shuffle(shuffled)
+    rest = iter(shuffled)
+    return [item if isinstance(item, TextPage) else next(rest) for item in questionnaire.items]
+
+
+class QuestionnaireStage(StageHandler):
+    """One or more questionnaires, one after another."""
+
+    mood = Mood.LISTENING
+
+    def __init__(self, questionnaires: Sequence[Questionnaire], chance: Random, language: str) -> None:
+        """Ask these in a language; ``chance`` shuffles what is to be shuffled."""
+        self._language = language
+        self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
+        self._number = 0
+        self._answers: dict[str, Answer] = {}
+
+    @property
+    def characters(self) -> int:
+        """How long the longest of the pages is."""
+        return max((self._length(sheet) for sheet in self._sheets), default=0)
+
+    def _length(self, sheet: ItemPage) -> int:
+        return sum(len(in_language(words, self._language)) for item in sheet.items for words in item.texts())
+
+    def enter(self, script: Script) -> None:
+        """Show the first page."""
+        self._number = 0
+        self._show(script)
+
+    def accepts(self, event: WorldEvent) -> bool:
+        """Whether an answer is one that an item of this page can have."""
+        match event:
+            case happened.ResponseGiven(item=name, value=value):
+                item = next((item for item in self._sheet.items if item.id == name), None)
+                return item is not None and not isinstance(item, TextPage) and (value is None or item.accepts(value))
+        return True
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """Keep an answer, or go on to the next page."""
+        match event:
+            case happened.ResponseGiven(item=item, value=value):
+                self._keep(item, value)
+                script.do(do.ShowAnswer(item, value))
+            case happened.ContinuePressed():
+                self._go_on(script)
+
+    def _keep(self, item: str, value: Answer | None) -> None:
+        if value is None:
+            self._answers.pop(item, None)
+        else:
+            self._answers[item] = value
+
+    def _go_on(self, script: Script) -> None:
+        missing = tuple(item.id for item in self._sheet.items if self._lacks(item))
+        if missing:
+            script.do(do.ShowValidationErrors(missing))
+        elif self._number + 1 < len(self._sheets):
+            self._number += 1
+            self._show(script)
+        else:
+            script.note(happened.QuestionnairesCompleted(at_ms=script.at_ms))
+
+    def _lacks(self, item: Item) -> bool:
+        return not isinstance(item, TextPage) and item.required and effective_answer(self._answers.get(item.id)) is None
+
+    def _show(self, script: Script) -> None:
+        self._answers.clear()
+        names = tuple(item.id for item in self._sheet.items)
+        script.note(
+            happened.QuestionnairePageShown(at_ms=script.at_ms, questionnaire=self._sheet.questionnaire, items=names)
+        )
+        script.do(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets)))
+
+    @property
+    def _sheet(self) -> ItemPage:
+        return self._sheets[self._number]

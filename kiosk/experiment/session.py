@@ -1,0 +1,387 @@
+"""The session as a pure state machine: an event goes in, events and effects come out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from enum import Enum
+from itertools import count
+from random import Random
+
+from kiosk import UserInputError
+from kiosk.assistance.assistant import assistant_with
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.wording import Wording
+from kiosk.config import Game, Idle, Practice
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition, help_in
+from kiosk.experiment.effects import Effect, Mood, Script
+from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, Timer, WorldEvent
+from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage
+from kiosk.experiment.page_stages import (
+    AboutStage,
+    AgeStage,
+    ConsentStage,
+    DebriefStage,
+    IntroductionStage,
+    QuestionnaireStage,
+    ResultStage,
+    SpeechWriter,
+    StageHandler,
+    ThanksStage,
+)
+from kiosk.experiment.projections import Measures, measure
+from kiosk.experiment.session_config import SessionConfig
+from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition, Transition, check_expected, transition
+from kiosk.game import Board
+
+
+class IdleTimeout:
+    """Knows whether somebody was asked if they are still there, and whether the session is paused."""
+
+    def __init__(self, idle: Idle, reading_ms: Callable[[Stage], int] = lambda _: 0) -> None:
+        """Ask after these times, or once a stage's text can have been read, if that takes longer."""
+        self._idle = idle
+        self._reading_ms = reading_ms
+        self._asked = self._paused = False
+
+    def accepts(self, event: WorldEvent) -> bool:
+        """Whether this event can happen now: while the session is paused, a visitor can do nothing."""
+        match event:
+            case happened.PresenceConfirmed():
+                return self._asked
+            case happened.UserActivity(ago_ms=ago_ms) if ago_ms < 0:
+                return False
+            case happened.PauseRequested():
+                return not self._paused
+            case happened.PauseEnded():
+                return self._paused
+        return not (self._paused and event.by_visitor)
+
+    def react(self, event: WorldEvent, stage: Stage, script: Script) -> None:
+        """Ask, give up, pause, or start the idle time anew whenever somebody shows that they are there."""
+        match event:
+            case happened.TimerExpired(timer=Timer.IDLE):
+                self._asked = True
+                script.do(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._idle.still_there))
+            case happened.TimerExpired(timer=Timer.STILL_THERE | Timer.PAUSE):
+                script.note(happened.IdleTimedOut(at_ms=script.at_ms))
+            case happened.PauseRequested():
+                self._paused = True
+                self.dismiss(script)
+                script.do(do.StopTimer(Timer.IDLE), do.ShowPause())
+                self.restart(stage, script)
+            case happened.PauseEnded():
+                self._paused = False
+                script.do(do.HidePause(), do.StopTimer(Timer.PAUSE))
+                self.restart(stage, script)
+            case happened.UserActivity(ago_ms=ago_ms):
+                self.dismiss(script)
+                self.restart(stage, script, ago_ms)
+            case _ if event.by_visitor and stage is not Stage.ATTRACT:
+                self.dismiss(script)
+                self.restart(stage, script)
+
+    def restart(self, stage: Stage, script: Script, ago_ms: int = 0) -> None:
+        """Start the idle time of a stage, so long ago; in a pause its own, or anybody could park a booth."""
+        if self._paused:
+            script.do(do.StartTimer(Timer.PAUSE, self._idle.pause))
+        else:
+            idle_ms = max(self._idle.of(stage.value), self._reading_ms(stage))
+            script.do(do.StartTimer(Timer.IDLE, max(1, idle_ms - ago_ms)))
+
+    def resume(self, script: Script) -> None:
+        """End a pause together with the session, or after the program that it was cut off with."""
+        if self._paused:
+            self._paused = False
+            script.do(do.HidePause())
+
+    def dismiss(self, script: Script) -> None:
+        """Ask no longer whether somebody is there."""
+        if self._asked:
+            self._asked = False
+            script.do(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
+
+
+class SpeechState:
+    """Keeps the sentence in the bubble, and whether it has been said to its end."""
+
+    def __init__(self, speaker: SpeechWriter) -> None:
+        """Sentences that are said again get their numbers from the speaker."""
+        self._speaker = speaker
+        self._robot_lost = False
+        self._said: do.Speak | None = None
+        self._unsaid: do.Speak | None = None
+
+    def accepts(self, event: WorldEvent) -> bool:
+        """Whether this event can happen now."""
+        match event:
+            case happened.RobotDisconnected():
+                return not self._robot_lost
+            case happened.RepeatRequested():
+                return self._said is not None and self._unsaid is None
+        return True
+
+    def react(self, event: WorldEvent, script: Script) -> None:
+        """Say something again, have the avatar say what the robot did not, or note that it was said."""
+        match event:
+            case happened.RobotDisconnected(why=why):
+                self._go_on_without_robot(why, script)
+            case happened.RepeatRequested() if self._said is not None:
+                self._speaker.repeat(self._said, script)
+            case happened.SessionResumed():
+                self._robot_lost = False
+            case happened.SpeechFinished(utterance=utterance) | happened.SpeechFailed(utterance=utterance):
+                if self._unsaid is not None and self._unsaid.utterance == utterance:
+                    self._unsaid = None
+
+    def track(self, commands: Iterable[Effect]) -> None:
+        """Remember what these commands have said, or silenced."""
+        for command in commands:
+            match command:
+                case do.Speak():
+                    self._said = self._unsaid = command
+                case do.StopSpeaking():
+                    self._unsaid = None
+                case do.ClearBubble():
+                    self._said = None
+
+    def _go_on_without_robot(self, why: str, script: Script) -> None:
+        """Have the avatar help; it says at once what the robot had not said to its end."""
+        self._robot_lost = True
+        script.note(happened.EmbodimentChanged(at_ms=script.at_ms, body=EmbodimentName.AVATAR, why=why))
+        script.do(do.SwitchEmbodiment(EmbodimentName.AVATAR))
+        if self._unsaid is not None:
+            script.do(self._unsaid)
+
+
+class StageFactory:
+    """The scenes of a session, all of them made before it begins, so that what cannot be made is refused at once."""
+
+    def __init__(self, plan: SessionConfig, seed: int, log: Callable[[Script], Sequence[Event]]) -> None:
+        """One stream of chance for each purpose: two conditions with the same seed play the same board."""
+        self._plan, self._seed = plan, seed
+        self._wording, self._numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
+        self.speaker = SpeechWriter(self._wording, self._numbers)
+        settings = plan.settings
+        makers: dict[Stage, Callable[[], StageHandler]] = {
+            Stage.ABOUT: lambda: AboutStage(plan.information.about),
+            Stage.CONSENT: lambda: ConsentStage(plan.information, plan.language),
+            Stage.AGE: lambda: AgeStage(settings.consent.adult),
+            Stage.ABOUT_YOU: lambda: QuestionnaireStage((plan.about_you,), Random(f"{seed}/about_you"), plan.language),
+            Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
+            Stage.RESULT: lambda: ResultStage(self.speaker, log),
+            Stage.QUESTIONS: lambda: QuestionnaireStage(
+                plan.questionnaires, Random(f"{seed}/questions"), plan.language
+            ),
+            Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
+            Stage.THANKS: lambda: ThanksStage(self.speaker, settings.timing.thanks),
+        }
+        # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
+        self._scenes: dict[Stage, StageHandler] = {
+            stage: makers[stage]() for stage in plan.stage_order.stages if stage in makers
+        }
+        self._play_in(plan.condition)
+
+    def play_by_chance(self) -> None:
+        """Have the game in any condition of the study: whoever is not stored shall tell nobody who comes next."""
+        listed = sorted(self._plan.settings.allocation.quotas) or [self._plan.condition.value]
+        self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
+
+    def _play_in(self, condition: Condition) -> None:
+        game = _game(replace(self._plan, condition=condition), self._seed, self._wording, self._numbers)
+        pairs = game.game.board.pairs
+        self._scenes[Stage.GAME] = game
+        self._scenes[Stage.INTRODUCTION] = IntroductionStage(self.speaker, pairs, helped=game.helped)
+
+    def of(self, stage: Stage) -> StageHandler:
+        """The scene of a stage; before the first and after the last one nothing is to be seen of a session."""
+        return self._scenes.get(stage, _NOTHING)
+
+    def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:
+        practice = plan.settings.practice
+        table = DealtTable(_deal(practice, plan.practice_deck, chance), practice.deck, practice=True)
+        return PracticeStage(table, plan.settings.timing, self.speaker, practice.longest)
+
+
+_NOTHING = StageHandler()
+
+
+def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[int]) -> GameStage:
+    settings = plan.settings
+    deal, targets = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets"))
+    rule = TargetRule(settings.assistance.target_rule)
+    given = help_in(plan.condition, rule, wording, targets)
+    assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance.step) if given else None
+    guide = HintGuide(assistant, given.sentences) if given and assistant else None
+    return GameStage(
+        DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, settings.timing, numbers
+    )
+
+
+def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Board:
+    try:
+        return Board.deal(game.rows, game.columns, cards, chance)
+    except ValueError as error:
+        raise UserInputError(f"no game can be dealt from the deck {game.deck!r}: {error}") from error
+
+
+class RecordingState(Enum):
+    """Whether the session is written down."""
+
+    UNDECIDED = "undecided"
+    """What happens is held back until the visitor has decided."""
+    KEPT = "kept"
+    FORGOTTEN = "forgotten"
+
+
+class Session:
+    """One session, from the visitor's first tap to its end."""
+
+    def __init__(self, plan: SessionConfig, seed: int) -> None:
+        """Follow ``plan``; the same seed and the same events give the same commands.
+
+        Raises BadInput if a deck has too few cards for its board, or the stages cannot come in their order.
+        """
+        self.stage = Stage.ATTRACT
+        self.keeping = RecordingState.UNDECIDED
+        self._course = plan.stage_order
+        self._timing = plan.settings.timing
+        self._closed_in: Stage | None = None
+        self._log: list[Event] = []
+        self._waiting: set[Timer] = set()
+        self._scenery = StageFactory(plan, seed, lambda script: [*self._log, *script.notes])
+        self._presence = IdleTimeout(plan.settings.idle, self._reading_ms)
+        self._talk = SpeechState(self._scenery.speaker)
+
+    def handle(self, event: WorldEvent) -> tuple[Effect, ...]:
+        """What one event leads to: records first; raises UnexpectedEvent, and changes nothing, if it has no place."""
+        self.check(event)
+        script = Script(event.at_ms)
+        self._react(event, script)
+        for step in (event, *script.notes):
+            self._go_on_after(step, script)
+        self._log += [event, *script.notes]
+        self._keep_track(script)
+        return script.commands
+
+    @property
+    def measures(self) -> Measures:
+        """The measures of the game so far."""
+        return measure(self._log)
+
+    def _reading_ms(self, stage: Stage) -> int:
+        """How long it takes to read the longest page of a stage."""
+        return self._timing.reading * self._scenery.of(stage).characters
+
+    def check(self, event: WorldEvent) -> None:
+        """Raise UnexpectedEvent if this event has no place now."""
+        check_expected(self.stage, event)
+        keepers = (self._presence, self._talk, self._scenery.of(self.stage))
+        if not self._can_come(event) or not all(supervisor.accepts(event) for supervisor in keepers):
+            raise InvalidTransition(self.stage, event)
+
+    def _can_come(self, event: WorldEvent) -> bool:
+        match event:
+            case happened.TimerExpired(timer=timer):
+                return timer in self._waiting
+            case happened.SessionResumed():
+                return self.keeping is RecordingState.KEPT and self._cut_off_in not in (Stage.GAME, Stage.OVER)
+        return True
+
+    def _react(self, event: WorldEvent, script: Script) -> None:
+        """What the event leads to within its stage."""
+        self._presence.react(event, self.stage, script)
+        self._talk.react(event, script)
+        match event:
+            case happened.TimerExpired(timer=timer):
+                self._waiting.discard(timer)
+            case happened.SessionResumed():
+                self._resume(script)
+            case happened.ConsentDeclined():
+                self._forget(NotRecordedReason.DECLINED, script)
+            case happened.AgeConfirmed(adult=False):
+                self._forget(NotRecordedReason.UNDER_AGE, script)
+        self._scenery.of(self.stage).react(event, script)
+
+    def _resume(self, script: Script) -> None:
+        """Begin the stage anew in which the session was cut off."""
+        self.stage = self._cut_off_in
+        self._closed_in = None
+        self._presence.resume(script)
+        self._leave_scene(script)
+        self._enter(self.stage, script)
+
+    @property
+    def _cut_off_in(self) -> Stage:
+        """Where the session would go on if it were resumed: a crash leaves it where it was, a closed kiosk ends it."""
+        return self._closed_in or self.stage
+
+    def _go_on_after(self, event: Event, script: Script) -> None:
+        """Enter the next stage, if this event leads to one."""
+        match transition(self.stage, event):
+            case Transition.ON:
+                after = self._course.after(self.stage, kept=self.keeping is not RecordingState.FORGOTTEN)
+                self._change_stage(after, Status.COMPLETED, script)
+            case Transition.OVER:
+                self._closed_in = self.stage if isinstance(event, happened.ApplicationClosed) else None
+                self._change_stage(Stage.OVER, _ENDINGS[type(event)], script)
+
+    def _change_stage(self, stage: Stage, ending: Status, script: Script) -> None:
+        self._leave_scene(script)
+        self.stage = stage
+        if stage is Stage.OVER:
+            script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
+            self._end(ending, script)
+        else:
+            self._keep_from(stage, script)
+            self._enter(stage, script)
+
+    def _leave_scene(self, script: Script) -> None:
+        """Stop all that belongs to the stage: its waits, its words, and the question over it."""
+        running = {*self._waiting, *(c.timer for c in script.actions if isinstance(c, do.StartTimer))}
+        script.do(do.StopSpeaking(), do.ClearBubble())
+        script.do(*(do.StopTimer(timer) for timer in Timer if timer in running))
+        self._presence.dismiss(script)
+
+    def _enter(self, stage: Stage, script: Script) -> None:
+        script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
+        self._presence.restart(stage, script)
+        script.do(do.SetExpression(self._scenery.of(stage).mood))
+        self._scenery.of(stage).enter(script)
+
+    def _keep_from(self, stage: Stage, script: Script) -> None:
+        """Whoever is past all that is decided beforehand has agreed to be recorded."""
+        if self.keeping is RecordingState.UNDECIDED and stage not in BEFORE_DECIDING:
+            self.keeping = RecordingState.KEPT
+            script.do(do.StartRecording())
+
+    def _forget(self, why: NotRecordedReason, script: Script) -> None:
+        if self.keeping is RecordingState.UNDECIDED:
+            self.keeping = RecordingState.FORGOTTEN
+            self._scenery.play_by_chance()
+            script.do(do.DiscardRecording(why))
+
+    def _end(self, status: Status, script: Script) -> None:
+        self._forget(NotRecordedReason.LEFT, script)
+        self._presence.resume(script)
+        script.note(happened.SessionEnded(at_ms=script.at_ms, status=status))
+        script.do(do.SetExpression(Mood.IDLE), do.EndSession(status))
+
+    def _keep_track(self, script: Script) -> None:
+        """Remember which waits are running, so that the end of any other can be refused, and what is being said."""
+        self._talk.track(script.actions)
+        for command in script.actions:
+            match command:
+                case do.StartTimer(timer=timer):
+                    self._waiting.add(timer)
+                case do.StopTimer(timer=timer):
+                    self._waiting.discard(timer)
+
+
+_ENDINGS = {
+    happened.IdleTimedOut: Status.ABANDONED,
+    happened.AbortRequested: Status.STOPPED,
+    happened.ApplicationClosed: Status.INTERRUPTED,
+}

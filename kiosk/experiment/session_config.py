@@ -1,0 +1,109 @@
+"""What a session and a study follow, and what kind of session it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from pathlib import Path
+
+from kiosk.assistance.policy import QTable
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import Settings
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.information import Information
+from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.experiment.transitions import StageOrder
+
+
+class SessionKind(IntEnum):
+    """The kinds of sessions. Each numbers its own people, follows its own list of places and is counted by itself.
+
+    The numbers stand in the database, in the columns ``simulated``. ``False`` and ``True`` mean the first two.
+    """
+
+    STUDY = 0
+    """A participant, at a kiosk that only the PIN leaves."""
+    SIMULATED = 1
+    """A program, in a rehearsal."""
+    TRIAL = 2
+    """A person at a kiosk without a PIN."""
+
+
+def kind_of(settings: Settings) -> SessionKind:
+    """Return what people's sessions at a kiosk with these settings are."""
+    return SessionKind.STUDY if settings.experimenter.pin else SessionKind.TRIAL
+
+
+@dataclass(frozen=True)
+class SessionConfig:
+    """Everything that a session follows, except chance and what happens in it; its words are in one language."""
+
+    settings: Settings
+    condition: Condition
+    policy: QTable
+    catalogue: Catalogue
+    information: Information
+    about_you: Questionnaire
+    questionnaires: tuple[Questionnaire, ...]
+    deck: tuple[str, ...]
+    practice_deck: tuple[str, ...]
+
+    @property
+    def language(self) -> str:
+        """The language of the session."""
+        return self.catalogue.language
+
+    def with_base_dir(self, other: Settings) -> SessionConfig:
+        """The same plan, whose settings look for what they name by a path where these do."""
+        return replace(self, settings=self.settings.with_base_dir(other))
+
+    @property
+    def stage_order(self) -> StageOrder:
+        """Its stages in their order; raises BadInput if there can be no such course."""
+        return StageOrder.of(self.settings.stages)
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where something came from that a study file calls by name.
+
+    ``sha256`` is the hash that goes into records where there is one; that of a folder is over its files. ``unused`` is
+    what has the same name beside the study file, and was not taken.
+    """
+
+    key: str
+    name: str
+    path: Path
+    is_shipped: bool
+    sha256: str
+    version: str | None = None
+    unused: Path | None = None
+    pictures: tuple[Path, ...] = ()
+
+
+@dataclass(frozen=True)
+class StudyConfig:
+    """A study, ready to be run: a plan for each of its languages, alike in all but words."""
+
+    plans: tuple[SessionConfig, ...]
+    sources: tuple[Source, ...] = ()
+
+    @property
+    def settings(self) -> Settings:
+        """The study file."""
+        return self.plans[0].settings
+
+    @property
+    def own_pictures(self) -> tuple[Path, ...]:
+        """The pictures that do not come with the program, each once."""
+        return tuple(dict.fromkeys(file for each in self.sources if not each.is_shipped for file in each.pictures))
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """What a visitor may choose from; the first one is shown at rest."""
+        return tuple(plan.language for plan in self.plans)
+
+    def plan(self, language: str, condition: Condition | None = None) -> SessionConfig:
+        """The plan of one of its languages, in the study file's condition or another one."""
+        plan = self.plans[self.languages.index(language)]
+        return plan if condition is None else replace(plan, condition=condition)

@@ -1,0 +1,368 @@
+"""Columns and tables of the data set: names, descriptions, levels and values."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, fields
+from enum import Enum, IntEnum
+from functools import lru_cache
+from typing import Any, Generic, TypeVar
+
+from kiosk.assistance.policy import Action, FlipInMove, GateDecision
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Event, SessionEvent, Stage, WorldEvent
+from kiosk.experiment.labels import fold_name, read_as
+from kiosk.experiment.session_config import SessionKind
+
+
+class ExportOption(Enum):
+    """Something that is left out unless it is asked for."""
+
+    DATES = "dates"
+    """When each session began."""
+    REHEARSALS = "rehearsals"
+    """Sessions in which nobody sat."""
+    TRIALS = "trials"
+    """Sessions at a kiosk without a PIN."""
+    TEXTS = "texts"
+    """What people typed, and what a failure said."""
+    UNSHARED = "unshared"
+    """Sessions whose visitor did not agree to publishing."""
+
+
+Cell = str | int | float | bool | tuple[str, ...] | dict[str, Any] | None
+"""What may stand in a cell; None is an empty one."""
+
+Row = TypeVar("Row")
+Whole = TypeVar("Whole")
+
+SEPARATOR = ";"
+"""Between the names of a cell that holds several."""
+
+MARK = "'"
+"""Stands before a text that a spreadsheet, pandas or R would not read as text; removing one restores the text."""
+
+
+class ColumnKind(Enum):
+    """What the cells of a column are."""
+
+    TEXT = "text"
+    WHOLE = "whole number"
+    NUMBER = "number"
+    TRUTH = "true or false"
+    NAMES = "names with a semicolon between them"
+    JSON = "JSON"
+
+
+@dataclass(frozen=True)
+class Level:
+    """One value of a closed set."""
+
+    name: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """What a column says, wherever it stands; ``empty`` says when its cell is empty, "" if it never is.
+
+    ``least`` and ``most`` are the ends of what it can be, where they are declared.
+    """
+
+    name: str
+    description: str
+    kind: ColumnKind = ColumnKind.TEXT
+    unit: str = ""
+    levels: tuple[Level, ...] = ()
+    empty: str = ""
+    least: int | None = None
+    most: int | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse, with a ValueError, a variable that nobody could understand."""
+        if not self.name or not self.description.endswith("."):
+            raise ValueError(f"the column {self.name!r} needs a description in a sentence")
+
+
+@dataclass(frozen=True)
+class Column(Generic[Row]):
+    """A variable, and where its value is found in a row."""
+
+    variable: Variable
+    of: Callable[[Row], Cell]
+
+
+@dataclass(frozen=True)
+class TableShape:
+    """A table as it is told of: its name, what one row is, which columns tell rows apart, and all its variables."""
+
+    name: str
+    about: str
+    key: tuple[str, ...]
+    variables: tuple[Variable, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The heads of its columns."""
+        return tuple(variable.name for variable in self.variables)
+
+
+@dataclass(frozen=True)
+class Table(Generic[Whole, Row]):
+    """A table with its columns in their order; ``rows`` finds its rows in what it is about."""
+
+    name: str
+    about: str
+    key: tuple[str, ...]
+    columns: tuple[Column[Row], ...]
+    rows: Callable[[Whole], Iterable[Row]]
+
+    @property
+    def shape(self) -> TableShape:
+        """The table without its contents."""
+        return TableShape(self.name, self.about, self.key, tuple(column.variable for column in self.columns))
+
+    def cells(self, whole: Whole) -> Iterator[list[str]]:
+        """The rows as texts, in the order of the columns."""
+        for row in self.rows(whole):
+            yield [format_cell(column.of(row)) for column in self.columns]
+
+
+class Label(str):
+    """A text that is to stay one even where it is a plain number, which comes out of every program as it went in."""
+
+    __slots__ = ()
+
+
+def format_cell(cell: Cell) -> str:
+    """A cell as it stands in a file: numbers so that they can be read back exactly."""
+    match cell:
+        case None:
+            return ""
+        case bool():
+            return str(cell).lower()
+        case dict():
+            return json.dumps(cell, ensure_ascii=False)
+        case tuple():
+            return marked(SEPARATOR.join(cell))
+        case str():
+            return MARK + cell if isinstance(cell, Label) and cell.isdigit() else marked(str(cell))
+    return str(cell)
+
+
+def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
+    """Each name as it can stand beside the others and what is ``taken``: with a number behind it where two are one."""
+    used = {fold_name(name) for name in taken}
+    found: dict[str, str] = {}
+    for name in names:
+        free = (name, *(f"{name}_{number}" for number in range(2, len(used) + 3)))
+        found[name] = next(each for each in free if fold_name(each) not in used)
+        used.add(fold_name(found[name]))
+    return found
+
+
+@lru_cache(maxsize=4096)
+def marked(text: str) -> str:
+    """A text as it stands in a cell: with a mark before it if it would be misread, or begins with a mark or a quote."""
+    # A quote at the beginning makes those who read a file without quotes swallow the cells that follow.
+    return MARK + text if text.startswith((MARK, '"')) or read_as(text) else text
+
+
+def unmarked(cell: str) -> str:
+    """The text that ``marked`` made this cell of."""
+    return cell.removeprefix(MARK)
+
+
+def enum_levels(members: type[Enum] | Iterable[Enum], **meanings: str) -> tuple[Level, ...]:
+    """The values of a closed set as they are recorded: those that count by their names, others by their values."""
+    names = [member.name.lower() if isinstance(member, IntEnum) else str(member.value) for member in members]
+    strange = meanings.keys() - set(names)
+    if strange:
+        raise ValueError(f"there is no {strange} among {names}")
+    return tuple(Level(name, meanings.get(name, "")) for name in names)
+
+
+MARKED = (
+    "A text that a spreadsheet, pandas or R would take for a formula, a number, a date, true or false, or a missing "
+    "value has an apostrophe (') before it, and so has a text that itself begins with an apostrophe or a quote. To "
+    "have every text as it was, take one apostrophe away where a cell begins with one. Numbers never have it, nor do "
+    "true and false of the program's own."
+)
+"""How texts stand in cells, and how to undo it; for the readers of every layout."""
+
+CONTEXT = {"@context": "https://schema.org/", "@type": "Dataset"}
+"""How schema.org is named, as Psych-DS asks for."""
+
+
+def property_value(variable: Variable) -> dict[str, Any]:
+    """A variable as schema.org's PropertyValue."""
+    told: dict[str, Any] = {
+        "@type": "PropertyValue",
+        "name": variable.name,
+        "description": full_description(variable),
+        "additionalType": variable.kind.value,
+    }
+    optional = {
+        "unitText": variable.unit or None,
+        "minValue": variable.least,
+        "maxValue": variable.most,
+        "valueReference": [
+            {"@type": "PropertyValue", "name": level.name} | ({"description": level.meaning} if level.meaning else {})
+            for level in variable.levels
+        ]
+        or None,
+    }
+    return told | {key: value for key, value in optional.items() if value is not None}
+
+
+def full_description(variable: Variable) -> str:
+    """The description, with what an empty cell means."""
+    return f"{variable.description} Empty: {variable.empty}." if variable.empty else variable.description
+
+
+def variables(shapes: Iterable[TableShape]) -> list[Variable]:
+    """Every variable of some tables, once."""
+    found: dict[str, Variable] = {}
+    for shape in shapes:
+        for variable in shape.variables:
+            if found.setdefault(variable.name, variable) != variable:
+                raise ValueError(f"the column {variable.name!r} means two things")
+    return list(found.values())
+
+
+def variables_measured(shapes: Iterable[TableShape]) -> dict[str, Any]:
+    """The variables of some tables as schema.org has them."""
+    return {"variableMeasured": [property_value(variable) for variable in variables(shapes)]}
+
+
+def codebook_markdown(shapes: Iterable[TableShape], file_of: dict[str, str]) -> str:
+    """The codebook for a reader; ``file_of`` names the file of each table."""
+    return "\n".join(["# Codebook", "", _OPENING, *_tables(shapes, file_of), *_kinds_of_events()])
+
+
+_OPENING = (
+    "Every table is a CSV file in UTF-8 with a line of column names. An empty cell means that there is nothing to "
+    "tell; what that says of the participant stands with each column. Where nothing is said of it, no cell is empty. "
+    + MARKED
+)
+
+
+def _tables(shapes: Iterable[TableShape], file_of: dict[str, str]) -> Iterator[str]:
+    for shape in shapes:
+        yield from ("", f"## {shape.name}", "", f"`{file_of[shape.name]}`. {shape.about}")
+        yield f"A row is told by {', '.join(f'`{name}`' for name in shape.key)}."
+        yield from ("", "| column | what it says | kind | unit |", "|---|---|---|---|")
+        for variable in shape.variables:
+            yield f"| `{variable.name}` | {_cell(_with_levels(variable))} | {_kind(variable)} | {variable.unit} |"
+
+
+def _with_levels(variable: Variable) -> str:
+    levels = "; ".join(f"`{level.name}`" + (f": {level.meaning}" if level.meaning else "") for level in variable.levels)
+    return f"{full_description(variable)} {levels}." if levels else full_description(variable)
+
+
+def _kind(variable: Variable) -> str:
+    if variable.least is None and variable.most is None:
+        return "one of a few names" if variable.levels and variable.kind is ColumnKind.TEXT else variable.kind.value
+    return f"{variable.kind.value}, {variable.least} to {variable.most}"
+
+
+def _cell(text: str) -> str:
+    """A text that does not break its line or its cell."""
+    return as_written(" ".join(text.split())).replace("|", "\\|")
+
+
+def as_written(text: str) -> str:
+    """Escape what a Markdown reader would take for HTML, for a link or for a picture to be fetched."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace("[", "\\[")
+
+
+def _kinds_of_events() -> Iterator[str]:
+    """What the column ``type`` of the events can be, from the classes themselves."""
+    yield from ("", "## Kinds of events", "", "What stands in the column `type`, and the fields of each.", "")
+    yield from ("| type | what happened | fields |", "|---|---|---|")
+    for base in (WorldEvent, SessionEvent):
+        for kind in base.__subclasses__():
+            own = ", ".join(f"`{field.name}`" for field in fields(kind) if field.name not in _ELSEWHERE)
+            yield f"| `{kind.__name__}` | {_cell(kind.__doc__ or '')} | {own} |"
+    yield ""
+
+
+_ELSEWHERE = {field.name for field in fields(Event)}
+"""Fields with a column of their own."""
+
+
+_Row = TypeVar("_Row")
+
+PARTICIPANT = Variable(
+    "participant_id",
+    "Who it is about: the site, where there is more than one, and a number in the order in which people came. It has "
+    "nothing to do with the code that the visitor keeps.",
+)
+AT = Variable("at_ms", "When it happened, from the session's first event.", ColumnKind.WHOLE, "ms")
+STAGE = Variable("stage", "The stage of the session that it fell into.", levels=enum_levels(Stage))
+BOARD = Variable(
+    "board",
+    "Which of the boards that were dealt in this session, from 1: the practice's, then the game's; a practice that was "
+    "cut off and gone on with is dealt anew.",
+    ColumnKind.WHOLE,
+)
+FLIP = Variable("flip", "The number of the flip on this board, from 1; two flips are a move.", ColumnKind.WHOLE)
+MOVE_CARD = Variable(
+    "move_card", "Whether the flip is the first or the second of its move.", levels=enum_levels(FlipInMove)
+)
+ROW = Variable("row", "The row on the board, from 1 at the top.", ColumnKind.WHOLE)
+COLUMN = Variable("column", "The column on the board, from 1 at the left.", ColumnKind.WHOLE)
+PICTURE = Variable("picture", "The name of the picture on the card; every picture lies on a board twice.")
+ACTION = Variable(
+    "action",
+    "How much help was chosen for the flip.",
+    levels=enum_levels(
+        Action,
+        no_help="nothing was said",
+        sug_col="the column of a card was named",
+        sug_row="the row of a card was named",
+        sug_card="a card was named by row and column",
+    ),
+)
+GATE = Variable(
+    "gate",
+    "What the gate, which stands before the table, said of the flip: open, or why no help was considered.",
+    levels=tuple(Level(verdict.name.lower(), "" if verdict.is_open else verdict.value) for verdict in GateDecision),
+)
+CONDITION = Variable(
+    "condition",
+    "The help that this visitor was given.",
+    levels=enum_levels(
+        Condition,
+        tom="a target chosen by what the visitor has seen, and a reason given",
+        notom="a random target for first cards, and no reason",
+        mentalised_unexplained="a target chosen by what the visitor has seen, and no reason",
+        random_explained="a random target for first cards, and a reason given",
+        no_assistance="no help at all",
+    ),
+)
+FOLLOWED = Variable(
+    "followed",
+    "Whether the flip after the hint is the hinted card, or lies in the hinted row or column.",
+    ColumnKind.TRUTH,
+    empty="there was no hint, or no flip after it",
+)
+SENTENCE = Variable("sentence", "What was said and shown, in the session's language; a sentence of the program.")
+UTTERANCE = Variable("utterance", "The number of the sentence in its session.", ColumnKind.WHOLE)
+SIMULATED = Variable("simulated", "Whether a program sat there instead of a person.", ColumnKind.TRUTH)
+TRIAL = Variable("trial", "Whether the kiosk had no PIN, so that the session is none of the study's.", ColumnKind.TRUTH)
+
+
+def who_sat_there(extras: frozenset[ExportOption]) -> Iterator[tuple[Variable, SessionKind]]:
+    """Yield the columns that tell sessions apart which are none of the study's, with the kind that each is about."""
+    if ExportOption.REHEARSALS in extras:
+        yield SIMULATED, SessionKind.SIMULATED
+    if ExportOption.TRIALS in extras:
+        yield TRIAL, SessionKind.TRIAL
+
+
+def make_columns(*pairs: tuple[Variable, Callable[[_Row], Cell]]) -> tuple[Column[_Row], ...]:
+    """Columns from variables and where their values are found."""
+    return tuple(Column(variable, of) for variable, of in pairs)

@@ -1,0 +1,100 @@
+"""Export a data folder as a data set that can be published."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from kiosk import UserInputError
+from kiosk.experiment.session_config import SessionKind
+from kiosk.export.columns import ExportOption
+from kiosk.export.layouts import DatasetContents, Layout, new_folder
+from kiosk.export.participants import FlowQuantity, ParticipantFlow
+from kiosk.export.records import StudyMaterials
+from kiosk.export.tables import all_tables
+from kiosk.store.session_records import RecordSource, SessionRecord, open_records
+
+_KINDS = {ExportOption.REHEARSALS: SessionKind.SIMULATED, ExportOption.TRIALS: SessionKind.TRIAL}
+"""The kinds of sessions that are exported for those who ask for them."""
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What was written: how many sessions, and how many were left out for the one reason or the other.
+
+    ``cautions`` say what was not the same for all of them.
+    """
+
+    participants: int
+    not_shared: int
+    under_way: int
+    trials: int = 0
+    cautions: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, int | list[str]]:
+        """The same as the command line prints it; cautions only where there are any."""
+        told = asdict(self) | {"cautions": list(self.cautions)}
+        return told if self.cautions else {key: value for key, value in told.items() if key != "cautions"}
+
+
+def export_dataset(
+    data: Path,
+    out: Path,
+    layout: Callable[[Path, DatasetContents], Layout],
+    extras: frozenset[ExportOption] = frozenset(),
+    tell: Callable[[int, int], None] | None = None,
+) -> Exported:
+    """Write the data set of the data folder ``data`` into the new folder ``out``.
+
+    ``tell`` hears how many sessions are done, of how many. Raises BadInput, and writes nothing, if there is nothing to
+    export or ``out`` cannot be used.
+    """
+    kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
+    with open_records(data, kinds) as stored, new_folder(out) as folder:
+        study = StudyMaterials(stored.plans())
+        contents = DatasetContents(study, all_tables(study, extras), extras)
+        flows = {kind: ParticipantFlow(kind, stored.archive.counts(simulated=kind)) for kind in sorted(kinds)}
+        with closing(layout(folder, contents)) as writing:
+            wanted = len(stored)
+            for done, kept in enumerate(stored, 1):
+                _add(kept, writing, flows[kept.kind], extras)
+                if tell is not None:
+                    tell(done, wanted)
+            writing.finish(tuple(flows.values()))
+        return replace(_exported(flows, data, stored), cautions=study.cautions)
+
+
+def _add(kept: SessionRecord, writing: Layout, flow: ParticipantFlow, extras: frozenset[ExportOption]) -> None:
+    if kept.status is None:
+        flow.left_out(kept, FlowQuantity.NOT_ENDED)
+    elif not kept.publishable and ExportOption.UNSHARED not in extras:
+        flow.left_out(kept, FlowQuantity.NOT_SHARED)
+    else:
+        writing.add(kept)
+        flow.exported(kept)
+
+
+def _exported(flows: dict[SessionKind, ParticipantFlow], data: Path, stored: RecordSource) -> Exported:
+    """What was written; raises BadInput if it is nothing."""
+
+    def total(quantity: FlowQuantity) -> int:
+        return sum(count for flow in flows.values() for (what, _), count in flow.seen.items() if what is quantity)
+
+    exported = Exported(total(FlowQuantity.EXPORTED), total(FlowQuantity.NOT_SHARED), total(FlowQuantity.NOT_ENDED))
+    exported = replace(exported, trials=stored.left_out(SessionKind.TRIAL))
+    if not exported.participants:
+        raise UserInputError(f"there is no session in {data} to export ({_why_none(exported, stored)})")
+    return exported
+
+
+def _why_none(exported: Exported, stored: RecordSource) -> str:
+    if exported.not_shared:
+        return "nobody agreed to publishing"
+    if exported.under_way:
+        return "the only ones are still under way"
+    left_out = [extra.value for extra, kind in _KINDS.items() if stored.left_out(kind)]
+    if not left_out:
+        return "it is empty"
+    return f"it holds no participant; {', '.join(f'{each} are left out without --with-{each}' for each in left_out)}"

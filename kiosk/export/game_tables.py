@@ -1,0 +1,308 @@
+"""The tables of the game: flips, boards, decisions and hints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from kiosk.assistance.mentaliser import HintReason
+from kiosk.assistance.policy import Action, FlipInMove, Outcome, Phase
+from kiosk.experiment.events import AssistanceDecided
+from kiosk.export.columns import (
+    ACTION,
+    AT,
+    BOARD,
+    COLUMN,
+    FLIP,
+    FOLLOWED,
+    GATE,
+    MOVE_CARD,
+    PARTICIPANT,
+    PICTURE,
+    ROW,
+    SENTENCE,
+    STAGE,
+    UTTERANCE,
+    Column,
+    ColumnKind,
+    Table,
+    Variable,
+    enum_levels,
+    make_columns,
+)
+from kiosk.export.records import BoardFlip, BoardHint, DealtBoard, boards
+from kiosk.store.session_records import SessionRecord
+
+
+@dataclass(frozen=True)
+class _Card:
+    kept: SessionRecord
+    dealt: DealtBoard
+    row: int
+    column: int
+    picture: str
+
+
+@dataclass(frozen=True)
+class _Flip:
+    kept: SessionRecord
+    dealt: DealtBoard
+    flip: BoardFlip
+
+    @property
+    def hint(self) -> BoardHint | None:
+        return self.dealt.hints.get(self.flip.event.number)
+
+
+@dataclass(frozen=True)
+class _Decision:
+    kept: SessionRecord
+    dealt: DealtBoard
+    event: AssistanceDecided
+
+
+def _cards(kept: SessionRecord) -> Iterator[_Card]:
+    for dealt in boards(kept):
+        for place, picture in enumerate(dealt.event.cards):
+            yield _Card(kept, dealt, *divmod(place, dealt.event.columns), picture)
+
+
+def _flips(kept: SessionRecord) -> Iterator[_Flip]:
+    for dealt in boards(kept):
+        yield from (_Flip(kept, dealt, flip) for flip in dealt.flips.values())
+
+
+def _decisions(kept: SessionRecord) -> Iterator[_Decision]:
+    for dealt in boards(kept):
+        yield from (_Decision(kept, dealt, decision) for decision in dealt.decisions.values())
+
+
+_CARD_COLUMNS: tuple[Column[_Card], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (STAGE, lambda row: row.dealt.stage.value),
+    (ROW, lambda row: row.row + 1),
+    (COLUMN, lambda row: row.column + 1),
+    (PICTURE, lambda row: row.picture),
+)
+
+CARDS = Table(
+    "cards",
+    "One row for every card of every board that was dealt: which picture lay where.",
+    ("participant_id", "board", "row", "column"),
+    _CARD_COLUMNS,
+    _cards,
+)
+
+_FLIP_COLUMNS: tuple[Column[_Flip], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (STAGE, lambda row: row.dealt.stage.value),
+    (FLIP, lambda row: row.flip.event.number),
+    (
+        Variable("move", "The number of the move on this board, from 1.", ColumnKind.WHOLE),
+        lambda row: row.flip.event.move,
+    ),
+    (MOVE_CARD, lambda row: (FlipInMove.FIRST if row.flip.event.matched is None else FlipInMove.SECOND).value),
+    (ROW, lambda row: row.flip.event.position.row + 1),
+    (COLUMN, lambda row: row.flip.event.position.column + 1),
+    (PICTURE, lambda row: row.flip.event.card),
+    (
+        Variable(
+            "matched",
+            "Whether the two cards of the move show the same picture.",
+            ColumnKind.TRUTH,
+            empty="the flip was the first of its move",
+        ),
+        lambda row: row.flip.event.matched,
+    ),
+    (AT, lambda row: row.flip.event.at_ms),
+    (
+        Variable(
+            "decision_ms",
+            "How long the visitor took for the flip: since the board could be tapped (dealt, flipped before, turned "
+            "back, or opened after a hint), less pauses.",
+            ColumnKind.WHOLE,
+            "ms",
+        ),
+        lambda row: row.flip.decision_ms,
+    ),
+    (
+        Variable("hinted", "Whether a hint had been given for this flip.", ColumnKind.TRUTH),
+        lambda row: row.hint is not None,
+    ),
+    (FOLLOWED, lambda row: None if row.hint is None else row.dealt.followed(row.hint)),
+)
+
+FLIPS = Table(
+    "flips",
+    "One row for every card that was turned up, in the practice and in the game.",
+    ("participant_id", "board", "flip"),
+    _FLIP_COLUMNS,
+    _flips,
+)
+
+_DECISION_COLUMNS: tuple[Column[_Decision], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (FLIP, lambda row: row.event.flip),
+    (AT, lambda row: row.event.at_ms),
+    (MOVE_CARD, lambda row: row.event.card.value),
+    (
+        Variable("phase", "How far the game was, in thirds of its pairs.", levels=enum_levels(Phase)),
+        lambda row: row.event.game.name.lower(),
+    ),
+    (
+        Variable("last_action", "The help that was chosen for the flip before.", levels=ACTION.levels),
+        lambda row: row.event.last.label,
+    ),
+    (
+        Variable(
+            "outcome",
+            "Which card of the move was coming, and whether the last completed move had matched.",
+            levels=enum_levels(
+                Outcome,
+                f_correct="first card, after a match or before any move",
+                f_wrong="first card, after a miss",
+                s_correct="second card, after a match or before any move",
+                s_wrong="second card, after a miss",
+            ),
+        ),
+        lambda row: row.event.outcome.name.lower(),
+    ),
+    (GATE, lambda row: row.event.gate.name.lower()),
+    (ACTION, lambda row: row.event.action.label),
+)
+
+DECISIONS = Table(
+    "decisions",
+    "One row for every decision about help, which is taken before every flip of the game: what the assistant's two "
+    "layers saw, and what they chose. Where nobody helps there are none.",
+    ("participant_id", "board", "flip"),
+    _DECISION_COLUMNS,
+    _decisions,
+)
+
+
+@dataclass(frozen=True)
+class _Hint:
+    kept: SessionRecord
+    dealt: DealtBoard
+    hint: BoardHint
+
+    @property
+    def decision(self) -> AssistanceDecided | None:
+        return self.dealt.decisions.get(self.hint.given.flip)
+
+
+def _hints(kept: SessionRecord) -> Iterator[_Hint]:
+    for dealt in boards(kept):
+        yield from (_Hint(kept, dealt, hint) for hint in dealt.hints.values())
+
+
+_HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (FLIP, lambda row: row.hint.given.flip),
+    (MOVE_CARD, lambda row: row.hint.given.card.value),
+    (ACTION, lambda row: row.hint.given.action.label),
+    (
+        Variable(
+            "level",
+            "How much help that is: "
+            + ", ".join(f"{action.level:g} for {action.label}" for action in Action)
+            + "; assistance per flip is their sum over all flips.",
+            ColumnKind.NUMBER,
+        ),
+        lambda row: row.hint.given.action.level,
+    ),
+    (
+        Variable("target_row", "The row of the card that was pointed at, from 1, told or not.", ColumnKind.WHOLE),
+        lambda row: row.hint.given.target.row + 1,
+    ),
+    (
+        Variable("target_column", "The column of that card, from 1, told or not.", ColumnKind.WHOLE),
+        lambda row: row.hint.given.target.column + 1,
+    ),
+    (PICTURE, lambda row: row.hint.given.name),
+    (
+        Variable(
+            "told_row",
+            "The row that the visitor was told, from 1.",
+            ColumnKind.WHOLE,
+            empty="the hint did not name a row",
+        ),
+        lambda row: None if row.hint.given.row is None else row.hint.given.row + 1,
+    ),
+    (
+        Variable(
+            "told_column",
+            "The column that the visitor was told, from 1.",
+            ColumnKind.WHOLE,
+            empty="the hint did not name a column",
+        ),
+        lambda row: None if row.hint.given.column is None else row.hint.given.column + 1,
+    ),
+    (
+        Variable("seen", "How often the visitor had turned up the target before.", ColumnKind.WHOLE),
+        lambda row: row.hint.given.seen,
+    ),
+    (
+        Variable("mate_seen", "How often the visitor had turned up the other card of its pair.", ColumnKind.WHOLE),
+        lambda row: row.hint.given.mate_seen,
+    ),
+    (
+        Variable(
+            "reason",
+            "What the visitor's history gives as the reason; said only in conditions with an explanation.",
+            levels=enum_levels(HintReason),
+        ),
+        lambda row: row.hint.given.reason.value,
+    ),
+    (GATE, lambda row: None if row.decision is None else row.decision.gate.name.lower()),
+    (SENTENCE, lambda row: row.hint.given.sentence),
+    (UTTERANCE, lambda row: row.hint.given.utterance),
+    (
+        Variable("given_ms", "When the sentence came, from the session's first event.", ColumnKind.WHOLE, "ms"),
+        lambda row: row.hint.given.at_ms,
+    ),
+    (
+        Variable(
+            "marked_ms",
+            "When the card, row or column was marked on the board, from the session's first event.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the session ended before",
+        ),
+        lambda row: row.hint.marked_ms,
+    ),
+    (
+        Variable(
+            "opened_ms",
+            "When cards could be tapped again, from the session's first event; the clock without speech stands still "
+            "from the sentence until then.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the session ended before",
+        ),
+        lambda row: row.hint.opened_ms,
+    ),
+    (FOLLOWED, lambda row: row.dealt.followed(row.hint)),
+    (
+        Variable(
+            "move_matched",
+            "Whether the move that the hint was for ended in a match.",
+            ColumnKind.TRUTH,
+            empty="the move did not end",
+        ),
+        lambda row: row.dealt.move_matched(row.hint.given.flip),
+    ),
+)
+
+HINTS = Table(
+    "hints",
+    "One row for every hint that was given.",
+    ("participant_id", "board", "flip"),
+    _HINT_COLUMNS,
+    _hints,
+)

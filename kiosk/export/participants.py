@@ -1,0 +1,642 @@
+"""The table of participants, their measures and the participant flow."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from enum import Enum
+from functools import cached_property, partial
+
+from kiosk.experiment.events import EmbodimentName, PracticeEnd, PracticeFinished, Stage, Status
+from kiosk.experiment.information import PUBLISHING
+from kiosk.experiment.labels import fold_name
+from kiosk.experiment.projections import (
+    ItemResponse,
+    Measures,
+    ScaleScore,
+    SessionSummary,
+    item_responses,
+    measure,
+    summarise_session,
+)
+from kiosk.experiment.questionnaire import (
+    Integer,
+    Item,
+    Multiple,
+    Rating,
+    ShortText,
+    Single,
+    TextPage,
+    facts,
+    in_language,
+)
+from kiosk.experiment.randomisation import AllocationSource
+from kiosk.experiment.session_config import SessionKind
+from kiosk.export.columns import (
+    CONDITION,
+    PARTICIPANT,
+    Cell,
+    Column,
+    ColumnKind,
+    ExportOption,
+    Label,
+    Level,
+    Table,
+    Variable,
+    enum_levels,
+    make_columns,
+    who_sat_there,
+)
+from kiosk.export.records import Asked, Scale, StudyMaterials
+from kiosk.export.responses import scores_table, session_questionnaires
+from kiosk.store.participants import Disposition, EnrolmentCounts
+from kiosk.store.session_records import SessionRecord
+
+
+class FlowQuantity(Enum):
+    """What is counted."""
+
+    NOT_STORED = "not_stored"
+    QUOTA = "quota"
+    CONSUMED = Disposition.CONSUMED.value
+    DROPPED_OUT = Disposition.DROPPED_OUT.value
+    UNDER_WAY = Disposition.UNDER_WAY.value
+    OVERRIDDEN = Disposition.OVERRIDDEN.value
+    BEYOND = Disposition.BEYOND.value
+    UNLISTED = Disposition.UNLISTED.value
+    WITHDRAWN = "withdrawn"
+    NOT_SHARED = "not_shared"
+    NOT_ENDED = "not_ended"
+    ENDED_AT = "ended_at"
+    EXPORTED = "exported"
+
+
+MEANINGS = {
+    FlowQuantity.NOT_STORED: "people who played without being stored, by reason",
+    FlowQuantity.QUOTA: "how many completed games were wanted, by condition",
+    FlowQuantity.CONSUMED: "sessions that took a place of the list and completed the game, by condition",
+    FlowQuantity.DROPPED_OUT: "sessions that had a place and did not complete the game, so that it was given out "
+    "again, by condition",
+    FlowQuantity.UNDER_WAY: "sessions with a place that were going on when this was exported, by condition",
+    FlowQuantity.OVERRIDDEN: "sessions whose condition the experimenter chose, by condition",
+    FlowQuantity.BEYOND: "sessions that began when the list was used up, by condition",
+    FlowQuantity.UNLISTED: "sessions without a list of places, by condition",
+    FlowQuantity.WITHDRAWN: "sessions that were deleted because their visitor withdrew, by condition; each is counted "
+    "in one of the rows before as well",
+    FlowQuantity.NOT_SHARED: "sessions left out here because their visitor did not agree to publishing, by condition",
+    FlowQuantity.NOT_ENDED: "sessions left out here because they were going on, by condition",
+    FlowQuantity.ENDED_AT: "sessions in this data set that ended before their end, by the stage in which they did",
+    FlowQuantity.EXPORTED: "sessions in this data set, by condition",
+}
+
+
+@dataclass
+class ParticipantFlow:
+    """What was counted on the way through the sessions of people, of rehearsals or of trials."""
+
+    kind: SessionKind
+    counts: EnrolmentCounts
+    seen: Counter[tuple[FlowQuantity, str]] = field(default_factory=Counter)
+
+    def exported(self, kept: SessionRecord) -> None:
+        """Count a session that is in the data set."""
+        self.seen[FlowQuantity.EXPORTED, str(kept.row["condition"])] += 1
+        if kept.status is not Status.COMPLETED:
+            self.seen[FlowQuantity.ENDED_AT, last_stage(summarise_session(kept.events)).value] += 1
+
+    def left_out(self, kept: SessionRecord, why: FlowQuantity) -> None:
+        """Count one that is not."""
+        self.seen[why, str(kept.row["condition"])] += 1
+
+
+def last_stage(session: SessionSummary) -> Stage:
+    """The last stage that was more than the end."""
+    return session.last or Stage.ATTRACT
+
+
+@dataclass(frozen=True)
+class _Count:
+    kind: SessionKind
+    quantity: FlowQuantity
+    group: str
+    count: int
+
+
+def _rows(flows: tuple[ParticipantFlow, ...]) -> Iterator[_Count]:
+    for flow in flows:
+        counted = _counted(flow.counts) + flow.seen
+        for quantity in FlowQuantity:
+            for (what, group), count in counted.items():
+                if what is quantity:
+                    yield _Count(flow.kind, quantity, group, count)
+
+
+def _counted(counts: EnrolmentCounts) -> Counter[tuple[FlowQuantity, str]]:
+    """What the database has counted; nothing that is none."""
+    counted = Counter({(FlowQuantity.NOT_STORED, why.value): number for why, number in counts.visits.items()})
+    for condition, cell in counts.cells.items():
+        counted[FlowQuantity.QUOTA, condition.value] = cell.quota
+        counted[FlowQuantity.WITHDRAWN, condition.value] = cell.withdrawn
+        counted |= Counter({(FlowQuantity(fate.value), condition.value): n for fate, n in cell.fates.items()})
+    return +counted
+
+
+def _is_of(kind: SessionKind) -> Callable[[_Count], Cell]:
+    return lambda row: row.kind is kind
+
+
+def flow_table(extras: frozenset[ExportOption]) -> Table[tuple[ParticipantFlow, ...], _Count]:
+    """The table of the flow."""
+    counted: tuple[Column[_Count], ...] = make_columns(
+        *((variable, _is_of(kind)) for variable, kind in who_sat_there(extras)),
+        (
+            Variable(
+                "quantity",
+                "What is counted; what is not listed is none.",
+                levels=enum_levels(FlowQuantity, **{quantity.value: meaning for quantity, meaning in MEANINGS.items()}),
+            ),
+            lambda row: row.quantity.value,
+        ),
+        (Variable("group", "The reason, the condition or the stage that it is counted by."), lambda row: row.group),
+        (Variable("count", "How many.", ColumnKind.WHOLE), lambda row: row.count),
+    )
+    return Table(
+        "flow",
+        "One row for every count of the participant flow.",
+        ("quantity", "group"),
+        counted,
+        _rows,
+    )
+
+
+@dataclass(frozen=True)
+class Person:
+    """One session with what is worked out from all of it, once for all columns."""
+
+    kept: SessionRecord
+
+    @cached_property
+    def overview(self) -> SessionSummary:
+        """What became of the session."""
+        return summarise_session(self.kept.events)
+
+    @cached_property
+    def measures(self) -> Measures:
+        """What was measured in the game."""
+        return measure(self.kept.events)
+
+    @cached_property
+    def about_you(self) -> dict[str, ItemResponse]:
+        """What was answered about the visitor, by item."""
+        asked_first = session_questionnaires(self.kept)[:1]
+        return {answer.item: answer for answer in item_responses(self.kept.events, asked_first)}
+
+    @cached_property
+    def scores(self) -> dict[tuple[str, str], ScaleScore]:
+        """The scales, by questionnaire and name."""
+        return {(score.questionnaire, score.scale): score for score in scores_table(self.kept)}
+
+    @property
+    def practice(self) -> PracticeEnd | None:
+        """How the practice ended; None if it did not."""
+        return next((event.how for event in self.kept.events if isinstance(event, PracticeFinished)), None)
+
+
+def _measured(
+    name: str, description: str, kind: ColumnKind = ColumnKind.WHOLE, unit: str = "", empty: str = ""
+) -> Variable:
+    return Variable(name, description, kind, unit, empty=empty)
+
+
+_PER_HINT = "no hint was given"
+_PER_FIRST = "no hint was given for a first card"
+
+MEASURED = {
+    variable.name: variable
+    for variable in (
+        _measured("flips", "How many cards were turned up in the game; not to be compared with moves."),
+        _measured("moves", "How many moves of two flips were completed in the game."),
+        _measured("pairs", "How many pairs were found in the game."),
+        _measured("hints", "How many hints were given in the game."),
+        _measured(
+            "completion_ms",
+            "From the first flip of the game to its last match, less pauses; 0 without a match.",
+            unit="ms",
+        ),
+        _measured(
+            "completion_without_speech_ms",
+            "The same on the clock that stands still from a hint until the board opens again.",
+            unit="ms",
+        ),
+        _measured(
+            "assistance_per_flip",
+            "The sum of the hints' levels (none 0, column 0.5, row 1, card 2) by the number of flips.",
+            ColumnKind.NUMBER,
+            empty="no card was turned up",
+        ),
+        _measured(
+            "followed_rate",
+            "The share of hints that were followed by a flip of the hinted card, or in the hinted row or column.",
+            ColumnKind.NUMBER,
+            empty=_PER_HINT,
+        ),
+        _measured("first_followed_rate", "The same for hints for a first card.", ColumnKind.NUMBER, empty=_PER_FIRST),
+        _measured(
+            "first_led_to_match_rate",
+            "The share of hints for a first card that were followed and whose move ended in a match.",
+            ColumnKind.NUMBER,
+            empty=_PER_FIRST,
+        ),
+    )
+}
+"""What each measure of kiosk.experiment.projections is called here, and what it says."""
+
+_RENAMED = {
+    "followed": "followed_rate",
+    "first_followed": "first_followed_rate",
+    "first_led_to_match": "first_led_to_match_rate",
+}
+"""A share of hints is not called like the truth about one of them."""
+
+
+def _value_of(name: str) -> Callable[[Person], Cell]:
+    def value(row: Person) -> Cell:
+        measured: int | float | None = getattr(row.measures, name)
+        return measured
+
+    return value
+
+
+MEASURES: tuple[Column[Person], ...] = (
+    *(Column(MEASURED[_RENAMED.get(field.name, field.name)], _value_of(field.name)) for field in fields(Measures)),
+    Column(
+        Variable(
+            "per_match_ms", "completion_ms by the number of pairs.", ColumnKind.NUMBER, "ms", empty="no pair was found"
+        ),
+        lambda row: row.measures.per_match_ms,
+    ),
+)
+
+
+def consent_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Person]]:
+    """One column for every purpose of the consent."""
+    for name, wordings in study.purposes.items():
+        publishing = " Without it a session is not published." if name == PUBLISHING else ""
+        texts = dict.fromkeys(_quoted(purpose.text) for purpose in wordings)
+        yield Column(
+            Variable(
+                _free(f"agreed_{name}", "consent", taken),
+                f"Whether the visitor agreed to this: {', in other versions '.join(texts)}.{publishing}",
+                ColumnKind.TRUTH,
+                empty="no consent was asked for on the screen",
+            ),
+            partial(_agreed_to, name),
+        )
+
+
+def _agreed_to(purpose: str, row: Person) -> Cell:
+    return None if row.kept.consent is None else purpose in row.kept.consent.purposes
+
+
+def about_you_columns(
+    study: StudyMaterials, extras: frozenset[ExportOption], taken: set[str]
+) -> Iterator[Column[Person]]:
+    """One column for every item about the visitor; what was typed only if it is asked for."""
+    for item, asked_as in exported_items(study.about_you, extras).items():
+        name = _free(item, "about_you", taken)
+        answer = partial(_answer_about_you, item, with_texts=ExportOption.TEXTS in extras)
+        yield Column(item_variable(name, asked_as, study), answer)
+
+
+def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) -> dict[str, Asked]:
+    """The items whose answers are told: all that are answered, but for typed ones that nobody asked for."""
+    untold = (TextPage,) if ExportOption.TEXTS in extras else (TextPage, ShortText)
+    told = {
+        name: tuple(each for each in asked_as if not isinstance(each[1], untold)) for name, asked_as in items.items()
+    }
+    return {name: asked_as for name, asked_as in told.items() if asked_as}
+
+
+def _answer_about_you(item: str, row: Person, *, with_texts: bool) -> Cell:
+    # What is chosen in one version of an item may be typed in another.
+    typed = any(
+        each.id == item and isinstance(each, ShortText)
+        for of in session_questionnaires(row.kept)[:1]
+        for each in of.items
+    )
+    return row.about_you[item].value if item in row.about_you and (with_texts or not typed) else None
+
+
+def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable:
+    """An item's column: what was asked, and what could be answered, in each version of its questionnaire."""
+    items, language = [item for _, item in asked_as], study.language
+    newest = items[0]
+    choices = [item for item in items if isinstance(item, Single | Multiple)]
+    numbers = [_ends(item) for item in items if isinstance(item, Integer | Rating)]
+    kind = ColumnKind.TEXT
+    levels: dict[str, Level] = {}
+    least: int | None = None
+    most: int | None = None
+    if len(choices) == len(items):
+        kind = ColumnKind.NAMES if any(isinstance(item, Multiple) for item in choices) else ColumnKind.TEXT
+        for item in choices:
+            for option in item.options:
+                levels.setdefault(option.id, Level(option.id, in_language(option.text, language)))
+    elif len(numbers) == len(items):
+        kind, least, most = ColumnKind.WHOLE, min(low for low, _ in numbers), max(high for _, high in numbers)
+    question = _quoted(in_language(newest.text, language))
+    return Variable(
+        name,
+        f"The answer to {question}.{_item_called(name, newest)}{_versions(asked_as, study)}",
+        kind,
+        levels=tuple(levels.values()),
+        empty="nothing was answered",
+        least=least,
+        most=most,
+    )
+
+
+def _ends(item: Integer | Rating) -> tuple[int, int]:
+    return (item.lowest, item.highest) if isinstance(item, Integer) else item.ends
+
+
+def _item_called(name: str, item: Item) -> str:
+    """Which item it is, where the column could not have its name."""
+    return "" if name == item.id else f" The item is called {item.id}."
+
+
+def _versions(asked_as: Asked, study: StudyMaterials) -> str:
+    """How an item was asked in each version, if it was not the same in all."""
+    versions: dict[str, list[str]] = {}
+    for form, item in asked_as:
+        versions.setdefault(facts(item, study.language), []).append(form.name)
+    without = [form.name for form in study.without(asked_as)]
+    told = [f"{' and '.join(names)}: {what}" for what, names in versions.items()] if len(versions) > 1 else []
+    told += [f"{' and '.join(without)}: not asked"] if without else []
+    return f" Not the same in all versions. {'; '.join(told)}." if told else ""
+
+
+def scale_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Person]]:
+    """The sum and the mean of every scale."""
+    for scale in study.scales:
+        name = _free(scale.name, scale.questionnaire, taken, "_sum", "_mean")
+        ends = [(items[0].ends, len(items)) for _, items in scale.forms]
+        of = f"of the scale {scale.name} of {scale.questionnaire}, {_size(scale)}, reversed ones turned round."
+        of += _not_alike(scale)
+        key = scale.questionnaire, scale.name
+        yield Column(
+            Variable(
+                f"{name}_sum",
+                f"The sum {of}",
+                ColumnKind.WHOLE,
+                empty="not all of them were answered",
+                least=min(least * items for (least, _), items in ends),
+                most=max(most * items for (_, most), items in ends),
+            ),
+            partial(_sum, key),
+        )
+        yield Column(
+            Variable(
+                f"{name}_mean",
+                f"The mean {of} Only those that were answered count.",
+                ColumnKind.NUMBER,
+                empty="none of them was answered",
+                least=min(least for (least, _), _ in ends),
+                most=max(most for (_, most), _ in ends),
+            ),
+            partial(_mean, key),
+        )
+
+
+def _size(scale: Scale) -> str:
+    numbers = dict.fromkeys(len(items) for _, items in scale.forms)
+    return f"{' or '.join(map(str, numbers))} items"
+
+
+def _not_alike(scale: Scale) -> str:
+    """What the scale is the sum of in each version, if it is not the same in all."""
+    if not scale.changed:
+        return ""
+    told = "; ".join(f"{form.name}: {', '.join(_summand(item) for item in items)}" for form, items in scale.forms)
+    return f" Not the same in all versions, so not to be compared between them. {told}."
+
+
+def _summand(item: Rating) -> str:
+    least, most = item.ends
+    return f"{item.id} ({least} to {most}{', reversed' if item.reverse else ''})"
+
+
+def _sum(scale: tuple[str, str], row: Person) -> Cell:
+    return row.scores[scale].total if scale in row.scores else None
+
+
+def _mean(scale: tuple[str, str], row: Person) -> Cell:
+    return row.scores[scale].mean if scale in row.scores else None
+
+
+def _free(name: str, prefix: str, taken: set[str], *endings: str) -> str:
+    """The name, or, where another column is called so for any program, the name with a prefix; ``taken`` is folded."""
+    wanted = {fold_name(name + ending) for ending in endings or ("",)}
+    if wanted & taken:
+        return _free(f"{prefix}_{name}", prefix, taken, *endings)
+    taken |= wanted
+    return name
+
+
+def _quoted(text: str) -> str:
+    return f'"{text.strip()}"'
+
+
+def participants_table(
+    study: StudyMaterials, extras: frozenset[ExportOption], elsewhere: frozenset[str]
+) -> Table[SessionRecord, Person]:
+    """The table of participants for a study; ``elsewhere`` are the columns of other tables, whose names are taken."""
+    before, after = _own(study, extras)
+    taken = _taken((*before, *after), elsewhere)
+    declared = (*consent_columns(study, taken), *about_you_columns(study, extras, taken), *scale_columns(study, taken))
+    return Table(
+        "participants",
+        "One row for every participant, that is for every session.",
+        (PARTICIPANT.name,),
+        (*before, *declared, *after),
+        lambda kept: [Person(kept)],
+    )
+
+
+def renamed(study: StudyMaterials, elsewhere: frozenset[str]) -> dict[str, str]:
+    """The items about the visitor that cannot give their column its name, for it is that of another column."""
+    extras = frozenset(ExportOption)
+    taken = _taken(tuple(column for part in _own(study, extras) for column in part), elsewhere)
+    # The columns of the consent take their names first.
+    tuple(consent_columns(study, taken))
+    columns_of = zip(exported_items(study.about_you, extras), about_you_columns(study, extras, taken), strict=True)
+    return {item: column.variable.name for item, column in columns_of if item != column.variable.name}
+
+
+_Columns = tuple[Column[Person], ...]
+
+
+def _own(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[_Columns, _Columns]:
+    """The columns that every study has, before and after those that it declares itself."""
+    return (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
+
+
+def _taken(own: _Columns, elsewhere: frozenset[str]) -> set[str]:
+    return {fold_name(name) for name in (*elsewhere, *(column.variable.name for column in own))}
+
+
+def _who(extras: frozenset[ExportOption]) -> tuple[Column[Person], ...]:
+    started = Variable("started_at", "When the session began, in UTC.", unit="ISO 8601")
+    who: list[tuple[Variable, Callable[[Person], Cell]]] = [
+        (PARTICIPANT, lambda row: row.kept.name),
+        (
+            Variable("site", "Where the session was, by a short name.", empty="the study has one site"),
+            lambda row: Label(row.kept.row["site"]) or None,
+        ),
+    ]
+    who += [(variable, _has_kind(kind)) for variable, kind in who_sat_there(extras)]
+    if ExportOption.DATES in extras:
+        who.append((started, lambda row: row.kept.row["started_at"]))
+    return make_columns(*who)
+
+
+def _has_kind(kind: SessionKind) -> Callable[[Person], Cell]:
+    return lambda row: row.kept.kind is kind
+
+
+_WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
+    (Variable("language", "The language of the session, by its code."), lambda row: row.kept.row["language"]),
+    (CONDITION, lambda row: row.kept.row["condition"]),
+    (
+        Variable(
+            "allotted",
+            "How the session came to its condition.",
+            levels=enum_levels(
+                AllocationSource,
+                list="by the first free place of a list that was fixed before the first visitor",
+                override="by the experimenter",
+                beyond="the list was used up, and nothing was drawn: by the study file, the same for all of them",
+            ),
+            empty="there was no list of places",
+        ),
+        lambda row: row.kept.row["allotted"],
+    ),
+    (
+        Variable(
+            "list_place",
+            "The place that the session took in that list, from 1.",
+            ColumnKind.WHOLE,
+            empty="it took none",
+        ),
+        lambda row: row.kept.row["place"],
+    ),
+    (
+        Variable("body", "Who helped with voice and face when the session began.", levels=enum_levels(EmbodimentName)),
+        lambda row: row.kept.row["body"],
+    ),
+    (
+        Variable(
+            "body_changes",
+            "How often another body had to take over; who went on after a cut is in the events.",
+            ColumnKind.WHOLE,
+        ),
+        lambda row: len(row.overview.body_changes),
+    ),
+    (
+        Variable(
+            "status",
+            "How the session ended.",
+            levels=enum_levels(
+                Status,
+                completed="by going through all its stages",
+                abandoned="the visitor left",
+                stopped="the experimenter ended it",
+                interrupted="the program was closed or cut off",
+            ),
+        ),
+        lambda row: row.kept.status.value if row.kept.status else None,
+    ),
+    (
+        Variable("last_stage", "The last stage that the session reached.", levels=enum_levels(Stage)),
+        lambda row: last_stage(row.overview).value,
+    ),
+    (
+        Variable(
+            "game_completed",
+            "Whether every pair of the game was found and the last one looked at; with that its place is consumed.",
+            ColumnKind.TRUTH,
+        ),
+        lambda row: row.overview.game_completed,
+    ),
+    (
+        Variable("resumed", "How often the session was cut off and gone on with.", ColumnKind.WHOLE),
+        lambda row: len(row.overview.resumptions),
+    ),
+    (
+        Variable("pauses", "How often the experimenter paused the session.", ColumnKind.WHOLE),
+        lambda row: len(row.overview.pauses),
+    ),
+    (
+        Variable(
+            "practice_end",
+            "How the practice ended.",
+            levels=enum_levels(
+                PracticeEnd,
+                found="every pair was found",
+                left="the visitor went on early",
+                time="its time was over",
+            ),
+            empty="there was none, or it was not ended",
+        ),
+        lambda row: row.practice.value if row.practice else None,
+    ),
+    (
+        Variable(
+            "duration_ms",
+            "From the session's first event to its last.",
+            ColumnKind.WHOLE,
+            "ms",
+        ),
+        lambda row: row.kept.records[-1].at_ms if row.kept.records else 0,
+    ),
+    (
+        Variable(
+            "consent_version",
+            "The version of the information sheet that the visitor agreed to.",
+            empty="no consent was asked for on the screen",
+        ),
+        lambda row: row.kept.consent.version if row.kept.consent else None,
+    ),
+)
+
+
+def _what_it_followed(study: StudyMaterials) -> tuple[Column[Person], ...]:
+    return make_columns(
+        (
+            Variable("program_version", "The version of Recollect that recorded it."),
+            lambda row: row.kept.row["version"],
+        ),
+        (
+            Variable("program_commit", "The commit of Recollect that recorded it; -dirty if it had been changed."),
+            lambda row: row.kept.row["code_commit"],
+        ),
+        (
+            Variable("policy_sha256", "The hash of the table that chose how much to help."),
+            lambda row: row.kept.row["policy_sha256"],
+        ),
+        (
+            Variable("settings_sha256", "The hash of all settings of the study."),
+            lambda row: row.kept.row["settings_sha256"],
+        ),
+        (
+            Variable(
+                "questionnaire_versions",
+                "Every questionnaire of the session with its version, as name=version; where two contents have one "
+                "version, with the beginning of its hash.",
+                ColumnKind.NAMES,
+                empty="they cannot be read any more",
+            ),
+            lambda row: tuple(f"{each.id}={study.label(each)}" for each in session_questionnaires(row.kept)) or None,
+        ),
+    )

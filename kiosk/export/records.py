@@ -1,0 +1,339 @@
+"""What the exported sessions followed, their boards, and which texts people typed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeVar
+
+from kiosk.experiment.events import (
+    AbortRequested,
+    AssistanceDecided,
+    BoardDealt,
+    BoardUnlocked,
+    CardFlipped,
+    EmbodimentChanged,
+    HintGiven,
+    HintHighlighted,
+    PauseEnded,
+    PauseRequested,
+    ResponseGiven,
+    RobotDisconnected,
+    SpeechFailed,
+    Stage,
+    Timer,
+    TimerExpired,
+)
+from kiosk.experiment.information import Purpose
+from kiosk.experiment.projections import CARDS_IN_A_MOVE, followed
+from kiosk.experiment.questionnaire import Item, Questionnaire, Rating, ShortText, differences, summed
+from kiosk.experiment.session_config import SessionConfig
+from kiosk.store.session_records import EventRecord, SessionRecord
+
+_T = TypeVar("_T")
+
+_SHORT = 8
+"""Characters of a hash that tell two contents of one version apart."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A questionnaire as some sessions had it; ``label`` is its version, with a hash if another form has it too."""
+
+    questionnaire: Questionnaire
+    label: str
+
+    @property
+    def name(self) -> str:
+        """What it is called in a description."""
+        return f"version {self.label} of {self.questionnaire.id}"
+
+
+Asked = tuple[tuple[Form, Item], ...]
+"""An item in each form that has it, the newest first."""
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A scale of a questionnaire in each of its forms that has it, the newest first."""
+
+    questionnaire: str
+    name: str
+    forms: tuple[tuple[Form, tuple[Rating, ...]], ...]
+
+    @property
+    def changed(self) -> bool:
+        """Whether its sum does not mean the same in all of them."""
+        return len({summed(items) for _, items in self.forms}) > 1
+
+
+@dataclass(frozen=True)
+class StudyMaterials:
+    """Everything that gives rise to columns; ``plans`` are those that can be read, the newest first."""
+
+    plans: tuple[SessionConfig, ...]
+
+    @property
+    def title(self) -> str:
+        """What the study is called now."""
+        return self.plans[0].settings.title if self.plans else "A study with Recollect"
+
+    @property
+    def language(self) -> str:
+        """The study's first language, in which things are described."""
+        return self.plans[0].settings.language_codes[0] if self.plans else "en"
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """The languages that sessions were in, the study's first one first."""
+        return tuple(sorted({plan.language for plan in self.plans}, key=lambda code: (code != self.language, code)))
+
+    @property
+    def purposes(self) -> dict[str, tuple[Purpose, ...]]:
+        """What was asked for in consent, by name, in every wording of the first language that has it."""
+        # A sheet is in one language; that of the study goes first.
+        found: dict[str, tuple[Purpose, ...]] = {}
+        for language in self.languages:
+            sheets = [plan.information for plan in self.plans if plan.language == language]
+            here = _all((purpose.id, purpose) for sheet in sheets for purpose in sheet.consent.purposes)
+            found = here | found
+        return found
+
+    @cached_property
+    def forms(self) -> dict[str, tuple[Form, ...]]:
+        """The questionnaires by name, each in all its forms, the newest first."""
+        asked = _all((each.id, each) for plan in self.plans for each in (plan.about_you, *plan.questionnaires))
+        return {name: _labelled(_changed(contents)) for name, contents in asked.items()}
+
+    def label(self, questionnaire: Questionnaire) -> str:
+        """What the form of a questionnaire that a session had is called."""
+        forms = self.forms.get(questionnaire.id, ())
+        same = (form.label for form in forms if _is_same(form.questionnaire, questionnaire))
+        return next(same, questionnaire.version)
+
+    @property
+    def about_you(self) -> dict[str, Asked]:
+        """The items about the visitor, by name, each in all forms of the questionnaires that have it."""
+        names = dict.fromkeys(plan.about_you.id for plan in self.plans)
+        return _all((item.id, (form, item)) for name in names for form, item in self._items(name))
+
+    def without(self, asked: Asked) -> tuple[Form, ...]:
+        """The forms of the same questionnaires in which an item is not asked."""
+        questionnaires = dict.fromkeys(form.questionnaire.id for form, _ in asked)
+        having = [form for form, _ in asked]
+        return tuple(form for name in questionnaires for form in self.forms[name] if form not in having)
+
+    def items(self, questionnaire: str) -> dict[str, Asked]:
+        """The items of a questionnaire, by name, each in all forms that have it; those of the newest come first."""
+        return _all((item.id, (form, item)) for form, item in self._items(questionnaire))
+
+    def _items(self, questionnaire: str) -> Iterator[tuple[Form, Item]]:
+        for form in self.forms[questionnaire]:
+            for item in form.questionnaire.items:
+                yield form, item
+
+    @property
+    def scales(self) -> Iterator[Scale]:
+        """Every scale with its items."""
+        for name, forms in self.forms.items():
+            found = _all((scale, (form, items)) for form in forms for scale, items in form.questionnaire.scales.items())
+            yield from (Scale(name, scale, of) for scale, of in found.items())
+
+    @property
+    def cautions(self) -> tuple[str, ...]:
+        """A sentence for everything that was not the same for all, so that it is not compared unawares."""
+        return (*self._changed_forms(), *self._changed_sheets())
+
+    def _changed_forms(self) -> Iterator[str]:
+        for name, (newest, *older) in self.forms.items():
+            differ = dict.fromkeys(
+                each for form in older for each in differences(newest.questionnaire, form.questionnaire)
+            )
+            if differ:
+                labels = ", ".join(form.label for form in (newest, *older))
+                yield (
+                    f"the questionnaire {name!r} was asked in {1 + len(older)} versions ({labels}), which differ in "
+                    f"{', '.join(differ)}; the descriptions of the columns say how, and questionnaire_versions says "
+                    "who was asked which"
+                )
+
+    def _changed_sheets(self) -> Iterator[str]:
+        contents = {(plan.language, plan.information.version): set[str]() for plan in self.plans}
+        for plan in self.plans:
+            contents[plan.language, plan.information.version].add(plan.information.sha256)
+        for (language, version), hashes in contents.items():
+            if len(hashes) > 1:
+                yield (
+                    f"the information sheet in {language!r} has {len(hashes)} contents under the version {version!r}, "
+                    "so consent_version does not say which of them a visitor agreed to"
+                )
+
+
+def _all(named: Iterable[tuple[str, _T]]) -> dict[str, tuple[_T, ...]]:
+    """Different things by their names, in their order."""
+    found: dict[str, list[_T]] = {}
+    for name, thing in named:
+        things = found.setdefault(name, [])
+        if thing not in things:
+            things.append(thing)
+    return {name: tuple(things) for name, things in found.items()}
+
+
+def _changed(contents: Iterable[Questionnaire]) -> tuple[Questionnaire, ...]:
+    """Those of them that differ in more than a translation."""
+    kept: list[Questionnaire] = []
+    for content in contents:
+        if not any(_is_same(other, content) for other in kept):
+            kept.append(content)
+    return tuple(kept)
+
+
+def _labelled(contents: tuple[Questionnaire, ...]) -> tuple[Form, ...]:
+    versions = Counter(content.version for content in contents)
+
+    def label(content: Questionnaire) -> str:
+        alone = versions[content.version] == 1
+        return content.version if alone else f"{content.version} ({content.sha256[:_SHORT]})"
+
+    return tuple(Form(content, label(content)) for content in contents)
+
+
+def _is_same(one: Questionnaire, other: Questionnaire) -> bool:
+    """Whether two contents are one version, and differ in a translation at most."""
+    return one is other or (one.version == other.version and not differences(one, other))
+
+
+FREE: Mapping[str, frozenset[str]] = {
+    AbortRequested.__name__: frozenset({"reason"}),
+    SpeechFailed.__name__: frozenset({"why"}),
+    RobotDisconnected.__name__: frozenset({"why"}),
+    EmbodimentChanged.__name__: frozenset({"why"}),
+}
+"""The fields of each kind of event that may hold any text at all."""
+
+
+def safe_fields(record: EventRecord, kept: SessionRecord) -> dict[str, Any]:
+    """The fields of an event without any that may hold free text; of unknown events nothing is safe."""
+    if record.event is None:
+        return {}
+    free = FREE.get(record.type, frozenset())
+    if isinstance(record.event, ResponseGiven) and is_free_text(record.event, kept):
+        free = frozenset({"value"})
+    return {name: value for name, value in record.fields.items() if name not in free}
+
+
+def is_free_text(answer: ResponseGiven, kept: SessionRecord) -> bool:
+    """Whether an answer was typed; where the questionnaires cannot be read, any text may have been."""
+    if not isinstance(answer.value, str):
+        return False
+    if kept.plan is None:
+        return True
+    asked = (kept.plan.about_you, *kept.plan.questionnaires)
+    items = [item for questionnaire in asked for item in questionnaire.items if item.id == answer.item]
+    return not items or any(isinstance(item, ShortText) for item in items)
+
+
+@dataclass
+class BoardHint:
+    """A hint, when it was marked, and when the board opened again, in ms; None if that never came."""
+
+    given: HintGiven
+    marked_ms: int | None = None
+    opened_ms: int | None = None
+
+
+@dataclass(frozen=True)
+class BoardFlip:
+    """A flip, and how long the visitor took for it while the board could be tapped, in ms."""
+
+    event: CardFlipped
+    decision_ms: int
+
+
+@dataclass
+class DealtBoard:
+    """One board that was dealt; ``number`` counts from 1 in the session. What came before each flip goes by its number.
+
+    The measures leave out all boards but the game's.
+    """
+
+    number: int
+    stage: Stage
+    event: BoardDealt
+    flips: dict[int, BoardFlip] = field(default_factory=dict)
+    hints: dict[int, BoardHint] = field(default_factory=dict)
+    decisions: dict[int, AssistanceDecided] = field(default_factory=dict)
+
+    def followed(self, hint: BoardHint) -> bool | None:
+        """Whether the flip that the hint was for went where it pointed; None if there was no such flip."""
+        flip = self.flips.get(hint.given.flip)
+        return None if flip is None else followed(hint.given, flip.event)
+
+    def move_matched(self, flip: int) -> bool | None:
+        """Whether the move of this flip ended in a match; None if it did not end."""
+        last = self.flips.get(flip + flip % CARDS_IN_A_MOVE)
+        return None if last is None else last.event.matched
+
+
+class _Hand:
+    """Since when the board could be tapped, less the pauses."""
+
+    def __init__(self) -> None:
+        self._since = 0
+        self._paused_at: int | None = None
+
+    def open(self, at_ms: int) -> None:
+        self._since = at_ms
+
+    def pause(self, at_ms: int) -> None:
+        self._paused_at = at_ms
+
+    def go_on(self, at_ms: int) -> None:
+        if self._paused_at is not None:
+            self._since += at_ms - max(self._paused_at, self._since)
+        self._paused_at = None
+
+    def spent(self, at_ms: int) -> int:
+        return at_ms - self._since
+
+
+def boards(kept: SessionRecord) -> Iterator[DealtBoard]:
+    """Every board of a session, in their order."""
+    dealt: DealtBoard | None = None
+    hand = _Hand()
+    for record in kept.records:
+        match record.event:
+            case BoardDealt() as event:
+                if dealt is not None:
+                    yield dealt
+                dealt = DealtBoard(dealt.number + 1 if dealt else 1, record.stage, event)
+                hand.open(event.at_ms)
+            case PauseRequested(at_ms=at_ms):
+                hand.pause(at_ms)
+            case PauseEnded(at_ms=at_ms):
+                hand.go_on(at_ms)
+            case _ if dealt is not None:
+                _take(dealt, record.event, hand)
+    if dealt is not None:
+        yield dealt
+
+
+def _take(dealt: DealtBoard, event: object, hand: _Hand) -> None:
+    """Add what one event tells of a board."""
+    match event:
+        case CardFlipped(at_ms=at_ms, number=number):
+            dealt.flips[number] = BoardFlip(event, hand.spent(at_ms))
+            hand.open(at_ms)
+        case AssistanceDecided(flip=flip):
+            dealt.decisions[flip] = event
+        case HintGiven(flip=flip):
+            dealt.hints[flip] = BoardHint(event)
+        case HintHighlighted(at_ms=at_ms, flip=flip) if flip in dealt.hints:
+            dealt.hints[flip].marked_ms = at_ms
+        case BoardUnlocked(at_ms=at_ms) if dealt.hints:
+            next(reversed(dealt.hints.values())).opened_ms = at_ms
+            hand.open(at_ms)
+        case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
+            hand.open(at_ms)

@@ -1,0 +1,216 @@
+"""The tables of what was asked: every answer, and the scores of the scales that answers are summed to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from kiosk.experiment.events import QuestionnairePageShown
+from kiosk.experiment.projections import ItemResponse, ScaleScore
+from kiosk.experiment.projections import item_responses as answers_in
+from kiosk.experiment.projections import scale_scores as scores_in
+from kiosk.experiment.questionnaire import KINDS, Item, Questionnaire, Rating, ShortText
+from kiosk.export.columns import (
+    PARTICIPANT,
+    Cell,
+    Column,
+    ColumnKind,
+    ExportOption,
+    Level,
+    Table,
+    Variable,
+    make_columns,
+)
+from kiosk.store.session_records import SessionRecord
+
+QUESTIONNAIRE = Variable("questionnaire", "The questionnaire, by its name.")
+VERSION = Variable("version", "The version of the questionnaire.")
+SCALE = Variable("scale", "The scale that items are summed to.", empty="the item is not summed with others")
+
+_UNANSWERED = "nothing was answered"
+_ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
+
+
+def session_questionnaires(kept: SessionRecord) -> tuple[Questionnaire, ...]:
+    """The questionnaires of a session; none if they cannot be read."""
+    return (kept.plan.about_you, *kept.plan.questionnaires) if kept.plan else ()
+
+
+@dataclass(frozen=True)
+class _Answer:
+    kept: SessionRecord
+    questionnaire: Questionnaire
+    item: Item
+    place: int | None
+    answered: ItemResponse
+
+    @property
+    def number(self) -> int | None:
+        value = self.answered.value
+        return value if isinstance(value, int) else None
+
+    @property
+    def scored(self) -> int | None:
+        return self.item.scored(self.number) if self.number is not None and isinstance(self.item, Rating) else None
+
+
+def _answers(kept: SessionRecord) -> Iterator[_Answer]:
+    places = _places(kept)
+    given = {
+        (answer.questionnaire, answer.item): answer for answer in answers_in(kept.events, session_questionnaires(kept))
+    }
+    for questionnaire in session_questionnaires(kept):
+        for item in questionnaire.items:
+            key = (questionnaire.id, item.id)
+            if key in given:
+                yield _Answer(kept, questionnaire, item, places.get(key), given[key])
+
+
+def _places(kept: SessionRecord) -> dict[tuple[str, str], int]:
+    """At which place each item came in its questionnaire, from 1."""
+    shown: dict[str, list[str]] = {}
+    for event in kept.events:
+        if isinstance(event, QuestionnairePageShown):
+            come = shown.setdefault(event.questionnaire, [])
+            come += [item for item in event.items if item not in come]
+    return {(asked, item): place for asked, items in shown.items() for place, item in enumerate(items, 1)}
+
+
+def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
+    """The table of answers; what was typed only if it is asked for."""
+    with_texts = ExportOption.TEXTS in extras
+    typed = "" if with_texts else "; or it was typed, and such texts are left out"
+
+    def value(row: _Answer) -> Cell:
+        return None if isinstance(row.item, ShortText) and not with_texts else row.answered.value
+
+    given: tuple[Column[_Answer], ...] = make_columns(
+        (PARTICIPANT, lambda row: row.kept.name),
+        (QUESTIONNAIRE, lambda row: row.questionnaire.id),
+        (VERSION, lambda row: row.questionnaire.version),
+        (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.item.id),
+        (
+            Variable(
+                "place",
+                "At which place the item came in its questionnaire, from 1.",
+                ColumnKind.WHOLE,
+                empty="it did not",
+            ),
+            lambda row: row.place,
+        ),
+        (
+            Variable("kind", "What kind of item it is.", levels=_ANSWERED_KINDS),
+            lambda row: row.item.kind,
+        ),
+        (
+            Variable(
+                "value",
+                "The last answer: a number, the name of an option, or several with a semicolon between them.",
+                empty=_UNANSWERED + typed,
+            ),
+            value,
+        ),
+        (
+            Variable("number", "The answer as a number.", ColumnKind.WHOLE, empty="the answer is none, or no number"),
+            lambda row: row.number,
+        ),
+        (
+            Variable(
+                "scored",
+                "The number as it counts in its scale: turned round if the item is reversed.",
+                ColumnKind.WHOLE,
+                empty="the answer is none, or the item is no rating",
+            ),
+            lambda row: row.scored,
+        ),
+        (
+            Variable("reversed", "Whether the item is turned round before it is summed.", ColumnKind.TRUTH),
+            lambda row: isinstance(row.item, Rating) and row.item.reverse,
+        ),
+        (SCALE, lambda row: row.item.scale if isinstance(row.item, Rating) else None),
+        (
+            Variable(
+                "first_response_ms",
+                "From when the page was shown to the first answer, less pauses.",
+                ColumnKind.WHOLE,
+                "ms",
+                empty=_UNANSWERED,
+            ),
+            lambda row: row.answered.first_ms,
+        ),
+        (
+            Variable(
+                "last_response_ms",
+                "The same to the last answer, also one that took it back.",
+                ColumnKind.WHOLE,
+                "ms",
+                empty=_UNANSWERED,
+            ),
+            lambda row: row.answered.last_ms,
+        ),
+        (
+            Variable("changes", "How often the answer was changed, or taken back, after the first.", ColumnKind.WHOLE),
+            lambda row: row.answered.changes,
+        ),
+    )
+    return Table(
+        "answers",
+        "One row for every item that a participant could be asked, whether it was answered or not. Sessions whose "
+        "questionnaires cannot be read any more have none; their events tell what was answered.",
+        ("participant_id", "questionnaire", "item"),
+        given,
+        _answers,
+    )
+
+
+@dataclass(frozen=True)
+class _Score:
+    kept: SessionRecord
+    questionnaire: Questionnaire
+    score: ScaleScore
+
+
+def scores_table(kept: SessionRecord) -> tuple[ScaleScore, ...]:
+    """The scales of a session's questionnaires."""
+    return scores_in(answers_in(kept.events, session_questionnaires(kept)), session_questionnaires(kept))
+
+
+def _scores(kept: SessionRecord) -> Iterator[_Score]:
+    questionnaires = {questionnaire.id: questionnaire for questionnaire in session_questionnaires(kept)}
+    yield from (_Score(kept, questionnaires[score.questionnaire], score) for score in scores_table(kept))
+
+
+_SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (QUESTIONNAIRE, lambda row: row.questionnaire.id),
+    (VERSION, lambda row: row.questionnaire.version),
+    (SCALE, lambda row: row.score.scale),
+    (
+        Variable(
+            "sum",
+            "The sum of the scale's items, reversed ones turned round.",
+            ColumnKind.WHOLE,
+            empty="not all of them were answered",
+        ),
+        lambda row: row.score.total,
+    ),
+    (
+        Variable(
+            "mean",
+            "The mean of those items of the scale that were answered, reversed ones turned round.",
+            ColumnKind.NUMBER,
+            empty="none of them was answered",
+        ),
+        lambda row: row.score.mean,
+    ),
+    (Variable("items", "How many items the scale has.", ColumnKind.WHOLE), lambda row: row.score.items),
+    (Variable("answered", "How many of them were answered.", ColumnKind.WHOLE), lambda row: row.score.answered),
+)
+
+SCORES = Table(
+    "scores",
+    "One row for every scale of the questionnaires that a participant could be asked.",
+    (PARTICIPANT.name, QUESTIONNAIRE.name, SCALE.name),
+    _SCORE_COLUMNS,
+    _scores,
+)

@@ -1,0 +1,52 @@
+"""All the tables of a study's data set, in the order in which a reader meets them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from kiosk.export.columns import ExportOption, Table, TableShape
+from kiosk.export.game_tables import CARDS, DECISIONS, FLIPS, HINTS
+from kiosk.export.log_tables import SENTENCES, events_table
+from kiosk.export.participants import ParticipantFlow, flow_table, participants_table, renamed
+from kiosk.export.records import StudyMaterials
+from kiosk.export.responses import SCORES, answers_table
+from kiosk.store.session_records import SessionRecord
+
+
+@dataclass(frozen=True)
+class DatasetTables:
+    """The tables that a session adds rows to, and the one of all sessions together."""
+
+    sessions: tuple[Table[SessionRecord, Any], ...]
+    flow: Table[tuple[ParticipantFlow, ...], Any]
+
+    @property
+    def shapes(self) -> tuple[TableShape, ...]:
+        """What every table looks like."""
+        return (*(table.shape for table in self.sessions), self.flow.shape)
+
+    def named(self, name: str) -> Table[SessionRecord, Any]:
+        """One of the tables that a session adds rows to."""
+        return next(table for table in self.sessions if table.name == name)
+
+
+def all_tables(study: StudyMaterials, extras: frozenset[ExportOption]) -> DatasetTables:
+    """The tables of a study's data set."""
+    others, whole = _others(extras), flow_table(extras)
+    return DatasetTables((participants_table(study, extras, _elsewhere(extras)), *others), whole)
+
+
+def renamed_items(study: StudyMaterials) -> dict[str, str]:
+    """The items about the visitor whose columns have another name, as it is that of a column of the program's own."""
+    return renamed(study, _elsewhere(frozenset(ExportOption)))
+
+
+def _others(extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any], ...]:
+    return FLIPS, HINTS, DECISIONS, CARDS, answers_table(extras), SCORES, SENTENCES, events_table(extras)
+
+
+def _elsewhere(extras: frozenset[ExportOption]) -> frozenset[str]:
+    """The columns of all tables but that of participants."""
+    shapes = (*(table.shape for table in _others(extras)), flow_table(extras).shape)
+    return frozenset(name for shape in shapes for name in shape.names)

@@ -1,1 +1,0 @@
-"""A Furhat as a device, over either of its interfaces; only kiosk/robot/kinds.py looks in here."""

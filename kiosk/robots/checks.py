@@ -1,0 +1,214 @@
+"""Preflight checks of the robot, the sound and the voice."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import tempfile
+import wave
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from kiosk import UserInputError
+from kiosk.config import RobotConfig as RobotSettings
+from kiosk.preflight import CheckResult
+from kiosk.robots.embodiment import RobotDriver, RobotError
+from kiosk.robots.registry import create_robot
+from kiosk.units import MS_PER_SECOND
+
+SOUND = "sound"
+
+_RATE, _SILENCE_S = 22_050, 0.1
+_WITHIN_S = 3.0
+_UNHEARD = "sentences are shown, and nothing is heard"
+
+
+def sound_check(command: tuple[str, ...] | None, *, busy: bool) -> Iterator[CheckResult]:
+    """Play silence with a player's command; not while a kiosk is ``busy``, which may need the card itself."""
+    if command is None:
+        yield CheckResult.warning(
+            SOUND, f"{_UNHEARD}: there is no program that plays sound", "install alsa-utils (Debian), for aplay"
+        )
+    elif busy:
+        yield CheckResult.good(SOUND, f"{Path(command[0]).name} plays; not tried while a kiosk is open here")
+    else:
+        yield _played(command)
+
+
+def _played(command: tuple[str, ...]) -> CheckResult:
+    with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:
+        file = Path(folder) / "silence.wav"
+        _write_silence(file)
+        try:
+            done = subprocess.run(  # noqa: S603 - the player's own command
+                (*command, str(file)), stdin=subprocess.DEVNULL, capture_output=True, timeout=_WITHIN_S, check=False
+            )
+        except subprocess.TimeoutExpired:
+            return _fails(f"{Path(command[0]).name} does not come to an end")
+        except OSError as error:
+            return _fails(f"{command[0]} cannot be started: {error.strerror}")
+    if done.returncode == 0:
+        return CheckResult.good(SOUND, f"{Path(command[0]).name} plays on the sound card")
+    said = done.stderr.decode(errors="replace").strip().splitlines()
+    return _fails(said[-1] if said else f"the player ended with {done.returncode}")
+
+
+def _fails(why: str) -> CheckResult:
+    return CheckResult.warning(
+        SOUND, f"{_UNHEARD}: {why}", "plug in a loudspeaker, choose it in the system's settings, and play it any sound"
+    )
+
+
+def _write_silence(file: Path) -> None:
+    with wave.open(str(file), "wb") as silence:
+        silence.setnchannels(1)
+        silence.setsampwidth(2)
+        silence.setframerate(_RATE)
+        silence.writeframes(bytes(2 * int(_RATE * _SILENCE_S)))
+
+
+WITHIN_S = 12.0
+"""The process takes half a second to start; on a machine that does much else, many times that."""
+
+SLOW_MS = 800
+"""The kiosk waits this long for a sentence to begin before it takes the engine for hung."""
+
+_SHOWN = "sentences are only shown"
+
+
+def voice_check(command: Sequence[str], language: str, sentence: str) -> Iterator[CheckResult]:
+    """Have the voice's process, started by this command, render a sentence of a language."""
+    what = f"voice: {language}"
+    try:
+        told = _run(command, {"render": sentence}, {"quit": True})
+    except subprocess.TimeoutExpired:
+        remedy = "start the machine again, and see that espeak-ng speaks"
+        yield CheckResult.warning(what, f"{_SHOWN}: the speech engine hangs", remedy)
+        return
+    except OSError as error:
+        words = f"{_SHOWN}: the voice cannot be started: {error.strerror}"
+        yield CheckResult.warning(what, words, "install Recollect anew")
+        return
+    yield _told(what, language, dict(_events(told)))
+
+
+def _run(command: Sequence[str], *lines: dict[str, object]) -> str:
+    """What the process says to these commands; what it leaves when it has to be ended goes as well."""
+    with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:
+        done = subprocess.run(  # noqa: S603 - our own program
+            command,
+            input="".join(f"{json.dumps(line)}\n" for line in lines),
+            capture_output=True,
+            encoding="utf-8",
+            timeout=WITHIN_S,
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder),
+            check=False,
+        )
+    return done.stdout
+
+
+def _events(lines: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """What the process told, by name; what is none of its lines is left out."""
+    for line in lines.splitlines():
+        try:
+            event = json.loads(line)
+            yield str(event["event"]), event
+        except (ValueError, KeyError, TypeError):
+            continue
+
+
+def _told(what: str, language: str, events: dict[str, dict[str, Any]]) -> CheckResult:
+    if "unavailable" in events:
+        why = events["unavailable"].get("why")
+        return CheckResult.warning(what, f"{_SHOWN}: {why}", "install espeak-ng (Debian), then try again")
+    if "ready" not in events:
+        return CheckResult.warning(what, f"{_SHOWN}: the voice's process died", "install espeak-ng and Recollect anew")
+    speaker = events["ready"].get("voice")
+    if speaker is None:
+        words = f"{_SHOWN}: no installed voice speaks {language!r}"
+        plain, region, _ = language.partition("-")
+        wider = f", or write {plain!r}, which takes any region" if region else ""
+        remedy = f"install a voice for {language!r}{wider}, or take it out of the languages"
+        return CheckResult.warning(what, words, remedy)
+    if "rendered" not in events:
+        why = events.get("failed", {}).get("why", "the voice's process died")
+        return CheckResult.warning(what, f"{_SHOWN}: {why}", "install espeak-ng anew")
+    took_ms = int(events["rendered"]["took_ms"])
+    words = f"{events['ready'].get('spoken') or speaker} has a sentence ready in {took_ms} ms"
+    if took_ms > SLOW_MS:
+        return CheckResult.warning(what, words, "end other programs: the kiosk takes a slower voice for one that hangs")
+    return CheckResult.good(what, words)
+
+
+ROBOT = "robot"
+
+_CALLS = 4
+_MARGIN_S = 2.0
+_AVATAR = "until then the avatar helps"
+_SEE = "'recollect robot' tries it step by step"
+
+
+def within_s(settings: RobotSettings) -> float:
+    """How long asking may take at most: as long as all its own deadlines."""
+    return _CALLS * (settings.connect_deadline + settings.answer_deadline) / MS_PER_SECOND + _MARGIN_S
+
+
+def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
+    """Look for the robot of a study file, and for a voice for every language.
+
+    While a kiosk is ``busy``, a robot that cannot be asked without being changed is left alone.
+    """
+    try:
+        device = create_robot(settings, languages[0])
+    except UserInputError as refusal:
+        yield CheckResult.bad(ROBOT, str(refusal), "install it, or set robot.kind to 'none'")
+        return
+    if device is None:
+        yield CheckResult.good(ROBOT, "none in the study file: the avatar helps")
+    elif settings.kind == "furhat":
+        yield from _furhat(settings, languages)
+    elif busy:
+        yield CheckResult.good(ROBOT, "not tried while a kiosk is open here; its panel tells how the robot is")
+    else:
+        yield _any(device)
+
+
+def _furhat(settings: RobotSettings, languages: Sequence[str]) -> Iterator[CheckResult]:
+    from kiosk.robots.furhat import Furhat, chosen_voice  # noqa: PLC0415 - only where there is one
+
+    furhat = Furhat(settings, languages[0])
+    try:
+        furhat.resolve()
+        furhat.health_check()
+        gestures = furhat.gestures()
+        voices = furhat.voices()
+    except RobotError as failure:
+        yield _lost(failure)
+        return
+    yield CheckResult.good(ROBOT, f"it answers, with {len(voices)} voices and {len(gestures)} gestures")
+    for language in languages:
+        what = f"{ROBOT}: {language}"
+        try:
+            voice = chosen_voice(voices, language, settings.voice)
+        except RobotError as failure:
+            remedy = f"install a voice for {language!r} in the robot's own pages; {_AVATAR}"
+            yield CheckResult.warning(what, str(failure), remedy)
+        else:
+            yield CheckResult.good(what, f"{voice.name} ({voice.language})")
+
+
+def _any(device: RobotDriver) -> CheckResult:
+    """A robot that tells nothing of its voices."""
+    try:
+        device.connect()
+    except RobotError as failure:
+        return _lost(failure)
+    finally:
+        device.close()
+    return CheckResult.good(ROBOT, "it answers; it does not tell its voices")
+
+
+def _lost(failure: RobotError) -> CheckResult:
+    return CheckResult.warning(ROBOT, str(failure), f"switch it on and see to its address; {_AVATAR}; {_SEE}")

@@ -1,0 +1,442 @@
+"""The Furhat over its Remote API: requests, gestures, voices and coordinates."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Callable, Collection, Mapping
+from contextlib import closing
+from http.client import HTTPException, IncompleteRead, RemoteDisconnected
+from time import monotonic
+from types import MappingProxyType
+from typing import Any, ClassVar
+
+import requests
+from requests.adapters import HTTPAdapter
+from urllib3 import exceptions as below
+from urllib3.connection import HTTPConnection
+from urllib3.connectionpool import HTTPConnectionPool
+
+from kiosk.config import RobotConfig as RobotSettings
+from kiosk.experiment.effects import Mood
+from kiosk.experiment.events import EmbodimentName
+from kiosk.language_codes import distance
+from kiosk.robots.embodiment import BoardPoint, Capabilities, FailureKind, RobotError, RobotVoice, Utterance
+from kiosk.units import MS_PER_SECOND
+
+WISHES: Mapping[Mood, tuple[str, ...]] = MappingProxyType(
+    {
+        Mood.IDLE: (),
+        Mood.HAPPY: ("BigSmile", "Smile"),
+        Mood.CONFUSED: ("BrowFrown", "Thoughtful"),
+        Mood.SAD: ("ExpressSad",),
+        Mood.THINKING: ("Thoughtful", "GazeAway"),
+        Mood.LISTENING: ("Nod", "BrowRaise"),
+    }
+)
+"""Built-in gestures for a mood, the best first; they end by themselves, so that idle needs none."""
+
+CONFUSED: Mapping[str, Any] = MappingProxyType(
+    {
+        "name": "RecollectConfused",
+        "frames": [
+            {
+                "time": [0.4, 1.6],
+                "persist": False,
+                "params": {
+                    "BROW_UP_LEFT": 0.8,
+                    "BROW_DOWN_RIGHT": 0.7,
+                    "EYE_SQUINT_RIGHT": 0.4,
+                    "MOUTH_RIGHT": 0.4,
+                    "NECK_ROLL": 10,
+                },
+            },
+            {"time": [2.2], "params": {"reset": True}},
+        ],
+        "class": "furhatos.gestures.Gesture",
+    }
+)
+"""Nothing built in looks confused: one brow up, one down, the head to one side. Our own."""
+
+
+def gesture(mood: Mood, offered: Collection[str]) -> str | None:
+    """The best gesture for a mood among those that the robot offers, if there is any."""
+    return next((wish for wish in WISHES[mood] if wish in offered), None)
+
+
+MIDDLE = 0.5
+
+
+def to_robot_location(place: BoardPoint, settings: RobotSettings) -> tuple[float, float, float]:
+    """A place on the board as x, y, z in metres, by the axes that the study file names."""
+    sideways, up, forward = settings.board_middle
+    width, height = settings.board_size
+    seen = (sideways + (place.across - MIDDLE) * width, up + (MIDDLE - place.down) * height, forward)
+    by_axis = {
+        axis[-1]: -metres if axis[0] == "-" else metres
+        for axis, metres in zip(settings.axes.split(), seen, strict=True)
+    }
+    return by_axis.get("x", 0.0), by_axis.get("y", 0.0), by_axis.get("z", 0.0)
+
+
+LARGEST = 1_000_000
+"""Bytes; more than this is no answer of a robot."""
+
+_CHUNK = 65_536
+
+
+class Call:
+    """One request under way: its deadline, and the socket by which it can be cut."""
+
+    def __init__(self, within_s: float, sent: Callable[[], None] | None = None) -> None:
+        """``within_s`` seconds from now it must be over; ``sent`` is called when the request is out."""
+        self.until = monotonic() + within_s
+        self.sent = sent
+        self.was_cancelled = False
+        self.socket: _Socket | None = None
+
+    @property
+    def left_s(self) -> float:
+        """The seconds that are left; 0 or less when there are none."""
+        return self.until - monotonic()
+
+    def check(self) -> None:
+        """Raise TimeoutError if no time is left, or the call was cut."""
+        if self.left_s <= 0 or self.was_cancelled:
+            raise TimeoutError("the call is over")
+
+    def cancel(self) -> None:
+        """End it, from whatever thread."""
+        self.was_cancelled = True
+        if self.socket is not None:
+            self.socket.end()
+
+
+class _Socket(socket.socket):
+    """A socket that waits for every single byte only as long as the whole call may last."""
+
+    call: Call
+
+    def recv_into(self, *args: Any, **options: Any) -> int:
+        """As any socket does, within what is left of the call's time."""
+        self.call.check()
+        self.settimeout(max(self.call.left_s, 0.001))
+        return super().recv_into(*args, **options)
+
+    def end(self) -> None:
+        """Wake whoever waits for this socket."""
+        try:
+            self.shutdown(socket.SHUT_RDWR)
+        except OSError:
+            # It is closed already, or was never connected: nobody waits for it.
+            return
+
+
+class _Connection(HTTPConnection):
+    """A connection that belongs to one call."""
+
+    call: Call
+
+    def _new_conn(self) -> socket.socket:
+        plain = super()._new_conn()
+        timed = _Socket(fileno=plain.detach())
+        timed.call = self.call
+        timed.settimeout(max(self.call.left_s, 0.001))
+        self.call.socket = timed
+        if self.call.was_cancelled:
+            # It was cut before there was a socket to end.
+            timed.end()
+        return timed
+
+    def getresponse(self) -> Any:
+        """Wait for the answer; by now the request is out."""
+        if self.call.sent is not None:
+            self.call.sent()
+        return super().getresponse()
+
+
+class _Pool(HTTPConnectionPool):
+    ConnectionCls = _Connection
+    call: Call
+
+    def _new_conn(self) -> Any:
+        connection = super()._new_conn()
+        if isinstance(connection, _Connection):
+            connection.call = self.call
+        return connection
+
+
+class _Adapter(HTTPAdapter):
+    """Gives one call a connection of its own."""
+
+    def __init__(self, call: Call, host: str, port: int) -> None:
+        super().__init__(max_retries=0)
+        self._pool = _Pool(host, port)
+        self._pool.call = call
+
+    def get_connection_with_tls_context(self, *_: Any, **__: Any) -> HTTPConnectionPool:
+        """The connection of this call, wherever the request says it goes."""
+        return self._pool
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._pool.close()
+        super().close()
+
+
+class HttpClient:
+    """A host and port that requests go to."""
+
+    def __init__(self, host: str, port: int, connect_ms: int) -> None:
+        """Connecting may take ``connect_ms``. No name is looked up yet."""
+        self._host = host
+        self._port = port
+        self._connect_s = connect_ms / MS_PER_SECOND
+        self._address = host
+
+    def resolve(self) -> None:
+        """Look the name up, once for all calls that follow: only the system decides how long that takes."""
+        try:
+            found = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_STREAM)
+        except (OSError, UnicodeError) as error:
+            raise RobotError(FailureKind.UNREACHABLE, f"looking up {self._host}", str(error)) from error
+        self._address = str(found[0][4][0])
+
+    def request(
+        self,
+        call: Call,
+        verb: str,
+        path: str,
+        parameters: Mapping[str, str] | None = None,
+        body: Mapping[str, Any] | None = None,
+    ) -> tuple[int, bytes]:
+        """Send one request and return the code and content of its answer; raises RobotFailed."""
+        host = f"[{self._address}]" if ":" in self._address else self._address
+        url = f"http://{host}:{self._port}{path}"
+        headers = {"Connection": "close", "Accept": "application/json"}
+        adapter = _Adapter(call, self._address, self._port)
+        try:
+            prepared = requests.Request(
+                verb, url, headers, params=parameters, json=dict(body) if body else None
+            ).prepare()
+            timeout = (min(self._connect_s, max(call.left_s, 0.001)), max(call.left_s, 0.001))
+            with closing(adapter), adapter.send(prepared, stream=True, timeout=timeout) as answer:
+                return answer.status_code, _content(answer)
+        except (requests.RequestException, below.HTTPError, OSError) as error:
+            raise RobotError(_fault(error, call), f"{verb} {path}", _innermost(error)) from error
+
+
+def _content(answer: requests.Response) -> bytes:
+    content = b""
+    for piece in answer.iter_content(_CHUNK):
+        content += piece
+        if len(content) > LARGEST:
+            raise requests.exceptions.ContentDecodingError("the answer has no end")
+    return content
+
+
+def _fault(error: BaseException, call: Call) -> FailureKind:
+    """What kind of failure this is; who waits longest is slow, whatever the library calls it."""
+    causes = tuple(_causes(error))
+    if call.was_cancelled:
+        return FailureKind.CUT
+    if call.socket is None:
+        return FailureKind.UNREACHABLE
+    if call.left_s <= 0 or any(isinstance(cause, TimeoutError | requests.Timeout) for cause in causes):
+        return FailureKind.SLOW
+    if isinstance(error, requests.exceptions.ContentDecodingError) or any(_is_no_http(cause) for cause in causes):
+        return FailureKind.GARBAGE
+    return FailureKind.DROPPED
+
+
+def _is_no_http(cause: BaseException) -> bool:
+    return isinstance(cause, HTTPException) and not isinstance(cause, RemoteDisconnected | IncompleteRead)
+
+
+def _causes(error: BaseException) -> list[BaseException]:
+    """An error and every error within it or before it."""
+    found: list[BaseException] = []
+    waiting: list[object] = [error]
+    while waiting:
+        cause = waiting.pop()
+        if isinstance(cause, BaseException) and cause not in found:
+            found.append(cause)
+            waiting += [*cause.args, cause.__cause__, cause.__context__, getattr(cause, "reason", None)]
+    return found
+
+
+def _innermost(error: BaseException) -> str:
+    return str(_causes(error)[-1] if isinstance(error, requests.ConnectionError) else error)
+
+
+PORT = 54321
+OK = 200
+GREETING = b"hello"
+"""A part of what its server says when it is up: "hello world"."""
+
+
+class Furhat:
+    """A Furhat, or the virtual one of its maker's kit, that serves the Remote API."""
+
+    name: ClassVar[EmbodimentName] = EmbodimentName.FURHAT
+
+    def __init__(self, settings: RobotSettings, language: str) -> None:
+        """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
+        self._settings = settings
+        self._language = language
+        self._http = HttpClient(settings.host, settings.port or PORT, settings.connect_deadline)
+        self._gestures: tuple[str, ...] = ()
+        self._voices: tuple[RobotVoice, ...] = ()
+
+    def connect(self) -> Capabilities:
+        """Look for it, see what it offers, and give it a voice of the language; raises RobotFailed."""
+        self.resolve()
+        self.health_check()
+        self._gestures = self.gestures()
+        self._voices = self.voices()
+        voice = chosen_voice(self._voices, self._language, self._settings.voice)
+        self.speak_with(voice)
+        return Capabilities(self._voices, self._gestures, voice)
+
+    def set_language(self, language: str) -> None:
+        """Give it a voice of another language; raises RobotFailed if it has none, and keeps to the one before."""
+        if language == self._language:
+            return
+        if self._voices:
+            self.speak_with(chosen_voice(self._voices, language, self._settings.voice))
+        # Only now: a robot that lacks one visitor's language must still be found for the next one's.
+        self._language = language
+
+    def resolve(self) -> None:
+        """Look its name up, for all calls that follow; raises RobotFailed."""
+        self._http.resolve()
+
+    def health_check(self) -> None:
+        """See whether its server is up; raises RobotFailed."""
+        code, content = self._request("GET", "/furhat")
+        if code != OK:
+            raise RobotError(FailureKind.ERROR, "GET /furhat", f"code {code}")
+        if GREETING not in content.lower():
+            raise RobotError(FailureKind.GARBAGE, "GET /furhat", _shown(content))
+
+    def gestures(self) -> tuple[str, ...]:
+        """The names of the gestures that it offers; raises RobotFailed."""
+        return tuple(str(entry["name"]) for entry in self._list("/furhat/gestures"))
+
+    def voices(self) -> tuple[RobotVoice, ...]:
+        """The voices that it offers; raises RobotFailed."""
+        return tuple(
+            RobotVoice(str(entry["name"]), str(entry.get("language") or "")) for entry in self._list("/furhat/voices")
+        )
+
+    def users(self) -> int:
+        """How many people it sees; raises RobotFailed."""
+        return len(self._list("/furhat/users", named=False))
+
+    def speak_with(self, voice: RobotVoice) -> None:
+        """Give it a voice; it forgets that when it starts again. Raises RobotFailed."""
+        self._ask("/furhat/voice", {"name": voice.name})
+
+    def say(self, saying: Utterance) -> None:
+        """Say a sentence to its end, in place of any other; raises RobotFailed."""
+        call = Call(self._settings.speech_time(saying.text) / MS_PER_SECOND, saying.started)
+        saying.on_cancel(call.cancel)
+        parameters = {"text": saying.text, "blocking": "true", "abort": "true"}
+        _check("POST /furhat/say", *self._http.request(call, "POST", "/furhat/say", parameters))
+
+    def stop_speech(self) -> None:
+        """Ask it to be silent; it may say yes and speak on. Raises RobotFailed."""
+        self._ask("/furhat/say/stop", {})
+
+    def express(self, mood: Mood) -> None:
+        """Make the gesture for a mood, if there is one; raises RobotFailed."""
+        if not self._settings.gestures or mood is Mood.IDLE:
+            return
+        if mood is Mood.CONFUSED:
+            self._ask("/furhat/gesture", {"blocking": "false"}, CONFUSED)
+            return
+        name = gesture(mood, self._gestures)
+        if name is not None:
+            self._ask("/furhat/gesture", {"name": name, "blocking": "false"})
+
+    def look_at(self, place: BoardPoint | None) -> None:
+        """Look at a place on the board, or at whoever is closest; raises RobotFailed.
+
+        It may well say that there is nobody to look at: that is no failure.
+        """
+        if not self._settings.attend:
+            return
+        try:
+            self._ask("/furhat/attend", {"user": "CLOSEST"} if place is None else {"location": self._location(place)})
+        except RobotError as failure:
+            if failure.kind is not FailureKind.DECLINED:
+                raise
+
+    def close(self) -> None:
+        """Nothing is kept open between calls."""
+
+    def _location(self, place: BoardPoint) -> str:
+        return ",".join(f"{metres:.2f}" for metres in to_robot_location(place, self._settings))
+
+    def _request(
+        self,
+        verb: str,
+        path: str,
+        parameters: Mapping[str, str] | None = None,
+        body: Mapping[str, Any] | None = None,
+    ) -> tuple[int, bytes]:
+        call = Call(self._settings.answer_deadline / MS_PER_SECOND)
+        return self._http.request(call, verb, path, parameters, body)
+
+    def _ask(self, path: str, parameters: Mapping[str, str], body: Mapping[str, Any] | None = None) -> None:
+        """Have something done, and see that it says so."""
+        _check(f"POST {path}", *self._request("POST", path, parameters, body))
+
+    def _list(self, path: str, *, named: bool = True) -> list[dict[str, Any]]:
+        """What it lists; entries without a name are left out, for nobody could ask for them."""
+        code, content = self._request("GET", path)
+        listed = _json(content)
+        if code != OK:
+            raise RobotError(FailureKind.ERROR, f"GET {path}", f"code {code}")
+        if not isinstance(listed, list):
+            raise RobotError(FailureKind.GARBAGE, f"GET {path}", _shown(content))
+        entries = [entry for entry in listed if isinstance(entry, dict)]
+        return [entry for entry in entries if not named or isinstance(entry.get("name"), str)]
+
+
+def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = "") -> RobotVoice:
+    """The wished voice, or the first of those that are nearest to the language; raises RobotFailed without one."""
+    if wished:
+        matching = [(0, voice) for voice in voices if voice.name == wished]
+    else:
+        far = ((distance(language, voice.language), voice) for voice in voices)
+        matching = [(each, voice) for each, voice in far if each is not None]
+    if matching:
+        return min(matching, key=lambda each: each[0])[1]
+    offered = ", ".join(sorted({voice.language for voice in voices})) or "none"
+    raise RobotError(FailureKind.NO_VOICE, wished or language, f"it has {offered}")
+
+
+def _check(doing: str, code: int, content: bytes) -> None:
+    """See that a Status says yes: ``success`` is true, and nothing else counts as true."""
+    status = _json(content)
+    success, message = (status.get("success"), status.get("message")) if isinstance(status, dict) else (None, None)
+    if code == OK and success is True:
+        return
+    if success is False:
+        raise RobotError(FailureKind.DECLINED, doing, str(message or f"code {code}"))
+    if code != OK:
+        raise RobotError(FailureKind.ERROR, doing, f"code {code}")
+    raise RobotError(FailureKind.GARBAGE, doing, _shown(content))
+
+
+def _json(content: bytes) -> object:
+    """What a body says; None if it is not JSON."""
+    try:
+        return json.loads(content)
+    except (ValueError, RecursionError):
+        return None
+
+
+def _shown(content: bytes) -> str:
+    return content[:80].decode(errors="replace")

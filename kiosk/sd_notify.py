@@ -1,0 +1,169 @@
+"""What a program tells whoever keeps it up, in the words of systemd's sd_notify: READY, WATCHDOG, STATUS, STOPPING.
+
+A notice is lines of ``NAME=value``. It goes to the Unix datagram socket that NOTIFY_SOCKET names, systemd's or the
+supervisor's own; on Windows, which has none, it goes to a pipe whose handle is in PIPE. It never waits and never
+fails.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import socket
+import sys
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Protocol
+
+SOCKET, PIPE, BEAT_WITHIN = "NOTIFY_SOCKET", "RECOLLECT_NOTIFY_PIPE", "WATCHDOG_USEC"
+"""In the environment: where notices go, and within how many microseconds the next WATCHDOG=1 is expected."""
+
+NOTICE_BYTES = 4096
+
+Notice = dict[str, str]
+
+
+class Notifier:
+    """The telling end; where nobody wants to know, nothing is told."""
+
+    def __init__(self, environment: Mapping[str, str]) -> None:
+        """Tell whoever this environment names."""
+        self._socket: socket.socket | None = None
+        self._pipe: int | None = None
+        if SOCKET in environment:
+            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+            self._socket.settimeout(0)
+            # An @ stands for the 0 with which the name of an abstract socket begins.
+            self._address = environment[SOCKET].replace("@", "\0", 1)
+        elif PIPE in environment:
+            self._pipe = _writer(int(environment[PIPE]))
+
+    def tell(self, **notice: object) -> bool:
+        """Send one notice, and return whether there is somebody; who has heard too much already does not get it."""
+        lines = "\n".join(f"{name}={_one_line(value)}" for name, value in notice.items()).encode()[:NOTICE_BYTES]
+        try:
+            if self._socket is not None:
+                self._socket.sendto(lines, self._address)
+            elif self._pipe is not None:
+                os.write(self._pipe, lines + b"\n")
+            else:
+                return False
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return True
+
+    def close(self) -> None:
+        """Tell nothing more."""
+        if self._socket is not None:
+            self._socket.close()
+        elif self._pipe is not None:
+            os.close(self._pipe)
+        self._socket = self._pipe = None
+
+
+def _one_line(value: object) -> str:
+    return " ".join(str(value).split())
+
+
+def _writer(handle: int) -> int:
+    """The file descriptor of a pipe that was inherited."""
+    if sys.platform == "win32":
+        import msvcrt  # noqa: PLC0415 - there is none elsewhere
+
+        return msvcrt.open_osfhandle(handle, os.O_WRONLY)
+    return handle
+
+
+class NotifyListener(Protocol):
+    """The hearing end, made anew for every start of a program."""
+
+    environment: dict[str, str]
+    """What the program must find in its environment."""
+    inherited: tuple[int, ...]
+    """The file descriptors that it must inherit."""
+
+    def hear(self, within_s: float) -> Notice:
+        """The next notice; empty if none came within this time."""
+
+    def close(self) -> None:
+        """Hear nothing more."""
+
+
+class NotifySocketListener:
+    """A Unix datagram socket in a folder of one's own."""
+
+    inherited: tuple[int, ...] = ()
+
+    def __init__(self, folder: Path) -> None:
+        """Listen in this folder."""
+        self._path = folder / "notice"
+        self._path.unlink(missing_ok=True)
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self._socket.bind(str(self._path))
+        self.environment = {SOCKET: str(self._path)}
+
+    def hear(self, within_s: float) -> Notice:
+        """The next notice; empty if none came within this time."""
+        self._socket.settimeout(within_s)
+        try:
+            return parse_notification(self._socket.recv(NOTICE_BYTES))
+        except (TimeoutError, BlockingIOError):
+            return {}
+
+    def close(self) -> None:
+        """Hear nothing more."""
+        self._socket.close()
+        self._path.unlink(missing_ok=True)
+
+
+class NotifyPipeListener:
+    """A pipe that the program inherits, read by a thread: a pipe cannot be waited for everywhere."""
+
+    def __init__(self) -> None:
+        """Make the pipe."""
+        self._reader, self._writer = os.pipe()
+        self.inherited: tuple[int, ...] = (self._writer,)
+        self.environment = {PIPE: str(_handle(self._writer))}
+        self._heard: queue.SimpleQueue[Notice] = queue.SimpleQueue()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        with os.fdopen(self._reader, "rb") as lines:
+            for line in lines:
+                self._heard.put(parse_notification(line))
+
+    def hear(self, within_s: float) -> Notice:
+        """The next notice; empty if none came within this time."""
+        try:
+            return self._heard.get(timeout=within_s) if within_s else self._heard.get_nowait()
+        except queue.Empty:
+            return {}
+
+    def close(self) -> None:
+        """Hear nothing more: the thread ends with the last program that could tell anything."""
+        os.close(self._writer)
+
+
+def _handle(descriptor: int) -> int:
+    """What a program that inherits a pipe knows it by."""
+    if sys.platform == "win32":
+        import msvcrt  # noqa: PLC0415 - there is none elsewhere
+
+        handle = msvcrt.get_osfhandle(descriptor)
+        os.set_handle_inheritable(handle, True)  # noqa: FBT003 - the system's signature
+        return handle
+    return descriptor
+
+
+def notify_listener(folder: Path) -> NotifyListener:
+    """The hearing end that this system has."""
+    return NotifySocketListener(folder) if sys.platform != "win32" else NotifyPipeListener()
+
+
+def parse_notification(notice: bytes) -> Notice:
+    """A notice by its names; whatever is no line of one is left out."""
+    lines = (line.partition("=") for line in notice.decode(errors="replace").splitlines())
+    return {name: value for name, equals, value in lines if equals}

@@ -1,1 +1,0 @@
-"""Looking after what is stored: copies, checks, room, and what people ask to be taken out or brought together."""

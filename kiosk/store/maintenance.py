@@ -1,0 +1,174 @@
+"""Back up the database, and watch the free disk space."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from enum import Enum
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
+from kiosk.store.database import open_as_it_is
+from kiosk.units import MIB
+
+WARN_MIB = 512
+"""A session takes some 30 KiB; if it took twice that, a day of 200 would take 12 MiB, and each copy that is kept as
+much again. 512 MiB is days of that, and what else a system writes in them: time enough to make room in the evening."""
+
+REFUSE_MIB = 64
+"""One session, the write-ahead log (4 MiB), the program's logs (4 MB) and one more copy of the database must fit in, or
+the session that begins now could be lost in its middle. Below this no new one begins."""
+
+
+class SpaceLevel(Enum):
+    """What the room that is left allows."""
+
+    ENOUGH = "enough"
+    WARN = "warn"
+    REFUSE = "refuse"
+
+
+@dataclass(frozen=True)
+class FreeSpace:
+    """The room that is left on the disk of a data folder, in MiB."""
+
+    free_mib: int
+
+    @property
+    def level(self) -> SpaceLevel:
+        """What it allows."""
+        if self.free_mib < REFUSE_MIB:
+            return SpaceLevel.REFUSE
+        return SpaceLevel.WARN if self.free_mib < WARN_MIB else SpaceLevel.ENOUGH
+
+
+def free_space(folder: Path) -> FreeSpace:
+    """The room that is left for a data folder, whether or not it is there yet; raises BadInput if nobody can say."""
+    there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
+    try:
+        return FreeSpace(shutil.disk_usage(there).free // MIB)
+    except OSError as error:
+        raise UserInputError(f"the room that is left for {folder} cannot be told: {error.strerror}") from error
+
+
+FOLDER = "backups"
+"""Where copies are kept in a data folder, unless told otherwise."""
+
+KEPT = 10
+STEP_PAGES = 64
+"""256 KiB at a time, so that a thread that copies lets the others go on."""
+
+_PATTERN = "recollect-*.db"
+_UNFINISHED = ".unfinished"
+_LOCK = "backup.lock"
+
+Progress = Callable[[int, int], None]
+"""Is told how much is done, of how much."""
+
+
+def back_up(
+    folder: Path,
+    into: Path,
+    keep: int = KEPT,
+    tell: Progress = lambda _done, _of: None,
+    amend: Callable[[sqlite3.Connection], None] = lambda _copy: None,
+) -> Path:
+    """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
+
+    It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
+    ``amend`` may change the copy before it is checked. Raises BadInput if there is nothing to copy or no place for it,
+    StoreFailed if the copy could not be written whole; older copies are then as they were.
+    """
+    if keep < 1:
+        raise UserInputError(f"at least 1 copy must be kept, not {keep}")
+    with closing(open_as_it_is(folder)) as source, _alone(into):
+        unfinished = into / f"{_name()}{_UNFINISHED}"
+        try:
+            _copy(source, unfinished, tell, amend)
+            copy = unfinished.replace(unfinished.with_suffix(""))
+            _sync(into)
+            _remove_older(into, copy, keep)
+        except (OSError, sqlite3.Error) as error:
+            raise StoreFailed(f"the copy in {into} could not be written: {reason(error, into)}") from error
+        finally:
+            unfinished.unlink(missing_ok=True)
+    return copy
+
+
+def list_backups(into: Path) -> list[Path]:
+    """The copies that a folder holds, oldest first."""
+    return sorted(into.glob(_PATTERN))
+
+
+def remove_all_but(kept: Path | None, into: Path) -> None:
+    """Remove every copy but one, finished or not, with what SQLite may have left beside it; raises OSError."""
+    for file in into.glob(f"{_PATTERN}*"):
+        if kept is None or not file.name.startswith(kept.name):
+            file.unlink(missing_ok=True)
+    if into.is_dir():
+        _sync(into)
+
+
+@contextmanager
+def _alone(into: Path) -> Iterator[None]:
+    """Be the only one who copies into a folder, and clear what a copy that was cut off has left."""
+    try:
+        if not into.is_dir():
+            into.mkdir(mode=0o700, parents=True, exist_ok=True)
+            give_to_owner_of_folder(into)
+        with FileLock(into / _LOCK, blocking=False):
+            give_to_owner_of_folder(into / _LOCK)
+            for unfinished in into.glob(f"{_PATTERN}{_UNFINISHED}*"):
+                unfinished.unlink()
+            yield
+    except Timeout as error:
+        raise UserInputError(f"another copy is just being made in {into}") from error
+    except OSError as error:
+        raise failure(f"copies cannot be kept in {into}", error, into) from error
+
+
+def _remove_older(into: Path, copy: Path, keep: int) -> None:
+    for older in list_backups(into)[:-keep]:
+        # A clock that was set back makes the newest look like the oldest.
+        if older != copy:
+            older.unlink()
+
+
+def _name() -> str:
+    return f"recollect-{datetime.now(UTC):%Y%m%dT%H%M%S.%f}Z.db"
+
+
+def _copy(source: sqlite3.Connection, path: Path, tell: Progress, amend: Callable[[sqlite3.Connection], None]) -> None:
+    # One look at the database for all steps: otherwise every write of the kiosk would make the copy start anew.
+    source.execute("BEGIN")
+    source.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    with closing(for_writing(path)) as target:
+        source.backup(target, pages=STEP_PAGES, progress=lambda _, left, of: tell(of - left, of))
+        # One file that can be carried away, with no log beside it.
+        target.execute("PRAGMA journal_mode = DELETE")
+        amend(target)
+        answers = [answer for (answer,) in target.execute("PRAGMA integrity_check")]
+    source.execute("ROLLBACK")
+    if answers != ["ok"]:
+        raise StoreFailed(f"the copy of {path.name} is not whole: {answers[0]}")
+    with path.open("r+b") as file:
+        os.fsync(file.fileno())
+
+
+def _sync(folder: Path) -> None:
+    """Have the new name on the disk as well, where folders can be told so."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

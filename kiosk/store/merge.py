@@ -1,0 +1,271 @@
+"""Data folders of several kiosks brought together in a new one; what is merged is copied and never changed."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sqlite3
+import subprocess
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing
+from dataclasses import dataclass, field
+from itertools import count, permutations
+from pathlib import Path
+from typing import Any, TypeVar
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.store.connecting import atomic_directory, reason
+from kiosk.store.database import in_use, open_for_reading, open_for_writing
+from kiosk.store.maintenance import Progress
+from kiosk.store.participants import checked_site, participant_name
+from kiosk.store.recorder import insert
+
+Row = dict[str, Any]
+
+
+def merge(
+    folders: Sequence[Path],
+    out: Path,
+    tell: Progress = lambda _done, _of: None,
+    sites: Sequence[tuple[Path, str]] = (),
+) -> int:
+    """Bring data folders together in a new one, all of it or nothing; returns how many sessions it has.
+
+    Sessions are numbered anew, in the order in which they began, whatever the order of the folders; a participant's
+    number and code stay, and so does the site, unless ``sites`` gives all that a folder holds another one. Raises
+    BadInput if a folder cannot be read or is written in, if one participant or code stands in two of them, or if
+    ``out`` is not empty or lies in one of them; StoreFailed if the disk does not take it.
+    """
+    asked, out = out, out.resolve()
+    _check_folders(folders, out)
+    given = _given_sites(folders, sites)
+    with ExitStack() as opened:
+        parts = [
+            _Part(folder, opened.enter_context(closing(open_for_reading(folder))), given.get(folder))
+            for folder in folders
+        ]
+        _check_at_rest(parts)
+        _check_sites(parts)
+        _check_apart(parts, asked)
+        try:
+            with atomic_directory(out) as unfinished, closing(open_for_writing(unfinished)) as target:
+                target.execute("BEGIN IMMEDIATE")
+                sessions = _copy(parts, target, tell)
+                target.execute("COMMIT")
+        except (OSError, sqlite3.Error) as error:
+            raise StoreFailed(f"{out} could not be written: {reason(error, out.parent)}") from error
+    return sessions
+
+
+_Shared = TypeVar("_Shared", bound=Hashable)
+_Who = tuple[str, int, int]
+"""A person of all folders: the site, whether they are simulated, and their number."""
+
+
+@dataclass
+class _Part:
+    """One of the folders, and what its sessions and lists are numbered in the new one.
+
+    ``site`` is the one that all of its rows get; None leaves them theirs.
+    """
+
+    folder: Path
+    connection: sqlite3.Connection
+    site: str | None = None
+    sessions: dict[int, int] = field(default_factory=dict)
+    lists: dict[int, int] = field(default_factory=dict)
+
+    def rows(self, table: str, where: str = "", *values: int) -> Iterator[Row]:
+        """Rows of a table by their columns' names."""
+        cursor = self.connection.execute(f"SELECT * FROM {table} {where}", values)  # noqa: S608 - the names are ours
+        names = [name for name, *_ in cursor.description]
+        for row in cursor:
+            told = dict(zip(names, row, strict=True))
+            yield told | {"site": self.site} if self.site is not None and "site" in told else told
+
+    @property
+    def sites(self) -> set[str]:
+        """The sites that its rows had when they were written."""
+        tables = ("session", "participant", "tombstone", "allocation")
+        query = " UNION ".join(f"SELECT site FROM {table}" for table in tables)  # noqa: S608 - the names are ours
+        return {site for (site,) in self.connection.execute(query)}
+
+    def people(self) -> Iterator[tuple[_Who, str]]:
+        """Everybody who has a number here, with their code; it is empty for those who withdrew."""
+        for row in (*self.rows("participant"), *self.rows("tombstone")):
+            yield (row["site"], row["simulated"], row["number"]), row.get("code", "")
+
+
+def _check_folders(folders: Sequence[Path], out: Path) -> None:
+    for number, folder in enumerate(folders):
+        if any(_is_same(folder, other) for other in folders[:number]):
+            raise UserInputError("a data folder is named twice; each can be merged once")
+        if any(_is_same(folder, above) for above in (out, *out.parents)):
+            raise UserInputError(
+                f"{out} is, or lies in, the data folder {folder}, which is only read; choose a folder elsewhere for "
+                "--out. Nothing was merged"
+            )
+    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+        raise UserInputError(f"{out} is not an empty folder; nothing was merged")
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    """Whether two paths are one folder, also through links or by other capitals where those do not count."""
+    try:
+        return one.samefile(other)
+    except OSError:
+        return one.resolve() == other.resolve()
+
+
+def _given_sites(folders: Sequence[Path], sites: Sequence[tuple[Path, str]]) -> Mapping[Path, str]:
+    """The site that each folder gets, by the folder as it stands among ``folders``."""
+    given: dict[Path, str] = {}
+    for named, site in sites:
+        folder = next((folder for folder in folders if _is_same(folder, named)), None)
+        if folder is None:
+            raise UserInputError(f"--site {named}={site}: {named} is not one of the folders to merge")
+        if folder in given:
+            raise UserInputError(f"--site names the folder {folder} twice")
+        if not site:
+            raise UserInputError(f"--site {named}=: the name of the site is missing, such as in {named}=ROME")
+        given[folder] = checked_site(site)
+    return given
+
+
+def _check_at_rest(parts: Sequence[_Part]) -> None:
+    for part in parts:
+        if in_use(part.folder):
+            raise UserInputError(f"a kiosk is writing in {part.folder}: close it first, then merge")
+
+
+def _check_sites(parts: Sequence[_Part]) -> None:
+    """Refuse to give one site to a folder that holds several, in which numbers stand more than once."""
+    for part in parts:
+        if part.site is not None and len(part.sites) > 1:
+            named = ", ".join(site or "one without a name" for site in sorted(part.sites))
+            raise UserInputError(
+                f"{part.folder} holds the data of several sites ({named}), so --site cannot name it anew"
+            )
+
+
+def _check_apart(parts: Sequence[_Part], out: Path) -> None:
+    """Refuse two folders that hold one participant, or one code; say how kiosks without sites can be merged."""
+    _check_no_older_copies(parts)
+    code = _first_shared(parts, lambda part: (code for _, code in part.people() if code))
+    person = _first_shared(parts, lambda part: (who for who, _ in part.people()))
+    copied = "Does one of them hold a copy of the other's data?"
+    if person is not None:
+        (site, _, number), one, other = person
+        raise UserInputError(
+            f"participant {participant_name(site, number)} stands in {one.folder} and in {other.folder}; nothing was "
+            f"merged. {_way_out(parts, out) if code is None else copied}"
+        )
+    if code is not None:
+        shared, one, other = code
+        raise UserInputError(
+            f"the code {shared} stands in {one.folder} and in {other.folder}; nothing was merged. {copied}"
+        )
+
+
+def _first_shared(
+    parts: Sequence[_Part], of: Callable[[_Part], Iterator[_Shared]]
+) -> tuple[_Shared, _Part, _Part] | None:
+    """The first thing that two folders have, and those two."""
+    found: dict[_Shared, _Part] = {}
+    for part in parts:
+        for thing in of(part):
+            first = found.setdefault(thing, part)
+            if first is not part:
+                return thing, first, part
+    return None
+
+
+def _check_no_older_copies(parts: Sequence[_Part]) -> None:
+    """Refuse a copy from before a withdrawal, which a site of its own would bring back as another person."""
+    for part, other in permutations(parts, 2):
+        gone, there = (
+            set(each.connection.execute(f"SELECT site, simulated, number FROM {table}"))  # noqa: S608 - ours
+            for each, table in ((part, "tombstone"), (other, "participant"))
+        )
+        # All people of an older copy stand in the original too, unless they withdrew there.
+        if there and there <= gone and _is_copy(part, other):
+            site, _, number = min(there)
+            raise UserInputError(
+                f"participant {participant_name(site, number)} withdrew in {part.folder}, but still stands in "
+                f"{other.folder}, which is an older copy of it; nothing was merged"
+            )
+
+
+def _is_copy(part: _Part, other: _Part) -> bool:
+    """Whether one database was copied from the other: both were made in the same microsecond."""
+    made = "SELECT * FROM migration WHERE number = 1"
+    return bool(part.connection.execute(made).fetchone() == other.connection.execute(made).fetchone())
+
+
+def _way_out(parts: Sequence[_Part], out: Path) -> str:
+    """The command that merges kiosks whose participants have the same numbers, if there is one."""
+    named = _named_anew(parts)
+    if named is None:
+        return "Kiosks whose data will be merged need a --site each"
+    sites = [f"--site={folder}={site}" for folder, site in named.items()]
+    command = ["recollect", "merge", *(str(part.folder) for part in parts), f"--out={out}", *sites]
+    written = subprocess.list2cmdline(command) if os.name == "nt" else shlex.join(command)
+    return f"If they are different kiosks, give each a site, such as ROME for KIOSK1: {written}"
+
+
+def _named_anew(parts: Sequence[_Part]) -> dict[Path, str] | None:
+    """Sites for the folders that share a participant with another; None if those do not tell all people apart."""
+    people = {part.folder: {who for who, _ in part.people()} for part in parts}
+    clashing = [
+        part
+        for part in parts
+        if any(people[part.folder] & people[other.folder] for other in parts if other is not part)
+    ]
+    taken = {site for part in parts for site in (*part.sites, part.site)}
+    free = (name for number in count(1) if (name := f"KIOSK{number}") not in taken)
+    named = {part.folder: part.site for part in parts if part.site is not None}
+    named |= {part.folder: next(free) for part in clashing if len(part.sites) == 1}
+    return named if sum(len(part.sites) > 1 for part in clashing) <= 1 else None
+
+
+def _copy(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) -> int:
+    for part in parts:
+        for row in part.rows("source"):
+            target.execute("INSERT INTO source VALUES (?, ?) ON CONFLICT DO NOTHING", tuple(row.values()))
+    _copy_lists(parts, target)
+    _copy_tombstones(parts, target)
+    for table, keys in (("visit", ("why", "simulated")), ("booth_event", ("wall_ms", "type", "body"))):
+        for _, row in _ordered(parts, table, *keys):
+            insert(target, table, {name: value for name, value in row.items() if name != "id"})
+    return _copy_sessions(parts, target, tell)
+
+
+def _copy_lists(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
+    for part, row in _ordered(parts, "allocation", "fixed_at", "site", "simulated", "id"):
+        part.lists[row["id"]] = insert(target, "allocation", {n: value for n, value in row.items() if n != "id"})
+
+
+def _copy_tombstones(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
+    """They stand before the sessions, so that no session that is yet to come takes their numbers."""
+    ordered = _ordered(parts, "tombstone", "site", "simulated", "number")
+    for number, (part, row) in enumerate(ordered, 1):
+        insert(target, "tombstone", row | {"session": number, "list": part.lists.get(row["list"])})
+    target.execute("INSERT INTO sqlite_sequence VALUES ('session', ?)", (len(ordered),))
+
+
+def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) -> int:
+    ordered = _ordered(parts, "session", "started_at", "site", "simulated", "seed", "id")
+    for done, (part, row) in enumerate(ordered):
+        tell(done, len(ordered))
+        old = row.pop("id")
+        new = insert(target, "session", row | {"list": part.lists.get(row["list"])})
+        for table in ("event", "participant"):
+            for own in part.rows(table, "WHERE session = ?", old):
+                insert(target, table, own | {"session": new})
+    return len(ordered)
+
+
+def _ordered(parts: Sequence[_Part], table: str, *keys: str) -> list[tuple[_Part, Row]]:
+    """The rows of all folders in an order that does not depend on that of the folders."""
+    rows = [(part, row) for part in parts for row in part.rows(table)]
+    return sorted(rows, key=lambda each: tuple(each[1][key] for key in keys))

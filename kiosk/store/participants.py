@@ -1,0 +1,404 @@
+"""Participants, their numbers and codes, the list of places, and the counts of each cell."""
+
+from __future__ import annotations
+
+import json
+import re
+import sqlite3
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from enum import Enum
+from itertools import groupby
+from random import Random, SystemRandom
+
+from kiosk import UserInputError
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import NotRecordedReason
+from kiosk.experiment.labels import read_as
+from kiosk.experiment.randomisation import AllocationSlot, AllocationSource, allocation_slots, next_slot, ratio_in_words
+from kiosk.experiment.session_config import SessionKind
+
+ALPHABET = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
+"""Letters and digits without 0 and O, 1, I and L. 31 of them, a prime: so the check character tells every slip."""
+
+CHANCE_CHARACTERS = 6
+"""With the check character 7: short enough to be copied by hand. 31^6 is 887 million, so that among the thousand
+people of a large study a code that is made up belongs to nobody (1 in a million), and two hardly ever fall together
+(1 in 2000 studies), which is seen and mended when it happens."""
+
+_DIGITS_OF_A_YEAR = 4
+_SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Participant:
+    """The person of one session; ``number`` counts from 1 within a site, for people and for rehearsals apart."""
+
+    session: int
+    site: str
+    number: int
+    code: str
+
+    @property
+    def name(self) -> str:
+        """The number with its site, as it stands in lists."""
+        return participant_name(self.site, self.number)
+
+
+def participant_name(site: str, number: int) -> str:
+    """A participant's number with the site, if it has one."""
+    return f"{site}-{number}" if site else str(number)
+
+
+def checked_site(site: str) -> str:
+    """The name of a site as it may stand in numbers, codes and tables; raises BadInput for any other."""
+    if not _SITE.fullmatch(site):
+        raise UserInputError(f"a site is named by up to 8 capital letters and digits, not {site!r}")
+    for label in (site, *([participant_name(site, 1)] if site and not _is_long_number(site) else [])):
+        misread = read_as(label)
+        if misread:
+            raise UserInputError(
+                f"{label!r} is taken for {misread} by programs that read tables, so {site!r} cannot name a site; "
+                "choose another name, such as ROME"
+            )
+    return site
+
+
+def _is_long_number(site: str) -> bool:
+    """Whether a site is a number that with another one behind it is neither a date nor anything else."""
+    return site.isdigit() and len(site) > _DIGITS_OF_A_YEAR
+
+
+def checked_code(text: str) -> str:
+    """The code that was typed, in its own spelling; raises BadInput if it was mistyped."""
+    code = "".join(text.split()).upper()
+    characters = code.rpartition("-")[2]
+    if len(characters) != CHANCE_CHARACTERS + 1 or set(characters) - set(ALPHABET):
+        raise UserInputError(
+            f"{text!r} is no participant's code: after the site it has {CHANCE_CHARACTERS + 1} letters and digits, "
+            "and never 0, O, 1, I or L"
+        )
+    if _check(characters[:-1]) != characters[-1]:
+        raise UserInputError(f"the code {text!r} is mistyped: its last character does not fit the others")
+    return code
+
+
+def enrol(connection: sqlite3.Connection, session: int) -> Participant:
+    """Give a session's person the next number of the site, and a code, within the transaction that is open."""
+    site, simulated, seed = connection.execute(
+        "SELECT site, simulated, seed FROM session WHERE id = ?", (session,)
+    ).fetchone()
+    participant = Participant(session, site, _next_number(connection, site, simulated), _code(connection, site, seed))
+    connection.execute(
+        "INSERT INTO participant (session, site, simulated, number, code) VALUES (?, ?, ?, ?, ?)",
+        (session, site, simulated, participant.number, participant.code),
+    )
+    return participant
+
+
+def participant_of(connection: sqlite3.Connection, session: int) -> Participant | None:
+    """The person of a session; None if it was recorded before people were numbered, or is not there."""
+    row = connection.execute(
+        "SELECT session, site, number, code FROM participant WHERE session = ?", (session,)
+    ).fetchone()
+    return Participant(*row) if row else None
+
+
+def codes(site: str, seed: int) -> Iterator[str]:
+    """The codes that a session's seed leads to, best first."""
+    chance = Random(f"{seed}/code")
+    while True:
+        characters = "".join(chance.choices(ALPHABET, k=CHANCE_CHARACTERS))
+        yield (f"{site}-" if site else "") + characters + _check(characters)
+
+
+def _code(connection: sqlite3.Connection, site: str, seed: int) -> str:
+    return next(code for code in codes(site, seed) if not _taken(connection, code))
+
+
+def _taken(connection: sqlite3.Connection, code: str) -> bool:
+    return connection.execute("SELECT 1 FROM participant WHERE code = ?", (code,)).fetchone() is not None
+
+
+def _next_number(connection: sqlite3.Connection, site: str, simulated: int) -> int:
+    """One more than the highest ever given, whether or not its session was withdrawn."""
+    number: int = connection.execute(
+        """
+        SELECT 1 + coalesce(max(number), 0) FROM (
+            SELECT site, simulated, number FROM participant UNION ALL SELECT site, simulated, number FROM tombstone
+        ) WHERE site = ? AND simulated = ?
+        """,
+        (site, simulated),
+    ).fetchone()[0]
+    return number
+
+
+def _check(characters: str) -> str:
+    """The character that makes one wrong character, or two in each other's place, come out wrong.
+
+    A weighted sum modulo the alphabet's size, as in ISBN-10.
+    """
+    total = sum(weight * ALPHABET.index(character) for weight, character in enumerate(characters, 1))
+    return ALPHABET[total % len(ALPHABET)]
+
+
+SEED_BITS = 63
+"""Who has seen many places of a list shall not find the rest by trying seeds."""
+
+
+@dataclass(frozen=True)
+class AllocationList:
+    """A stored list; ``id`` is its row."""
+
+    id: int
+    seed: int
+    block: int
+    quotas: Mapping[Condition, int]
+    slots: tuple[AllocationSlot, ...]
+
+
+class AllocationLists:
+    """The lists of one site, of one kind of sessions; the last one goes on from those before and is followed."""
+
+    def __init__(self, connection: sqlite3.Connection, site: str, *, simulated: bool | SessionKind) -> None:
+        """Whoever calls ``fix`` has a transaction open."""
+        self._connection = connection
+        self._whose = {"site": site, "simulated": int(simulated)}
+
+    def latest(self) -> AllocationList | None:
+        """The list that is followed now; None if none is fixed."""
+        row = self._connection.execute(
+            """
+            SELECT id, seed, block, quotas, places FROM allocation
+            WHERE site = :site AND simulated = :simulated ORDER BY id DESC LIMIT 1
+            """,
+            self._whose,
+        ).fetchone()
+        if row is None:
+            return None
+        number, seed, block, quotas, listed = row
+        return AllocationList(number, seed, block, quotas_from_json(quotas), slots_from_json(listed))
+
+    def consumed(self) -> set[int]:
+        """The numbers of the places whose game was completed, those of people who withdrew among them."""
+        rows = self._connection.execute(
+            """
+            SELECT place FROM session WHERE site = :site AND simulated = :simulated AND allotted = 'list'
+            AND id IN (SELECT session FROM event WHERE type = 'GameFinished')
+            UNION
+            SELECT place FROM tombstone WHERE site = :site AND simulated = :simulated AND allotted = 'list'
+            AND game_completed
+            """,
+            self._whose,
+        )
+        return {place for (place,) in rows}
+
+    def next_slot(self) -> AllocationSlot | None:
+        """The first place that is not consumed; None if all are, or if no list is fixed."""
+        stored = self.latest()
+        return next_slot(stored.slots, self.consumed()) if stored else None
+
+    def list_with(self, place: AllocationSlot) -> int:
+        """The row of the list in which this place is free; raises ValueError if it is not."""
+        stored = self.latest()
+        if stored is None or place not in stored.slots or place.number in self.consumed():
+            raise ValueError(f"there is no free {place} in the list that is fixed")
+        return stored.id
+
+    def create(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[AllocationSlot, ...]:
+        """Store the first list, find this very one stored, or store a longer one for raised quotas.
+
+        Raises BadInput for another list than the stored one, and for quotas or a block that cannot be kept to.
+        """
+        stored = self.latest()
+        if stored is None:
+            drawn = SystemRandom().getrandbits(SEED_BITS) if seed is None else seed
+            return self._store(quotas, block, drawn, allocation_slots(quotas, block, drawn))
+        listed = _continued(stored, quotas, block, seed)
+        return listed if listed == stored.slots else self._store(quotas, block, stored.seed, listed)
+
+    def check(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> None:
+        """Raise BadInput where ``fix`` would for another list than the stored one; nothing is stored."""
+        stored = self.latest()
+        if stored is not None:
+            _continued(stored, quotas, block, seed)
+
+    def _store(
+        self, quotas: Mapping[Condition, int], block: int, seed: int, listed: tuple[AllocationSlot, ...]
+    ) -> tuple[AllocationSlot, ...]:
+        self._connection.execute(
+            """
+            INSERT INTO allocation (site, simulated, seed, block, quotas, places, fixed_at)
+            VALUES (:site, :simulated, :seed, :block, :quotas, :places, :fixed_at)
+            """,
+            self._whose
+            | {"seed": seed, "block": block, "quotas": quotas_to_json(quotas), "places": slots_to_json(listed)}
+            | {"fixed_at": datetime.now(UTC).isoformat(timespec="milliseconds")},
+        )
+        return listed
+
+
+def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> None:
+    """Raise BadInput if the place of a session was given out again while it was cut off, and that game completed."""
+    site, simulated, place, finished = connection.execute(
+        """
+        SELECT site, simulated, place, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
+        FROM session WHERE id = ?1
+        """,
+        (session,),
+    ).fetchone()
+    lists = AllocationLists(connection, site, simulated=SessionKind(simulated))
+    if place is not None and not finished and place in lists.consumed():
+        raise UserInputError(f"the place of session {session} was given out again, so it cannot be gone on with")
+
+
+def quotas_to_json(quotas: Mapping[Condition, int]) -> str:
+    """Quotas by the conditions' names, in the conditions' own order."""
+    return json.dumps({condition.value: quotas[condition] for condition in Condition if condition in quotas})
+
+
+def quotas_from_json(text: str) -> dict[Condition, int]:
+    """What ``quotas_to_json`` wrote."""
+    return {Condition(name): quota for name, quota in json.loads(text).items()}
+
+
+def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
+    """A list of blocks, each a list of conditions, so that it can be read without the program."""
+    return json.dumps([[p.condition.value for p in block] for _, block in groupby(listed, lambda p: p.block)])
+
+
+def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
+    """What ``places_to_json`` wrote."""
+    named = ((block, name) for block, names in enumerate(json.loads(text), 1) for name in names)
+    return tuple(AllocationSlot(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
+
+
+def _continued(
+    stored: AllocationList, quotas: Mapping[Condition, int], block: int, seed: int | None
+) -> tuple[AllocationSlot, ...]:
+    """The stored list, or a longer one for raised quotas; raises BadInput for another list than the stored one."""
+    if block != stored.block or seed not in (None, stored.seed):
+        raise _another(stored)
+    try:
+        return allocation_slots(quotas, block, stored.seed, kept=stored.slots)
+    except UserInputError as error:
+        raise _another(stored) from error
+
+
+def _another(stored: AllocationList) -> UserInputError:
+    return UserInputError(
+        f"another list of places is already fixed in this data folder ({ratio_in_words(stored.quotas)}, in blocks of "
+        f"{stored.block}): use another data folder, or these quotas, or raise them in their ratio"
+    )
+
+
+class Disposition(Enum):
+    """What became of a session, as far as the list of places goes; every session has exactly one."""
+
+    CONSUMED = "consumed"
+    """Its game was completed, so its place is consumed."""
+    DROPPED_OUT = "dropped_out"
+    """It had a place, which was given out again."""
+    UNDER_WAY = "under_way"
+    """It has a place, and its game may still be completed."""
+    OVERRIDDEN = "overridden"
+    BEYOND = "beyond"
+    UNLISTED = "unlisted"
+    """No list was followed."""
+
+
+@dataclass(frozen=True)
+class CountCell:
+    """One condition in numbers; of all its sessions, whatever became of them, ``withdrawn`` were withdrawn."""
+
+    quota: int
+    fates: Mapping[Disposition, int]
+    withdrawn: int
+
+    @property
+    def begun(self) -> int:
+        """How many sessions were begun in this condition."""
+        return sum(self.fates.values())
+
+    def to_json(self) -> dict[str, int]:
+        """The cell as the command line prints it."""
+        fates = {fate.value: self.fates[fate] for fate in Disposition}
+        return {"quota": self.quota, "begun": self.begun} | fates | {"withdrawn": self.withdrawn}
+
+
+@dataclass(frozen=True)
+class EnrolmentCounts:
+    """Every condition that has a quota or a session, and the people who played without being stored."""
+
+    cells: Mapping[Condition, CountCell]
+    visits: Mapping[NotRecordedReason, int]
+
+
+def count_enrolment(connection: sqlite3.Connection, *, simulated: bool | SessionKind, in_use: bool) -> EnrolmentCounts:
+    """Count people, rehearsals or trials.
+
+    With ``in_use`` the folder is being written, so that a session without an end is under way.
+    """
+    fates: Counter[tuple[Condition, Disposition]] = Counter()
+    withdrawn: Counter[Condition] = Counter()
+    for name, allotted, finished, ended, gone in connection.execute(_SESSIONS, {"simulated": int(simulated)}):
+        condition = Condition(name)
+        fates[condition, _fate(allotted, finished=bool(finished), ended=bool(ended) or not in_use)] += 1
+        withdrawn[condition] += gone
+    quotas = _quotas(connection, simulated=simulated)
+    there = {condition for condition, _ in fates} | set(quotas)
+    return EnrolmentCounts(
+        {
+            condition: CountCell(
+                quotas[condition], {fate: fates[condition, fate] for fate in Disposition}, withdrawn[condition]
+            )
+            for condition in Condition
+            if condition in there
+        },
+        _visits(connection, simulated=simulated),
+    )
+
+
+_SESSIONS = """
+    SELECT condition, allotted,
+        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
+        'SessionEnded' = (SELECT type FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
+        0
+    FROM session WHERE simulated = :simulated
+    UNION ALL
+    SELECT condition, allotted, game_completed, 1, 1 FROM tombstone WHERE simulated = :simulated
+"""
+
+
+def _fate(allotted: str | None, *, finished: bool, ended: bool) -> Disposition:
+    match allotted and AllocationSource(allotted):
+        case AllocationSource.LIST if finished:
+            return Disposition.CONSUMED
+        case AllocationSource.LIST:
+            return Disposition.DROPPED_OUT if ended else Disposition.UNDER_WAY
+        case AllocationSource.OVERRIDE:
+            return Disposition.OVERRIDDEN
+        case AllocationSource.BEYOND:
+            return Disposition.BEYOND
+        case _:
+            return Disposition.UNLISTED
+
+
+def _quotas(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Counter[Condition]:
+    """What the lists that are followed ask for, of all sites together."""
+    asked: Counter[Condition] = Counter()
+    latest = "SELECT max(id) FROM allocation GROUP BY site, simulated"
+    for (quotas,) in connection.execute(
+        f"SELECT quotas FROM allocation WHERE simulated = ? AND id IN ({latest})",  # noqa: S608 - it stands here
+        (int(simulated),),
+    ):
+        asked.update(quotas_from_json(quotas))
+    return asked
+
+
+def _visits(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> dict[NotRecordedReason, int]:
+    rows = connection.execute("SELECT why, count(*) FROM visit WHERE simulated = ? GROUP BY why", (int(simulated),))
+    counted = dict(rows.fetchall())
+    return {why: counted.get(why.value, 0) for why in NotRecordedReason}

@@ -1,1 +1,0 @@
-"""Looks at what keeps the data: disk, folder, database, list of places, clock. Nothing of a study is changed."""

@@ -1,0 +1,204 @@
+"""The sessions that are exported, one after another, each with all that can still be read of it.
+
+What an older program wrote and this one cannot read is left out piece by piece: a plan, an event. The rest is told.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import sqlite_utils
+
+from kiosk import UserInputError
+from kiosk.experiment.events import ConsentGiven, Event, SessionEnded, Stage, StageEntered, Status, from_record
+from kiosk.experiment.information import PUBLISHING
+from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.store.database import in_use, open_for_reading, unreadable
+from kiosk.store.queries import SessionRepository
+
+PADDED = 4
+"""Digits of a participant's number, so that names sort as they should."""
+
+_LETTERS = {SessionKind.STUDY: "P", SessionKind.SIMULATED: "r", SessionKind.TRIAL: "t"}
+_ABOUT_THE_RECORD = ("seq", "at_ms", "origin", "type")
+
+
+@dataclass(frozen=True)
+class EventRecord:
+    """One event as it was written, the stage that it fell into, and what this program makes of it, if anything."""
+
+    seq: int
+    at_ms: int
+    origin: str
+    type: str
+    fields: Mapping[str, Any]
+    stage: Stage
+    event: Event | None
+
+
+@dataclass(frozen=True)
+class SessionRecord:
+    """One stored session; ``status`` is None while it is under way, ``plan`` if it cannot be read any more."""
+
+    row: Mapping[str, Any]
+    status: Status | None
+    plan: SessionConfig | None
+    records: tuple[EventRecord, ...]
+
+    @property
+    def id(self) -> int:
+        """Its number in the database."""
+        return int(self.row["id"])
+
+    @property
+    def kind(self) -> SessionKind:
+        """Who sat there."""
+        return SessionKind(self.row["simulated"])
+
+    @cached_property
+    def name(self) -> str:
+        """What the person is called: site and number, with a letter that keeps it from being read as a number.
+
+        P stands for participants, r for rehearsals and t for trials; as small letters are in no site, no two are alike.
+        """
+        if self.row["number"] is None:
+            return f"session-{self.id:0{PADDED}}"
+        number = f"{_LETTERS[self.kind]}{self.row['number']:0{PADDED}}"
+        return f"{self.row['site']}-{number}" if self.row["site"] else number
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """Every event that this program knows."""
+        return tuple(record.event for record in self.records if record.event is not None)
+
+    @cached_property
+    def consent(self) -> ConsentGiven | None:
+        """What was agreed to, if anything was asked."""
+        return next((event for event in self.events if isinstance(event, ConsentGiven)), None)
+
+    @property
+    def publishable(self) -> bool:
+        """Whether nobody said no to publishing: it was agreed to, or not asked, or there is nobody to say no."""
+        if self.kind is SessionKind.SIMULATED or self.consent is None or PUBLISHING in self.consent.purposes:
+            return True
+        # Where the sheet cannot be read, nobody knows what was offered.
+        offered = self.plan.information.consent.purposes if self.plan else None
+        return offered is not None and PUBLISHING not in {purpose.id for purpose in offered}
+
+
+@dataclass
+class RecordSource:
+    """The database at one moment; a kiosk may go on writing meanwhile. Only these kinds are read."""
+
+    connection: sqlite3.Connection
+    archive: SessionRepository
+    kinds: frozenset[SessionKind]
+    _unended: Status | None
+    _plans: dict[tuple[object, ...], SessionConfig | None] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        """How many sessions there are to be read."""
+        number: int = self.connection.execute(
+            f"SELECT count(*) FROM session WHERE {self._wanted}"  # noqa: S608 - numbers
+        ).fetchone()[0]
+        return number
+
+    def left_out(self, kind: SessionKind) -> int:
+        """How many sessions of a kind there are that is not read."""
+        number: int = self.connection.execute(
+            "SELECT count(*) FROM session WHERE simulated = ?", (int(kind),)
+        ).fetchone()[0]
+        return 0 if kind in self.kinds else number
+
+    def __iter__(self) -> Iterator[SessionRecord]:
+        """Every session in the order in which they began, one in memory at a time."""
+        for row in self._rows("ORDER BY session.id"):
+            records = tuple(_told(self.archive.records(row["id"])))
+            yield SessionRecord(row, self._status(records), self._plan(row), records)
+
+    def plans(self) -> tuple[SessionConfig, ...]:
+        """The plans that the sessions followed, the newest first, as far as they can be read."""
+        newest = f"GROUP BY {', '.join(_FOLLOWED)} ORDER BY max(session.id) DESC"
+        plans = [self._plan(row) for row in self._rows(newest)]
+        return tuple(plan for plan in plans if plan is not None)
+
+    def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
+        cursor = self.connection.execute(
+            "SELECT session.*, participant.number FROM session LEFT JOIN participant"  # noqa: S608 - the names are ours
+            f" ON participant.session = session.id WHERE {self._wanted} {which}"
+        )
+        names = [column[0] for column in cursor.description]
+        for row in cursor:
+            yield dict(zip(names, row, strict=True))
+
+    @property
+    def _wanted(self) -> str:
+        return f"session.simulated IN ({', '.join(str(int(kind)) for kind in sorted(self.kinds))})"
+
+    def _plan(self, row: Mapping[str, Any]) -> SessionConfig | None:
+        """What a session followed; sessions that followed the same share it."""
+        key = tuple(row[column] for column in _FOLLOWED)
+        if key not in self._plans:
+            try:
+                self._plans[key] = self.archive.plan(row["id"])
+            except UserInputError:
+                self._plans[key] = None
+        return self._plans[key]
+
+    def _status(self, records: tuple[EventRecord, ...]) -> Status | None:
+        """How a session ended, which only its very last event says."""
+        if not records or records[-1].type != SessionEnded.__name__:
+            return self._unended
+        return Status(records[-1].fields["status"])
+
+
+_FOLLOWED = (
+    "condition",
+    "language",
+    "deck",
+    "practice_deck",
+    "settings_sha256",
+    "policy_source",
+    "questionnaire_source",
+    "sentences_source",
+    "information_source",
+    "about_you_source",
+)
+"""The columns that tell what a session followed."""
+
+
+@contextmanager
+def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[RecordSource]:
+    """What is stored in a data folder now; raises BadInput if there is nothing that can be read."""
+    with closing(open_for_reading(folder)) as connection:
+        writing = in_use(folder)
+        connection.execute("BEGIN")
+        archive = SessionRepository(sqlite_utils.Database(connection), in_use=writing)
+        try:
+            yield RecordSource(connection, archive, kinds, None if writing else Status.INTERRUPTED)
+        except sqlite3.DatabaseError as error:
+            raise unreadable(error, folder) from error
+
+
+def _told(records: list[dict[str, Any]]) -> Iterator[EventRecord]:
+    """The records with the stage that each fell into."""
+    stage = Stage.ATTRACT
+    for record in records:
+        event = _event(record)
+        if isinstance(event, StageEntered):
+            stage = event.stage
+        fields = {key: value for key, value in record.items() if key not in _ABOUT_THE_RECORD}
+        yield EventRecord(record["seq"], record["at_ms"], record["origin"], record["type"], fields, stage, event)
+
+
+def _event(record: Mapping[str, Any]) -> Event | None:
+    try:
+        return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
+    except ValueError:
+        return None

@@ -1,0 +1,186 @@
+"""A snapshot of a data folder for the console, and sessions that were interrupted."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from kiosk import UserInputError
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Stage, Status, WorldEvent
+from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent, WrongPins
+from kiosk.experiment.session_config import SessionKind
+from kiosk.store.database import open_for_reading, unreadable
+from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment, participant_name
+from kiosk.store.recorder import Provenance
+
+LAST = 8
+"""How many sessions are shown."""
+
+LOOKED_BACK = 40
+"""Among how many sessions those are looked for that could go on."""
+
+
+@dataclass(frozen=True)
+class SnapshotSession:
+    """One session in a line; ``status`` is None while it is under way, ``participant`` empty in old records."""
+
+    number: int
+    participant: str
+    started_at: str
+    condition: Condition
+    stage: Stage | None
+    status: Status | None
+    robot_lost: bool
+    resumable: bool
+
+
+@dataclass(frozen=True)
+class SnapshotAuditEvent:
+    """One booth event."""
+
+    wall_ms: int
+    kind: AuditEvent
+    body: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class DashboardSnapshot:
+    """The state of a data folder; sessions and notes are the newest first."""
+
+    counts: EnrolmentCounts
+    sessions: tuple[SnapshotSession, ...]
+    resumable: tuple[SnapshotSession, ...]
+    deviations: tuple[SnapshotAuditEvent, ...]
+
+
+def read_snapshot(folder: Path, since_ms: int, *, simulated: bool | SessionKind) -> DashboardSnapshot:
+    """Look at a data folder that is being written; deviations are those since ``since_ms``.
+
+    Raises BadInput if there is none that can be read.
+    """
+    with _looking_at(folder) as connection:
+        seen = tuple(_seen(connection, simulated=simulated))
+        return DashboardSnapshot(
+            count_enrolment(connection, simulated=simulated, in_use=True),
+            seen[:LAST],
+            tuple(session for session in seen if session.resumable),
+            tuple(_deviations(connection, since_ms)),
+        )
+
+
+def last_written_ms(folder: Path) -> int:
+    """When anything was written last, by the wall's clock, in ms since 1970; 0 if nothing was."""
+    with _looking_at(folder) as connection:
+        return _last_ms(connection)
+
+
+def wrong_pins(folder: Path) -> WrongPins:
+    """The wrong PINs since the last right one."""
+    with _looking_at(folder) as connection:
+        times, last_ms = connection.execute(
+            """
+            SELECT count(*), coalesce(max(wall_ms), 0) FROM booth_event WHERE type = ?
+            AND id > (SELECT coalesce(max(id), 0) FROM booth_event WHERE type = ?)
+            """,
+            (AuditEvent.PIN_REFUSED.value, AuditEvent.PIN_ACCEPTED.value),
+        ).fetchone()
+    return WrongPins(times, last_ms)
+
+
+@contextmanager
+def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
+    with closing(open_for_reading(folder)) as connection:
+        try:
+            yield connection
+        except sqlite3.Error as error:
+            raise unreadable(error, folder) from error
+
+
+def _seen(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Iterator[SnapshotSession]:
+    rows = connection.execute(_SESSIONS, {"simulated": int(simulated), "limit": LOOKED_BACK}).fetchall()
+    for number, started_at, condition, site, place, person, stage, ending, lost, finished in rows:
+        status = Status(ending) if ending else None
+        reached = Stage(stage) if stage else None
+        lists = AllocationLists(connection, site, simulated=simulated)
+        cut_short = status is Status.INTERRUPTED and bool(person) and reached not in (None, Stage.GAME)
+        yield SnapshotSession(
+            number,
+            participant_name(site, person) if person else "",
+            started_at,
+            Condition(condition),
+            reached,
+            status,
+            bool(lost),
+            # Whether the place is free is asked last: for the few that were cut short, not for all of every look.
+            resumable=cut_short and bool(place is None or finished or place not in lists.consumed()),
+        )
+
+
+_SESSIONS = """
+    SELECT session.id, started_at, condition, session.site, place, participant.number,
+        (SELECT json_extract(body, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
+            AND json_extract(body, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1),
+        (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(body, '$.status') END
+            FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
+        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'RobotDisconnected'),
+        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished')
+    FROM session LEFT JOIN participant ON participant.session = session.id
+    WHERE session.simulated = :simulated ORDER BY session.id DESC LIMIT :limit
+"""
+
+
+def _deviations(connection: sqlite3.Connection, since_ms: int) -> Iterator[SnapshotAuditEvent]:
+    known = {note.value: note for note in DEVIATIONS}
+    rows = connection.execute(
+        "SELECT wall_ms, type, body FROM booth_event WHERE wall_ms >= ? ORDER BY id DESC", (since_ms,)
+    )
+    for wall_ms, kind, body in rows:
+        if kind in known:
+            yield SnapshotAuditEvent(wall_ms, known[kind], json.loads(body))
+
+
+def _last_ms(connection: sqlite3.Connection) -> int:
+    # The newest rows alone: the clock may have been set back since, which is what is looked for.
+    event, booth = connection.execute(
+        """
+        SELECT (SELECT max(wall_ms) FROM event WHERE session = (SELECT max(session) FROM event)),
+            (SELECT wall_ms FROM booth_event ORDER BY id DESC LIMIT 1)
+        """
+    ).fetchone()
+    return max(event or 0, booth or 0)
+
+
+@dataclass(frozen=True)
+class InterruptedSession:
+    """What it followed, and what had happened to it from outside, the closing of the kiosk included."""
+
+    number: int
+    session: Provenance
+    past: tuple[WorldEvent, ...]
+
+
+@dataclass(frozen=True)
+class UnreadableSession:
+    """Why it cannot be read."""
+
+    why: str
+
+
+def read_interrupted_session(folder: Path, number: int) -> InterruptedSession | UnreadableSession:
+    """Read a session; it takes its time, so it is done on a thread of its own."""
+    from kiosk.store.queries import open_repository  # noqa: PLC0415 - a third of a second that opening need not pay
+
+    try:
+        with open_repository(folder) as stored:
+            seen = stored.session(number)
+            story = stored.story(number)
+            session = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.kind)
+    except UserInputError as failure:
+        return UnreadableSession(str(failure))
+    return InterruptedSession(number, session, tuple(event for event in story if isinstance(event, WorldEvent)))

@@ -1,0 +1,237 @@
+"""Whether a database is what this program wrote, row by row; it is looked at and never changed."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sqlite3
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from kiosk import UserInputError
+from kiosk.experiment.events import from_record
+from kiosk.experiment.randomisation import AllocationSlot
+from kiosk.store.connecting import reason
+from kiosk.store.database import MIGRATIONS, open_as_it_is
+from kiosk.store.maintenance import Progress
+from kiosk.store.participants import checked_code, quotas_from_json, slots_from_json
+
+
+class Verification(Enum):
+    """What is looked at; the sentence says what is true when nothing is found."""
+
+    FILE = "the file is whole"
+    REFERENCES = "whatever points somewhere points at something"
+    SCHEMA = "tables and triggers are as they were made"
+    RECEIPTS = "every step of the schema has its receipt"
+    SOURCES = "what sessions followed is as it was kept"
+    NUMBERING = "events are numbered from 1 without a gap"
+    TIME = "time never goes back within a session"
+    READABLE = "every event can be read"
+    PARTICIPANTS = "numbers and codes are sound, and no two alike"
+    PLACES = "lists meet their quotas, and sessions their places"
+    WITHDRAWN = "nothing is left of what was withdrawn"
+    FINISHED = "every withdrawal is finished"
+
+
+@dataclass(frozen=True)
+class Flaw:
+    """Something that is wrong, and where."""
+
+    check: Verification
+    where: str
+    what: str
+
+
+def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]:
+    """Everything that is wrong with the database of a data folder; raises BadInput if it cannot be opened at all.
+
+    A kiosk may be writing meanwhile: all is seen as it stood at one moment.
+    """
+    flaws: list[Flaw] = []
+    with closing(open_as_it_is(folder)) as connection:
+        connection.execute("BEGIN")
+        schema: int = connection.execute("PRAGMA user_version").fetchone()[0]
+        for done, (check, (since, look)) in enumerate(_LOOKS.items()):
+            tell(done, len(_LOOKS))
+            if schema < since:
+                continue
+            try:
+                flaws += [Flaw(check, where, what) for where, what in look(connection)]
+            except (sqlite3.Error, ValueError) as error:
+                words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
+                flaws.append(Flaw(check, "the database", f"cannot be looked at: {words}"))
+    return flaws
+
+
+_Found = Iterator[tuple[str, str]]
+"""Where, and what."""
+
+
+def _file(connection: sqlite3.Connection) -> _Found:
+    for (answer,) in connection.execute("PRAGMA integrity_check"):
+        if answer != "ok":
+            yield "the file", answer
+
+
+def _references(connection: sqlite3.Connection) -> _Found:
+    for table, row, other, _ in connection.execute("PRAGMA foreign_key_check"):
+        yield f"{table}, row {row}", f"points at nothing in {other}"
+
+
+def _schema(connection: sqlite3.Connection) -> _Found:
+    """Hold every table, index and trigger against those of a database that is made on the spot."""
+    steps = connection.execute("PRAGMA user_version").fetchone()[0]
+    with closing(sqlite3.connect(":memory:")) as made:
+        for migration in MIGRATIONS[:steps]:
+            for statement in migration.statements:
+                made.execute(statement)
+        expected = _texts(made)
+    there = _texts(connection)
+    for kind, name in sorted({*expected, *there}):
+        if (kind, name) not in there:
+            yield f"{kind} {name}", "is missing"
+        elif (kind, name) not in expected:
+            yield f"{kind} {name}", "is none of ours"
+        elif there[kind, name] != expected[kind, name]:
+            yield f"{kind} {name}", "is not as it was made"
+
+
+def _texts(connection: sqlite3.Connection) -> dict[tuple[str, str], str]:
+    rows = connection.execute("SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL")
+    return {(kind, name): " ".join(sql.split()) for kind, name, sql in rows if not name.startswith("sqlite_")}
+
+
+def _receipts(connection: sqlite3.Connection) -> _Found:
+    steps = connection.execute("PRAGMA user_version").fetchone()[0]
+    there = {number: row for number, *row in connection.execute("SELECT number, name, sha256 FROM migration")}
+    for step in MIGRATIONS[:steps]:
+        if there.pop(step.number, None) != [step.name, step.sha256]:
+            yield f"step {step.number}", "has no receipt, or that of another step"
+    for number in sorted(there):
+        yield f"step {number}", "has a receipt and was never taken"
+
+
+def _sources(connection: sqlite3.Connection) -> _Found:
+    for sha256, content in connection.execute("SELECT sha256, content FROM source"):
+        if hashlib.sha256(content.encode()).hexdigest() != sha256:
+            yield f"source {sha256[:12]}", "is not what its hash says"
+
+
+def _numbering(connection: sqlite3.Connection) -> _Found:
+    rows = connection.execute(
+        """
+        SELECT session.id, count(seq), min(seq), max(seq) FROM session LEFT JOIN event ON session = session.id
+        GROUP BY session.id HAVING NOT (count(seq) > 0 AND min(seq) = 1 AND max(seq) = count(seq))
+        """
+    )
+    for session, events, first, last in rows:
+        what = f"has {events} events, numbered from {first} to {last}" if events else "has no events"
+        yield f"session {session}", what
+
+
+def _time(connection: sqlite3.Connection) -> _Found:
+    rows = connection.execute(
+        """
+        SELECT session, seq, at_ms, before_ms FROM (
+            SELECT session, seq, at_ms, lag(at_ms, 1, 0) OVER (PARTITION BY session ORDER BY seq) AS before_ms
+            FROM event
+        ) WHERE at_ms < before_ms
+        """
+    )
+    for session, seq, at_ms, before_ms in rows:
+        yield f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"
+
+
+def _readable(connection: sqlite3.Connection) -> _Found:
+    for session, seq, at_ms, kind, body in connection.execute("SELECT session, seq, at_ms, type, body FROM event"):
+        try:
+            from_record({"at_ms": at_ms, "type": kind, **json.loads(body)})
+        except (ValueError, TypeError) as error:
+            yield f"session {session}, event {seq}", f"{kind} cannot be read: {error}"
+
+
+def _participants(connection: sqlite3.Connection) -> _Found:
+    rows = connection.execute(
+        "SELECT session, participant.site, number, code, session.site, participant.simulated, session.simulated"
+        " FROM participant JOIN session ON session.id = session"
+    )
+    for session, site, number, code, site_there, simulated, simulated_there in rows:
+        where = f"session {session}"
+        if (site, simulated) != (site_there, simulated_there):
+            yield where, "is of another site, or another kind, than its participant"
+        if number < 1:
+            yield where, f"its participant has the number {number}"
+        try:
+            checked_code(code)
+        except UserInputError as error:
+            yield where, str(error)
+    yield from _alike(connection)
+
+
+def _alike(connection: sqlite3.Connection) -> _Found:
+    """Numbers and codes that stand more than once, those of people who withdrew among them."""
+    for site, number, times in connection.execute(
+        """
+        SELECT site, number, count(*) FROM (
+            SELECT site, simulated, number FROM participant UNION ALL SELECT site, simulated, number FROM tombstone
+        ) GROUP BY site, simulated, number HAVING count(*) > 1
+        """
+    ):
+        yield f"participant {number} of site {site!r}", f"stands there {times} times"
+    for sessions, times in connection.execute(
+        "SELECT group_concat(session, ', '), count(*) FROM participant GROUP BY code HAVING count(*) > 1"
+    ):
+        yield f"sessions {sessions}", f"have one code, {times} times"
+
+
+def _places(connection: sqlite3.Connection) -> _Found:
+    listed: dict[int, tuple[AllocationSlot, ...]] = {}
+    for number, quotas, places in connection.execute("SELECT id, quotas, places FROM allocation"):
+        listed[number] = slots_from_json(places)
+        conditions = [place.condition for place in listed[number]]
+        if {each: conditions.count(each) for each in conditions} != quotas_from_json(quotas):
+            yield f"list {number}", "does not meet its quotas"
+    for session, condition, number, place in connection.execute(
+        "SELECT id, condition, list, place FROM session WHERE place IS NOT NULL"
+    ):
+        there = next((each for each in listed.get(number, ()) if each.number == place), None)
+        if there is None or there.condition.value != condition:
+            yield f"session {session}", f"is {condition}, and place {place} of list {number} is not"
+
+
+def _withdrawn(connection: sqlite3.Connection) -> _Found:
+    for table, key in (("session", "id"), ("participant", "session"), ("event", "session")):
+        for session, rows in connection.execute(
+            f"SELECT {key}, count(*) FROM {table} WHERE {key} IN (SELECT session FROM tombstone) GROUP BY {key}"  # noqa: S608
+        ):
+            yield f"session {session}", f"was withdrawn, and {rows} rows of it are left in {table}"
+
+
+def _finished(connection: sqlite3.Connection) -> _Found:
+    for (session,) in connection.execute("SELECT session FROM unfinished_withdrawal ORDER BY session"):
+        yield (
+            f"session {session}",
+            "was withdrawn, and bytes of it or copies with it may be left: run 'recollect withdraw' again with the "
+            "same code, or open the kiosk",
+        )
+
+
+_LOOKS: dict[Verification, tuple[int, Callable[[sqlite3.Connection], _Found]]] = {
+    Verification.FILE: (1, _file),
+    Verification.REFERENCES: (1, _references),
+    Verification.SCHEMA: (1, _schema),
+    Verification.RECEIPTS: (1, _receipts),
+    Verification.SOURCES: (1, _sources),
+    Verification.NUMBERING: (1, _numbering),
+    Verification.TIME: (1, _time),
+    Verification.READABLE: (1, _readable),
+    Verification.PARTICIPANTS: (2, _participants),
+    Verification.PLACES: (2, _places),
+    Verification.WITHDRAWN: (2, _withdrawn),
+    Verification.FINISHED: (3, _finished),
+}
+"""Every check, with the schema since which there is something to look at."""

@@ -1,0 +1,227 @@
+"""Taking out one participant: every row goes, and every byte, and a tombstone stays so that counts still add up.
+
+The rows go in one transaction, which also notes that bytes of them are still to be cleared away: from the log, from
+free pages and from the copies. The note goes last. Where the program is cut off in between, the next start of the
+kiosk, or the same command again, finds the note and does the rest.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.store.connecting import primary_code, reason
+from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
+from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
+from kiosk.store.participants import checked_code, participant_name
+
+READER_WAIT_MS = 1000
+
+_LOOKED_AT = "another program is looking at the data"
+
+
+@dataclass(frozen=True)
+class Withdrawal:
+    """What goes when a participant withdraws."""
+
+    session: int
+    participant: str
+    started_at: str | None
+    """None if the rows have gone already."""
+    events: int
+    backups: int
+    """How many copies in the folder's own place for copies are replaced by a fresh one."""
+    cut_off: bool = False
+    """Whether it was begun before, and only the rest is to be done."""
+
+    def to_json(self) -> dict[str, Any]:
+        """The withdrawal as the command line prints it."""
+        return {
+            "session": self.session,
+            "participant": self.participant,
+            "started_at": self.started_at,
+            "events": self.events,
+            "backups": self.backups,
+            "cut_off_before": self.cut_off,
+        }
+
+
+def find_withdrawal(folder: Path, code: str) -> Withdrawal:
+    """What would go with this code; raises BadInput if nobody has it, or if a kiosk is writing there."""
+    with closing(open_for_reading(folder)) as connection:
+        if in_use(folder):
+            raise UserInputError(f"a kiosk is writing in {folder}: close it first, then withdraw")
+        return _found(connection, folder, code)
+
+
+def withdraw(folder: Path, code: str) -> Withdrawal:
+    """Take out whoever has this code, and replace the copies of the database by a fresh one; returns what went.
+
+    One that was cut off before is finished. Raises BadInput if no participant has the code, or if another program is
+    at the data; nothing has gone then. Raises StoreFailed if the disk did not do all of it; the message says how far it
+    came.
+    """
+    found = find_withdrawal(folder, code)
+    held = lock_folder(folder)
+    try:
+        with closing(open_for_writing(folder)) as connection:
+            _keep_to_oneself(connection)
+            if not found.cut_off:
+                with _alone(connection, folder):
+                    _bury(connection, found.session, code)
+            _clean(connection, folder)
+        _replace_backups(folder)
+        _forget(folder)
+    finally:
+        held.release()
+    return found
+
+
+def is_unfinished(connection: sqlite3.Connection) -> bool:
+    """Return whether a withdrawal was cut off, so that bytes of a participant or copies with them may be left."""
+    return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0])
+
+
+def finish_cut_off(folder: Path) -> None:
+    """Finish the withdrawals of a data folder that were cut off; the caller holds its lock.
+
+    Raises StoreFailed if it cannot be done now.
+    """
+    with closing(open_for_writing(folder)) as connection:
+        _keep_to_oneself(connection)
+        _clean(connection, folder)
+    _replace_backups(folder)
+    _forget(folder)
+
+
+def _found(connection: sqlite3.Connection, folder: Path, code: str) -> Withdrawal:
+    code, copies = checked_code(code), len(list_backups(folder / FOLDER))
+    row = connection.execute(
+        """
+        SELECT session.id, session.site, number, started_at, (SELECT count(*) FROM event WHERE session = session.id)
+        FROM participant JOIN session ON session.id = participant.session WHERE code = ?
+        """,
+        (code,),
+    ).fetchone()
+    if row is not None:
+        session, site, number, started_at, events = row
+        return Withdrawal(session, participant_name(site, number), started_at, events, copies)
+    row = connection.execute(
+        "SELECT session, site, number FROM unfinished_withdrawal JOIN tombstone USING (session) WHERE code_sha256 = ?",
+        (_sha256(code),),
+    ).fetchone()
+    if row is not None:
+        session, site, number = row
+        return Withdrawal(session, participant_name(site, number), None, 0, copies, cut_off=True)
+    raise UserInputError(f"nobody in {folder} has the code {code}")
+
+
+def _sha256(code: str) -> str:
+    return hashlib.sha256(code.encode()).hexdigest()
+
+
+def _keep_to_oneself(connection: sqlite3.Connection) -> None:
+    """Keep other programs out from the next transaction on, and write zeros over everything that is deleted."""
+    connection.execute(f"PRAGMA busy_timeout = {READER_WAIT_MS}")
+    connection.execute("PRAGMA locking_mode = EXCLUSIVE")
+    connection.execute("PRAGMA secure_delete = ON")
+
+
+@contextmanager
+def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
+    """Open one transaction that no other program sees: a reader could keep what is to go in the write-ahead log."""
+    try:
+        connection.execute("BEGIN EXCLUSIVE")
+        yield
+        connection.execute("COMMIT")
+    except sqlite3.Error as error:
+        if primary_code(error) == sqlite3.SQLITE_BUSY:
+            raise UserInputError(
+                f"another program is looking at the data in {folder}: close it, then withdraw"
+            ) from error
+        raise StoreFailed(f"nothing was withdrawn: {reason(error, folder)}") from error
+    finally:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+
+
+def _bury(connection: sqlite3.Connection, session: int, code: str) -> None:
+    connection.execute(
+        """
+        INSERT INTO tombstone
+        SELECT session.id, session.site, number, session.simulated, condition, list, place, allotted,
+            coalesce(
+                (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(body, '$.status') END
+                 FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
+                'interrupted'
+            ),
+            EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
+            ?2
+        FROM session JOIN participant ON participant.session = session.id WHERE session.id = ?1
+        """,
+        (session, datetime.now(UTC).date().isoformat()),
+    )
+    connection.execute("INSERT INTO unfinished_withdrawal VALUES (?, ?)", (session, _sha256(checked_code(code))))
+    connection.execute("DELETE FROM event WHERE session = ?", (session,))
+    connection.execute("DELETE FROM participant WHERE session = ?", (session,))
+    connection.execute("DELETE FROM session WHERE id = ?", (session,))
+
+
+def _clean(connection: sqlite3.Connection, folder: Path) -> None:
+    """Leave no page with what has gone: not in the log, and not among the pages that are free."""
+    try:
+        # Not every statement that follows takes the lock that keeps other programs out.
+        connection.execute("BEGIN EXCLUSIVE")
+        connection.execute("COMMIT")
+        _empty_log(connection)
+        connection.execute("VACUUM")
+        _empty_log(connection)
+    except sqlite3.Error as error:
+        words = _LOOKED_AT if primary_code(error) == sqlite3.SQLITE_BUSY else reason(error, folder)
+        raise _unfinished("the file could not be cleaned up", words) from error
+
+
+def _empty_log(connection: sqlite3.Connection) -> None:
+    busy, *_ = connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
+    if busy:
+        raise sqlite3.OperationalError(_LOOKED_AT)
+
+
+def _replace_backups(folder: Path) -> None:
+    into = folder / FOLDER
+    older = list_backups(into)
+    try:
+        fresh = back_up(folder, into, keep=1, amend=_delete_notes) if older else None
+        remove_all_but(fresh, into)
+    except (StoreFailed, UserInputError, OSError) as error:
+        words = reason(error, into) if isinstance(error, OSError) else str(error)
+        raise _unfinished(f"the {len(older)} copies in {into} still hold them", words) from error
+
+
+def _forget(folder: Path) -> None:
+    """Note that nothing is left to be done."""
+    try:
+        with closing(open_for_writing(folder)) as connection:
+            _delete_notes(connection)
+    except (sqlite3.Error, StoreFailed, UserInputError) as error:
+        words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
+        raise _unfinished("that it is finished could not be noted", words) from error
+
+
+def _delete_notes(connection: sqlite3.Connection) -> None:
+    connection.execute("PRAGMA secure_delete = ON")
+    connection.execute("DELETE FROM unfinished_withdrawal")
+
+
+def _unfinished(what: str, words: str) -> StoreFailed:
+    return StoreFailed(
+        f"the participant was withdrawn, but {what}: {words}; "
+        "give the same command again, or open the kiosk, to finish it"
+    )

@@ -1,1 +1,0 @@
-"""What can be told of a sitting from its events alone: the screen, the export and the analysis all ask here."""

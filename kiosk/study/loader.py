@@ -1,0 +1,579 @@
+"""Read a study file with everything that it names, or refuse it in one sentence."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
+from itertools import combinations
+from pathlib import Path
+from typing import TypeVar
+
+from kiosk import UserInputError
+from kiosk.assistance.policy import NONE, QTable
+from kiosk.assistance.wording import CARD, Catalogue, sources_in
+from kiosk.config import (
+    ASSETS,
+    ExperimenterConfig,
+    Game,
+    Keys,
+    Located,
+    Practice,
+    Settings,
+    code_of,
+    is_path,
+    read_text,
+    shipped_names,
+)
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.experimenter import shortcuts
+from kiosk.experiment.information import PUBLISHING, Information, check_alike
+from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
+from kiosk.experiment.questionnaire import (
+    Choice,
+    Item,
+    Multiple,
+    Pictures,
+    Questionnaire,
+    ShortText,
+    Single,
+    TextPage,
+    in_language,
+)
+from kiosk.experiment.randomisation import allocation_slots
+from kiosk.experiment.session_config import SessionConfig, Source, StudyConfig
+from kiosk.experiment.transitions import StageOrder
+from kiosk.game import CARDS_IN_A_PAIR
+from kiosk.language_codes import standard
+from kiosk.preflight import CheckResult
+from kiosk.study.forming import unformed
+from kiosk.units import MS_PER_MINUTE
+
+_WORDS = {
+    "sentences": "language",
+    "consent": "folder of information sheets",
+    "questionnaires": "questionnaire",
+    "scales": "folder of pictures",
+    "cards": "deck",
+    "policies": "policy",
+}
+"""What people call what goes by a name."""
+
+
+def located(settings: Settings, kind: str, name: str) -> Located:
+    """Find something of this kind; raises BadInput with the names that there are."""
+    found = settings.locate(kind, name)
+    if found is None:
+        raise UserInputError(_nothing(settings, kind, name))
+    return found
+
+
+def _nothing(settings: Settings, kind: str, name: str) -> str:
+    what = _WORDS[kind]
+    if is_path(name):
+        return f"there is no {what} at {settings.beside(name)}; a name with / or an ending is a path"
+    shipped = sorted({*shipped_names(kind), *((NONE,) if kind == "policies" else ())})
+    beside = f", and nothing at {settings.beside(name)}" if name else ""
+    return f"there is no {what} {name!r} (shipped are {', '.join(shipped)}){beside}"
+
+
+ONE_NAME = "are one name where capitals, - and _ do not count, as in file names and many statistics programs"
+
+
+def unclear_names(asked: Sequence[tuple[Path, Questionnaire]]) -> Iterator[str]:
+    """A sentence for every name, or two, that would be lost or misread on the way to a reader; each names the files."""
+    yield from _between("questionnaires", [(each.id, file) for file, each in asked])
+    yield from _between("items", [(item.id, file) for file, each in asked for item in each.items])
+    yield from _between("scales", [(scale, file) for file, each in asked for scale in each.scales])
+    for file, each in asked:
+        if is_reserved(each.id):
+            yield f"the questionnaire {file}: id: Windows keeps the name {each.id!r} for a device; choose another"
+        for item in each.items:
+            yield from (f"the questionnaire {file}: {item.id}: {sentence}" for sentence in _of_options(item))
+
+
+def unclear_cards(cards: Iterable[str]) -> Iterator[str]:
+    """The same for the cards of a deck."""
+    for one, other in alike(cards):
+        yield f"the cards {one!r} and {other!r} {ONE_NAME}"
+
+
+def unclear_purposes(purposes: Iterable[str]) -> Iterator[str]:
+    """The same for the purposes of the consent."""
+    for one, other in alike(purposes):
+        yield f"the purposes {one!r} and {other!r} {ONE_NAME}"
+
+
+def _between(what: str, named: Sequence[tuple[str, Path]]) -> Iterator[str]:
+    """Names of one kind that are written in two ways; that the same one stands twice is said elsewhere."""
+    first: dict[str, tuple[str, Path]] = {}
+    for name, file in named:
+        other, place = first.setdefault(fold_name(name), (name, file))
+        if other != name:
+            where = (
+                f"the questionnaire {file}: the {what} {other!r} and {name!r}"
+                if file == place
+                else f"the {what} {other!r} in {place} and {name!r} in {file}"
+            )
+            yield f"{where} {ONE_NAME}"
+
+
+def _of_options(item: Item) -> Iterator[str]:
+    if not isinstance(item, Single | Multiple):
+        return
+    choice: Choice = item
+    for one, other in alike(choice.ids):
+        yield f"the options {one!r} and {other!r} {ONE_NAME}"
+    for option in choice.ids:
+        misread = read_as(option)
+        if misread:
+            yield f"the option {option!r} is taken for {misread} by programs that read tables; choose another id"
+
+
+MODEL_LANGUAGE = "en"
+"""The language that all others are held against."""
+
+Read = TypeVar("Read")
+
+
+def read_study(settings: Settings) -> StudyConfig:
+    """Everything that a study file names, read; raises BadInput with a sentence for everything that is wrong."""
+    look = _Look(settings)
+    look.at("stages", partial(StageOrder.of, settings.stages))
+    look.at("keys", partial(shortcuts, settings.keys))
+    look.check_allocation()
+    catalogues = look.catalogues()
+    sheets = look.sheets()
+    asked = look.questionnaires()
+    condition = look.at("assistance.condition", partial(Condition.from_name, settings.assistance.condition))
+    policy = look.policy()
+    decks = {key: look.deck(key, board) for key, board in _boards(settings)}
+    look.check_practice()
+    if look.faults or condition is None or policy is None:
+        raise UserInputError(*look.faults)
+    for language, catalogue in catalogues.items():
+        catalogue.followed_by(other for each, other in catalogues.items() if each != language)
+    return StudyConfig(
+        tuple(
+            SessionConfig(
+                settings=settings,
+                condition=condition,
+                policy=policy,
+                catalogue=catalogues[language],
+                information=sheets[language],
+                about_you=asked[0],
+                questionnaires=asked[1:],
+                deck=decks["game"],
+                practice_deck=decks.get("practice", ()),
+            )
+            for language in settings.language_codes
+        ),
+        tuple(look.sources),
+    )
+
+
+def _boards(settings: Settings) -> Iterator[tuple[str, Game | Practice]]:
+    """The boards that visitors see, by their section of the study file."""
+    yield "game", settings.game
+    if "practice" in settings.stages:
+        yield "practice", settings.practice
+
+
+class _Look:
+    """Looks at what a study names; what is wrong becomes a sentence in ``faults``."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Look at what these name."""
+        self._settings = settings
+        self._asked: list[tuple[Path, Questionnaire]] = []
+        self.faults: list[str] = []
+        self.sources: list[Source] = []
+
+    def at(self, key: str, read: Callable[[], Read]) -> Read | None:
+        """What is read, or None if the study file is to blame, at this key."""
+        try:
+            return read()
+        except UserInputError as error:
+            self._blame(key, *error.sentences)
+        except ValueError as error:
+            self._blame(key, str(error))
+        return None
+
+    def into(self, read: Callable[[], Read]) -> Read | None:
+        """What is read, or None if a file is to blame that its own sentence names."""
+        try:
+            return read()
+        except UserInputError as error:
+            self.faults += error.sentences
+            return None
+
+    def _blame(self, key: str, *sentences: str) -> None:
+        self.faults += (f"{self._settings.name}: {key}: {each.removeprefix(f'{key}: ')}" for each in sentences)
+
+    def _came(self, key: str, name: str, place: Located, sha256: str, version: str | None = None) -> None:
+        """Keep in mind where something came from."""
+        self.sources.append(Source(key, name, place.path, place.is_shipped, sha256, version, place.unused))
+
+    def _drawn(self, key: str, name: str, place: Located, files: Iterable[Path]) -> None:
+        """Keep in mind where pictures came from."""
+        there = tuple(files)
+        digest = _hash_of_files(there)
+        source = Source(key, name, place.path, place.is_shipped, digest, unused=place.unused, pictures=there)
+        self.sources.append(source)
+
+    # What there is
+
+    def catalogues(self) -> dict[str, Catalogue]:
+        """The sentences of every language; each says all that the model language says."""
+        found: dict[str, Catalogue] = {}
+        model = Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE)
+        for name in self._settings.languages:
+            catalogue = self._catalogue(name, model)
+            if catalogue and catalogue.language in found:
+                self._blame("languages", f"{catalogue.language!r} stands twice")
+            elif catalogue:
+                found[catalogue.language] = catalogue
+        return found
+
+    def _catalogue(self, name: str, model: Catalogue) -> Catalogue | None:
+        """The sentences of one language, with the names of the cards that lie in the decks' own folders."""
+        if self.at("languages", partial(standard, code_of(name))) is None:
+            return None
+        place = self.at("languages", partial(located, self._settings, "sentences", name))
+        if place is None:
+            return None
+        words = self._words_of_decks(code_of(name))
+        sources = self.into(partial(sources_in, place.path))
+        texts = {key: self.into(partial(read_text, f"the file {file}", file)) for key, file in words.items()}
+        if sources is None or None in texts.values():
+            return None
+        sources |= {key: text for key, text in texts.items() if text is not None}
+        catalogue = self.into(partial(Catalogue, place.path, sources, words))
+        if catalogue is None:
+            return None
+        lacking = sorted(each for each in model.messages - catalogue.messages if not each.startswith(f"{CARD}-"))
+        if lacking:
+            self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
+        if words or not place.is_shipped:
+            self.faults += unformed(
+                catalogue, model, self._cards(), max(self._settings.game.rows, self._settings.game.columns)
+            )
+        self._came("languages", name, place, _hash(sources.items()))
+        return catalogue
+
+    def _words_of_decks(self, code: str) -> dict[str, Path]:
+        """The files with which decks name their own cards in a language, by what to call them in records."""
+        words: dict[str, Path] = {}
+        for _, board in _boards(self._settings):
+            place = self._settings.locate("cards", board.deck)
+            if place is not None:
+                there = (file for file in sorted(place.path.glob("*.ftl")) if code_of(file.stem) == code)
+                words |= {f"deck-{place.path.name}.ftl": file for file in there}
+        return words
+
+    def _cards(self) -> tuple[str, ...]:
+        """The names of all cards that a visitor may see."""
+        places = (self._settings.locate("cards", board.deck) for _, board in _boards(self._settings))
+        return tuple(sorted({path.stem for place in places if place for path in place.path.glob("*.svg")}))
+
+    def sheets(self) -> dict[str, Information]:
+        """What visitors are told in every language; the same in each."""
+        text = self._settings.consent.text
+        place = self.at("consent.text", partial(located, self._settings, "consent", text))
+        if place is None:
+            return {}
+        read = {each: self.into(partial(Information.of, place.path, each)) for each in self._settings.language_codes}
+        sheets = {language: sheet for language, sheet in read.items() if sheet}
+        self.into(partial(check_alike, sheets, place.path))
+        for sheet in [*sheets.values()][:1]:
+            names = (purpose.id for purpose in sheet.consent.purposes)
+            self.faults += (
+                f"the information sheets in {place.path}: {sentence}" for sentence in unclear_purposes(names)
+            )
+        for language, sheet in sheets.items():
+            self._came(f"consent.text ({language})", text, place, sheet.sha256, sheet.version)
+        return sheets
+
+    def questionnaires(self) -> tuple[Questionnaire, ...]:
+        """The one about the visitor, and those after the game; none of their names is the same."""
+        settings = self._settings
+        names = (("about_you", settings.about_you), *(("questionnaires", name) for name in settings.questionnaires))
+        asked = tuple(read for key, name in names if (read := self._questionnaire(key, name)))
+        for one, other in combinations(asked, 2):
+            both = [item.id for item in one.items if item.id in {item.id for item in other.items}]
+            if one.id == other.id:
+                self._blame("questionnaires", f"two of them have the id {one.id!r}")
+            elif both:
+                self._blame("questionnaires", f"{one.id!r} and {other.id!r} both have the items {', '.join(both)}")
+        self.faults += unclear_names(self._asked)
+        return asked
+
+    def _questionnaire(self, key: str, name: str) -> Questionnaire | None:
+        place = self.at(key, partial(located, self._settings, "questionnaires", name))
+        asked = self.into(partial(Questionnaire.read, place.path)) if place else None
+        if place and asked:
+            self._came(key, name, place, asked.sha256, asked.version)
+            unworded = ((language, ", ".join(asked.unworded(language))) for language in self._settings.language_codes)
+            what = f"the questionnaire {place.path}"
+            self.faults += (f"{what} lacks words in {language!r} for {items}" for language, items in unworded if items)
+            self.faults += (f"{what}: {sentence}" for sentence in self._unseen(asked))
+        if place and asked:
+            self._asked.append((place.path, asked))
+        return asked
+
+    def _unseen(self, asked: Questionnaire) -> Iterator[str]:
+        """What is wrong with the pictures of its scales."""
+        for item in asked.items:
+            if not isinstance(item, Pictures):
+                continue
+            try:
+                place = located(self._settings, "scales", item.pictures)
+            except UserInputError as error:
+                yield from (f"{item.id}: {sentence}" for sentence in error.sentences)
+            else:
+                needed = tuple(place.path / f"{number}.svg" for number in range(1, item.points + 1))
+                self._drawn(f"{asked.id}, {item.id}: pictures", item.pictures, place, needed)
+                yield from (f"{item.id}: there is no picture {file}" for file in needed if not file.is_file())
+
+    def policy(self) -> QTable | None:
+        """The frozen table."""
+        name = self._settings.assistance.policy
+        if name == NONE:
+            return QTable.blank()
+        place = self.at("assistance.policy", partial(located, self._settings, "policies", name))
+        table = self.into(partial(QTable.load, place.path)) if place else None
+        if place and table:
+            self._came("assistance.policy", name, place, table.sha256)
+        return table
+
+    def deck(self, key: str, board: Game | Practice) -> tuple[str, ...]:
+        """The names of a deck's cards, in alphabetical order; there are enough for the board."""
+        shape, places = f"a board of {board.rows} x {board.columns}", board.rows * board.columns
+        if places % CARDS_IN_A_PAIR:
+            self._blame(key, f"{shape} has {places} places, but cards come in pairs")
+        place = self.at(f"{key}.deck", partial(located, self._settings, "cards", board.deck))
+        if place is None:
+            return ()
+        files = sorted(place.path.glob("*.svg"), key=lambda file: file.stem)
+        self._drawn(f"{key}.deck", board.deck, place, files)
+        cards = tuple(file.stem for file in files)
+        self.faults += (f"the deck {place.path}: {sentence}" for sentence in unclear_cards(cards))
+        pairs = places // CARDS_IN_A_PAIR
+        if len(cards) < pairs:
+            self._blame(f"{key}.deck", f"{shape} needs {pairs} pictures, but the deck {board.deck!r} has {len(cards)}")
+        return cards
+
+    # What does not fit
+
+    def check_practice(self) -> None:
+        """Nobody sees the pictures of the game before it."""
+        settings = self._settings
+        if "practice" in settings.stages and settings.practice.deck == settings.game.deck:
+            self._blame("practice.deck", f"the game has the pictures {settings.game.deck!r} too; choose others")
+
+    def check_allocation(self) -> None:
+        """Every quota is one of a condition, and every block holds them in ratio."""
+        declared = self._settings.allocation
+        named = {name: self.at("allocation.quotas", partial(Condition.from_name, name)) for name in declared.quotas}
+        quotas = {condition: declared.quotas[name] for name, condition in named.items() if condition}
+        if quotas and len(quotas) == len(named):
+            self.at("allocation.block", partial(allocation_slots, quotas, declared.block, declared.seed or 0))
+
+
+def _hash_of_files(files: Iterable[Path]) -> str:
+    """The hash over files that belong together, by their names and what is in them."""
+    return _hash((file.name, _digest(file)) for file in files)
+
+
+def _digest(file: Path) -> str:
+    try:
+        with file.open("rb") as opened:
+            return hashlib.file_digest(opened, "sha256").hexdigest()
+    except OSError:
+        # That it cannot be read is said elsewhere.
+        return ""
+
+
+def _hash(named: Iterable[tuple[str, str]]) -> str:
+    return hashlib.sha256(json.dumps(sorted(named), ensure_ascii=False).encode()).hexdigest()
+
+
+SHIPPED_TEXT = "study"
+"""The information sheets that come as an example."""
+
+_WITHOUT = {
+    "consent": "without the stage 'consent', nobody is asked before their session is stored",
+    "age": "without the stage 'age', nobody is asked whether they are old enough",
+    "debrief": "without the stage 'debrief', nobody sees the code with which to withdraw",
+}
+
+PAIR_MS = 15_000
+"""For each pair of a game: the study's slower condition took 15 s."""
+ANSWER_MS = 3000
+TYPING_MS = 15_000
+TAP_MS = 2000
+"""Our own guesses: from having read an item to its answer, to a typed one, and from the end of a text to the tap."""
+
+
+def study_warnings(study: StudyConfig) -> tuple[str, ...]:
+    """A sentence for everything that can be run but may not be meant."""
+    return (*_of_texts(study), *_of_names(study), *_of_cards(study))
+
+
+def _of_texts(study: StudyConfig) -> Iterator[str]:
+    settings = study.settings
+    yield from (sentence for stage, sentence in _WITHOUT.items() if stage not in settings.stages)
+    if settings.consent.text == SHIPPED_TEXT:
+        yield "consent.text: the information sheets are the shipped example; an ethics board approves those of a study"
+    purposes = {purpose.id for plan in study.plans for purpose in plan.information.consent.purposes}
+    if "consent" in settings.stages and PUBLISHING not in purposes:
+        yield f"consent.text: no purpose is named {PUBLISHING!r}, so nobody is left out of a data set for publishing"
+    if Condition.NO_ASSISTANCE in _given(study):
+        yield "in the condition 'no_assistance' nobody helps, but the introduction promises help to everybody"
+    if not settings.consent.contact:
+        yield "consent.contact is empty, so visitors are not told whom to write to"
+
+
+def _given(study: StudyConfig) -> set[Condition]:
+    """The conditions that visitors can get without a decision of the experimenter's."""
+    return {plan.condition for plan in study.plans} | {
+        Condition.from_name(name) for name in study.settings.allocation.quotas
+    }
+
+
+def _of_names(study: StudyConfig) -> Iterator[str]:
+    """Names that mean something shipped, although something beside the study file has them too."""
+    for source in study.sources:
+        if source.unused is not None:
+            yield (
+                f"{source.key}: {source.name!r} is the shipped {source.path}, and {source.unused} is not used; "
+                f"write {_as_path(source.unused)!r} to use it, or rename it"
+            )
+
+
+def _as_path(path: Path) -> str:
+    """How a study file names what lies in its own folder."""
+    return path.name if path.suffix else f"./{path.name}"
+
+
+def _of_cards(study: StudyConfig) -> Iterator[str]:
+    for plan in study.plans:
+        boards: dict[str, tuple[str, ...]] = {plan.settings.practice.deck: plan.practice_deck}
+        for deck, cards in (boards | {plan.settings.game.deck: plan.deck}).items():
+            folder = plan.settings.find("cards", deck)
+            unnamed = [name for name in cards if not plan.catalogue.names(name)]
+            if unnamed:
+                yield (
+                    f"the deck {deck!r} has cards without a name in {plan.language!r}: {', '.join(unnamed)}; "
+                    f"until they have one, their files' names are said. {_where_to_write(folder, unnamed, plan)}"
+                )
+
+
+def _where_to_write(folder: Path, unnamed: Sequence[str], plan: SessionConfig) -> str:
+    """Say what to write into which file, so that cards have names."""
+    odd = [name for name in unnamed if not re.fullmatch(r"[A-Za-z0-9_-]+", name)]
+    if odd:
+        return f"First rename {odd[0]}.svg: such a name has letters, digits, - and _ only"
+    file = folder / f"{plan.language}.ftl"
+    return f"Write into {file}: {'; '.join(f'{CARD}-{name} = ...' for name in unnamed)}"
+
+
+def expected_minutes(plan: SessionConfig) -> float:
+    """About how long a visitor needs who reads and answers everything, in minutes."""
+    return sum(_stage_times(plan).get(stage, TAP_MS) for stage in plan.settings.stages) / MS_PER_MINUTE
+
+
+def _stage_times(plan: SessionConfig) -> Mapping[str, float]:
+    """What each stage takes in ms, as far as it can be known beforehand."""
+    settings, pages = plan.settings, plan.information
+    return {
+        "about": _reading(plan, *pages.about.paragraphs),
+        "consent": _reading(plan, *pages.consent.paragraphs, *(each.text for each in pages.consent.purposes)),
+        "about_you": sum(_answering(plan, item) for item in plan.about_you.items),
+        "introduction": settings.timing.reading * _INTRODUCTION + TAP_MS,
+        "practice": min(settings.practice.longest, _playing(settings.practice)),
+        "game": _playing(settings.game),
+        "questions": sum(_answering(plan, item) for asked in plan.questionnaires for item in asked.items),
+        "debrief": _reading(plan, *pages.debrief.paragraphs),
+    }
+
+
+_INTRODUCTION = 200
+"""Characters that the assistant says to a visitor who comes."""
+
+
+def _reading(plan: SessionConfig, *texts: str) -> int:
+    return sum(plan.settings.timing.reading * len(text) for text in texts) + TAP_MS
+
+
+def _answering(plan: SessionConfig, item: Item) -> int:
+    answer = 0 if isinstance(item, TextPage) else TYPING_MS if isinstance(item, ShortText) else ANSWER_MS
+    return plan.settings.timing.reading * len(in_language(item.text, plan.language)) + answer
+
+
+def _playing(board: Game | Practice) -> int:
+    return PAIR_MS * board.rows * board.columns // CARDS_IN_A_PAIR
+
+
+FILE, POLICY, LANGUAGES, PIN, KEYS = "study file", "policy", "languages", "PIN", "keys"
+
+POLICY_CARD = ".md"
+"""Beside a policy's numbers stands a page that says what they were made for."""
+
+SHORT_SHA = 8
+_MEND = "mend the study file; 'recollect study check FILE' reads it again"
+
+
+def faults_check(sentences: Sequence[str]) -> Iterator[CheckResult]:
+    """Whatever keeps a study file from being used."""
+    return (CheckResult.bad(FILE, sentence, _MEND) for sentence in sentences)
+
+
+def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
+    """What the study is, and what of it may not be meant."""
+    longest = max(round(expected_minutes(plan)) for plan in study.plans)
+    yield CheckResult.good(
+        FILE, f"{study.settings.title!r}, about {longest} minutes, {study.settings.sha256[:SHORT_SHA]}"
+    )
+    for caution in study_warnings(study):
+        yield CheckResult.warning(FILE, caution, "change the study file, if it is not meant so")
+
+
+def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
+    """The frozen table, and the page about it."""
+    table = study.plans[0].policy
+    words = f"{table.name} {table.sha256[:SHORT_SHA]}"
+    name = study.settings.assistance.policy
+    card = None if name == NONE else study.settings.find("policies", name).with_suffix(POLICY_CARD)
+    if card is None or card.is_file():
+        yield CheckResult.good(POLICY, words)
+    else:
+        yield CheckResult.warning(POLICY, f"{words}; no page says how it was made", f"write {card}")
+
+
+def languages_check(study: StudyConfig) -> Iterator[CheckResult]:
+    """The languages that a visitor can choose, with their sentences and sheets."""
+    plans = ", ".join(f"{plan.language} ({len(plan.catalogue.messages)} messages)" for plan in study.plans)
+    yield CheckResult.good(LANGUAGES, plans)
+
+
+def pin_check(experimenter: ExperimenterConfig) -> Iterator[CheckResult]:
+    """Whether the kiosk is closed, or open for trials alone."""
+    if experimenter.pin:
+        yield CheckResult.good(PIN, "set")
+    else:
+        remedy = "put what 'recollect study set-pin' prints into the study file, under [experimenter]"
+        words = "none: every session is a trial, which is not exported, and 'recollect keep' does not start"
+        yield CheckResult.warning(PIN, words, remedy)
+
+
+def shortcuts_check(shortcuts: Keys) -> Iterator[CheckResult]:
+    """Whether the experimenter can get in and out; shortcuts that are none, or double, are refused with the file."""
+    without = [name for name in ("panel", "leave") if not getattr(shortcuts, name)]
+    if without:
+        remedy = f"give keys.{without[0]} a shortcut, such as 'Ctrl+Shift+P'"
+        yield CheckResult.warning(KEYS, f"there is none for {' and '.join(without)}", remedy)
+    else:
+        yield CheckResult.good(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.leave} leaves the kiosk")

@@ -1,0 +1,144 @@
+"""The keys of a study file as people read them: an example and a page of reference, made of the declarations."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator, Sequence
+from textwrap import wrap
+from types import NoneType
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+import tomlkit
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from kiosk.config import Settings
+from kiosk.errors import bounds
+from kiosk.units import Unit
+
+WIDTH = 100
+"""Characters of a line in a study file."""
+
+_TYPES = {bool: "true or false", int: "whole number", float: "number", str: "text", dict: "table"}
+
+_HEAD = """\
+# A study file with every key, as it is without one: this follows the study wherever it says anything. Keep only the
+# keys that are to be different. Times are in milliseconds (ms). Check it with: recollect study check FILE
+"""
+
+_PAGE = """\
+# The study file: every key
+
+A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
+anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study
+check FILE` reads a file with everything that it names. A name with a slash or an ending is a path that starts from the
+study file's own folder. Any other name is that of something shipped in `assets/` or `policies/` or, if nothing shipped
+has it, of something in the study file's folder.
+
+This page is printed by `recollect study reference`; change the declarations in `kiosk/config.py`, not the page.
+"""
+
+
+def as_study_file(settings: Settings) -> str:
+    """A study file that sets every key to what it is in ``settings``, each under its sentence."""
+    parts = [_HEAD]
+    for section, model in _sections(settings):
+        if section:
+            parts.append(f"\n{_comment(_described(type(model)))}\n[{section}]\n")
+        parts += (_entry(key, field, getattr(model, key)) for key, field in _keys(type(model)))
+    return "".join(parts)
+
+
+def as_page(model: type[Settings]) -> str:
+    """The reference of every key, as Markdown."""
+    parts = [_PAGE]
+    for section, settings in _sections(model()):
+        heading = f"## [{section}]\n\n{_described(type(settings))}" if section else "## Above all sections"
+        parts.append(f"\n{heading}\n\n| key | what it sets | it may be | without it |\n|---|---|---|---|\n")
+        parts += (_row(key, field, getattr(settings, key)) for key, field in _keys(type(settings)))
+    return "".join(parts)
+
+
+def _sections(settings: Settings) -> Iterator[tuple[str, BaseModel]]:
+    """The study file itself, without a name, and every section of it."""
+    yield "", settings
+    for key in type(settings).model_fields:
+        if isinstance(section := getattr(settings, key), BaseModel):
+            yield key, section
+
+
+def _keys(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
+    """What is no section."""
+    for key, field in model.model_fields.items():
+        if not isinstance(field.default, BaseModel):
+            yield key, field
+
+
+def _described(model: type[BaseModel]) -> str:
+    """A section's own sentences, in one paragraph each."""
+    paragraphs = inspect.cleandoc(model.__doc__ or "").split("\n\n")
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs).replace("``", "`")
+
+
+def _comment(text: str) -> str:
+    paragraphs = text.split("\n\n")
+    return "\n".join(f"# {line}" for paragraph in paragraphs for line in wrap(paragraph, WIDTH))
+
+
+def _sentence(field: FieldInfo) -> str:
+    """What a key sets, and in which unit."""
+    unit = next((each.name for each in field.metadata if isinstance(each, Unit)), "")
+    described = field.description or ""
+    said = not unit or re.search(rf"\b{unit}\b", described)
+    return described if said else f"{described.removesuffix('.')} ({unit})."
+
+
+def _entry(key: str, field: FieldInfo, value: object) -> str:
+    set_to = f"# {key} = (not set)" if value is None else f"{key} = {_toml(value)}"
+    return f"\n{_comment(_sentence(field))}\n{set_to}\n"
+
+
+def _row(key: str, field: FieldInfo, value: object) -> str:
+    default = "" if value is None else f"`{_toml(value, WIDTH * WIDTH)}`"
+    return f"| `{key}` | {_sentence(field)} | {_may_be(field)} | {default} |\n"
+
+
+def _toml(value: object, width: int = WIDTH) -> str:
+    """A value as TOML; a list that is too long for a line gets a line for each entry."""
+    if isinstance(value, dict):
+        inner = ", ".join(f"{key} = {_toml(each)}" for key, each in value.items())
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, tuple):
+        entries = [_toml(each) for each in value]
+        line = f"[{', '.join(entries)}]"
+        return line if len(line) <= width else "\n".join(("[", *(f"    {entry}," for entry in entries), "]"))
+    return tomlkit.item(value).as_string()
+
+
+def _may_be(field: FieldInfo) -> str:
+    """What may be given for a key, in words."""
+    annotation, declared = field.annotation, list(field.metadata)
+    if NoneType in get_args(annotation):
+        annotation = next(each for each in get_args(annotation) if each is not NoneType)
+    limits = _bounds(declared)
+    inner = next((each for each in get_args(annotation) if get_origin(each) is Annotated), None)
+    if inner is not None:
+        each_is = next(iter(get_args(inner)[1:]))
+        limits = f"each {_bounds(each_is.metadata)}"
+    return ", ".join(filter(None, (_type(annotation), limits)))
+
+
+def _bounds(declared: Sequence[Any]) -> str:
+    """The bounds of a number; its unit stands in its sentence."""
+    return bounds([each for each in declared if not isinstance(each, Unit)])
+
+
+def _type(annotation: Any) -> str:
+    origin = get_origin(annotation) or annotation
+    if origin is Literal:
+        return " or ".join(f"`{_toml(each)}`" for each in get_args(annotation))
+    if origin is tuple:
+        of = get_args(annotation)
+        return "list of texts" if of[-1] is Ellipsis else f"list of {len(of)} numbers"
+    return _TYPES[origin]

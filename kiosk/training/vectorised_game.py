@@ -1,0 +1,239 @@
+"""The rules of ``kiosk.game`` and ``kiosk.assistance`` once more, on plain numbers, for many thousand games a second.
+
+One text: numba compiles it when it is installed, and Python runs it as it is when not, with the same numbers for a
+seed. Only whole numbers, +, -, *, / and comparisons stand in it, because those give the same bits either way.
+A test plays these rules and the rooms they copy side by side and compares every step.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any, TypeVar
+
+from platformdirs import user_cache_path
+
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import Action, Gate, Outcome, Phase
+
+Rule = TypeVar("Rule", bound=Callable[..., Any])
+Ints = list[int]
+"""Whole numbers: a list when run as it is, an int64 array when compiled."""
+Floats = list[float]
+"""Numbers: a list when run as it is, a float64 array when compiled."""
+
+try:
+    _numba: Any = import_module("numba")
+except ImportError:
+    _numba = None
+COMPILED: bool = _numba is not None and not _numba.config.DISABLE_JIT
+"""Whether numba is here to compile the rules; NUMBA_DISABLE_JIT=1 in the environment runs them as they are."""
+
+
+def _keeps_compiled() -> bool:
+    """Give the compiled rules a place in the user's cache that is never out of date; whether there is one.
+
+    numba looks at the file of the outermost rule only, so the place is named after the content of all of them.
+    """
+    names = Path(__file__).parents[1] / "assistance" / "policy.py"
+    content = b"".join(file.read_bytes() for file in [names, *sorted(Path(__file__).parent.glob("*.py"))])
+    place = user_cache_path("recollect") / f"rules-{hashlib.sha256(content).hexdigest()[:16]}"
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    _numba.config.CACHE_DIR = str(place)
+    return True
+
+
+_KEPT = COMPILED and _keeps_compiled()
+
+
+def compiled_rule(function: Rule) -> Rule:
+    """Mark one of the rules: compiled on first use where numba is installed, and then kept compiled on disk.
+
+    No rule divides by 0, and not looking for that (numba's error model "numpy") makes training a third faster.
+    """
+    compiled: Rule = _numba.njit(function, cache=_KEPT, error_model="numpy") if COMPILED else function
+    return compiled
+
+
+def ints(numbers: Ints) -> Ints:
+    """Whole numbers in the form in which the rules want them here."""
+    return _array(numbers, "int64") if COMPILED else numbers
+
+
+def floats(numbers: Floats) -> Floats:
+    """Numbers in the form in which the rules want them here."""
+    return _array(numbers, "float64") if COMPILED else numbers
+
+
+def _array(numbers: Any, dtype: str) -> Any:
+    return import_module("numpy").array(numbers, dtype=dtype)
+
+
+ROWS, COLUMNS = 4, 6
+CARDS = ROWS * COLUMNS
+PAIRS = CARDS // 2
+ENDLESS = 5_000
+"""Flips after which a game is given up: no player that finishes at all needs a tenth of them."""
+
+# One game is one row of whole numbers: five blocks with a number per place, then single numbers.
+MATE, FOUND, COUNT, LAST, MARK, RECALL = (block * CARDS for block in range(6))
+FLIPS, LAST_MATCH, PAIRS_FOUND, FIRST, MATCHED, HELP, RANDOM = range(6 * CARDS, 6 * CARDS + 7)
+GAME = 6 * CARDS + 7
+NOWHERE = -1
+
+# The plan holds for many games: the gate, and where a first-card hint points.
+OPENING, PATIENCE, FIRST_PATIENCE, TARGET = range(4)
+TARGET_RULES = (TargetRule.MOST_FLIPPED, TargetRule.MOST_RECENT, TargetRule.RANDOM)
+MOST_FLIPPED, MOST_RECENT, ANYWHERE = range(3)
+
+NO_HELP, SUG_COL, SUG_ROW, SUG_CARD = (int(action) for action in Action)
+ACTIONS, OUTCOMES, PHASES = len(Action), len(Outcome), len(Phase)
+STATES = PHASES * ACTIONS * OUTCOMES
+F_CORRECT, F_WRONG, S_CORRECT, S_WRONG = (int(outcome) for outcome in Outcome)
+
+WORD = 0xFFFF_FFFF
+BITS = 32
+MULTIPLIER = 2_146_999_758
+UNIT = 2.0**-BITS
+
+
+def gate_plan(gate: Gate, target: TargetRule) -> Ints:
+    """A gate and a target rule as the rules read them."""
+    return ints([gate.opening, gate.patience, gate.first_patience, TARGET_RULES.index(target)])
+
+
+def new_game(seed: int) -> Ints:
+    """An empty row for games; the random numbers of all of them follow from ``seed`` (0 or more)."""
+    numbers = [0] * GAME
+    # The hash keeps neighbouring seeds apart, which this kind of generator by itself would not.
+    scattered = int.from_bytes(hashlib.sha256(str(seed).encode()).digest()[:8], "big")
+    numbers[RANDOM] = scattered % (MULTIPLIER * (WORD + 1) - 2) + 1
+    return ints(numbers)
+
+
+@compiled_rule
+def draw(game: Ints) -> int:
+    """The next random word of 32 bits: multiply with carry, its two halves joined (period about 2^62).
+
+    MULTIPLIER is below 2^31, so that nothing overflows 63 bits, and makes MULTIPLIER 2^32 - 1 a safe prime.
+    """
+    word = MULTIPLIER * (game[RANDOM] & WORD) + (game[RANDOM] >> BITS)
+    game[RANDOM] = word
+    return (word ^ (word >> BITS)) & WORD
+
+
+@compiled_rule
+def below(game: Ints, number: int) -> int:
+    """A random whole number from 0 to ``number`` - 1."""
+    return (draw(game) * number) >> BITS
+
+
+@compiled_rule
+def unit(game: Ints) -> float:
+    """A random number from 0 up to, not including, 1."""
+    return draw(game) * UNIT
+
+
+@compiled_rule
+def deal(game: Ints) -> None:
+    """Shuffle the cards (Fisher-Yates) and start a game with all of them closed."""
+    for place in range(CARDS):
+        game[MARK + place] = place
+        game[FOUND + place] = game[COUNT + place] = game[LAST + place] = game[RECALL + place] = 0
+    for last in range(CARDS - 1, 0, -1):
+        other = below(game, last + 1)
+        kept = game[MARK + last]
+        game[MARK + last] = game[MARK + other]
+        game[MARK + other] = kept
+    for pair in range(PAIRS):
+        one, other = game[MARK + 2 * pair], game[MARK + 2 * pair + 1]
+        game[MATE + one], game[MATE + other] = other, one
+    game[FLIPS] = game[LAST_MATCH] = game[PAIRS_FOUND] = 0
+    game[FIRST], game[MATCHED], game[HELP] = NOWHERE, 1, NO_HELP
+
+
+@compiled_rule
+def flip(game: Ints, place: int) -> bool:
+    """Turn up a closed card; True if it completes a match. Two unmatched cards are turned back at once."""
+    game[FLIPS] += 1
+    game[COUNT + place] += 1
+    game[LAST + place] = game[FLIPS]
+    first = game[FIRST]
+    if first == NOWHERE:
+        game[FIRST] = place
+        return False
+    game[FIRST] = NOWHERE
+    game[MATCHED] = 1 if game[MATE + first] == place else 0
+    if game[MATCHED] == 1:
+        game[FOUND + first] = game[FOUND + place] = 1
+        game[PAIRS_FOUND] += 1
+        game[LAST_MATCH] = game[FLIPS]
+    return game[MATCHED] == 1
+
+
+@compiled_rule
+def phase(game: Ints) -> int:
+    """The phase of the game, 0-2; as ``Phase.of``."""
+    return min(game[PAIRS_FOUND] * PHASES // PAIRS, PHASES - 1)
+
+
+@compiled_rule
+def state(game: Ints) -> int:
+    """The row of the Q-table before the next flip; as ``State.of(...).index``."""
+    outcome = (F_CORRECT if game[MATCHED] == 1 else F_WRONG) + (0 if game[FIRST] == NOWHERE else S_CORRECT - F_CORRECT)
+    return (phase(game) * ACTIONS + game[HELP]) * OUTCOMES + outcome
+
+
+@compiled_rule
+def is_open(game: Ints, gate: Ints) -> bool:
+    """Whether the gate lets the table be asked; as ``Gate.verdict``."""
+    if game[FLIPS] < gate[OPENING]:
+        return False
+    if game[FIRST] != NOWHERE:
+        return True
+    needed = gate[FIRST_PATIENCE] if game[PAIRS_FOUND] == 0 else gate[PATIENCE]
+    return game[FLIPS] - game[LAST_MATCH] >= needed
+
+
+@compiled_rule
+def closed(game: Ints, place: int) -> bool:
+    """Whether the card there may be flipped."""
+    return game[FOUND + place] == 0 and place != game[FIRST]
+
+
+@compiled_rule
+def mark_candidates(game: Ints, target: int) -> int:
+    """Mark every card that a hint for the coming flip may point at; their number. As ``Mentaliser.target``."""
+    if game[FIRST] != NOWHERE:
+        for place in range(CARDS):
+            game[MARK + place] = 1 if place == game[MATE + game[FIRST]] else 0
+        return 1
+    block = COUNT if target == MOST_FLIPPED else LAST
+    most = 0
+    if target != ANYWHERE:
+        for place in range(CARDS):
+            if game[FOUND + place] == 0 and game[block + place] > most:
+                most = game[block + place]
+    number = 0
+    for place in range(CARDS):
+        fits = game[FOUND + place] == 0 and (most == 0 or game[block + game[MATE + place]] == most)
+        game[MARK + place] = 1 if fits else 0
+        number += game[MARK + place]
+    return number
+
+
+@compiled_rule
+def pick(game: Ints, number: int) -> int:
+    """One of the ``number`` marked places, each with the same chance."""
+    left = below(game, number)
+    for place in range(CARDS):
+        if game[MARK + place] == 1:
+            if left == 0:
+                return place
+            left -= 1
+    return NOWHERE

@@ -1,0 +1,453 @@
+"""Does what the experimenter asks for, if the table of actions lets it: asked for, then written down, then done."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import EmbodimentName, Stage
+from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
+from kiosk.experiment.transitions import InvalidTransition
+from kiosk.robots.embodiment import EmbodimentSelector, Health
+from kiosk.store.recorder import Recorder, StoreBusy
+from kiosk.store.snapshot import InterruptedSession, UnreadableSession
+from kiosk.ui.event_loop import Clock, TimerWait
+from kiosk.ui.experimenter.authorisation import AuthorisationFlow
+from kiosk.ui.experimenter.maintenance import MaintenanceScheduler
+from kiosk.ui.experimenter.view_model import NoteScreen
+from kiosk.ui.screens.registry import ScreenSet
+from kiosk.ui.session_runner import BusyWait, ConditionAssigner, SessionRunner
+from kiosk.ui.voice import Voice
+
+NOTE_MS = 2_000
+"""How long a note stays; as long the condition's shortcut goes on without asking anew."""
+
+KEPT_RETRY_MS = 100
+"""How long until a note of what has happened is tried again."""
+CLOSING_WAIT_MS = 500
+"""How long closing waits for the last notes, after it has waited for the session."""
+NS_PER_MS = 1_000_000
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Services:
+    """Everything that actions are done to."""
+
+    runner: SessionRunner
+    assigner: ConditionAssigner
+    embodiments: EmbodimentSelector
+    voice: Voice
+    recorder: Recorder
+    screens: ScreenSet
+    clock: Clock
+    read_cut_off: Callable[[int, Callable[[InterruptedSession | UnreadableSession], None]], None]
+    """Reads a session that was cut off, and hands it over soon."""
+    window_health: Callable[[], tuple[Health, ...]]
+    leave: Callable[[], None]
+
+
+class AuditLog:
+    """Writes down what happens at the booth, and remembers in words what the disk did not take."""
+
+    def __init__(self, recorder: Recorder, clock: Clock) -> None:
+        """What another program keeps from being written is tried again on this clock."""
+        self.error = ""
+        """Why the last thing could not be written; empty if it could."""
+        self._recorder = recorder
+        self._clock = clock
+        self._kept: deque[tuple[AuditEvent, Mapping[str, Any], int]] = deque()
+        self._again: TimerWait | None = None
+
+    def __call__(self, note: AuditEvent, body: Mapping[str, Any]) -> bool:
+        """Write it down before it is done; whether the disk took it. Raises StoreBusy, and can be called again."""
+        while self._kept:
+            self._write(*self._kept[0])
+            self._kept.popleft()
+        return self._write(note, body, None)
+
+    def record(self, note: AuditEvent, body: Mapping[str, Any]) -> None:
+        """Write down what has happened already: now, or as soon as another program lets go of the database."""
+        self._kept.append((note, body, time.time_ns() // NS_PER_MS))
+        if self._again is None:
+            self._write_kept()
+
+    def close(self) -> None:
+        """Write down what is left, or tell the log that it cannot be."""
+        if self._again is not None:
+            self._again.cancel()
+            self._again = None
+        with self._recorder.retrying(CLOSING_WAIT_MS):
+            self._write_kept()
+        if self._again is not None:
+            _log.error("the last notes could not be written: another program holds the database")
+            self._again.cancel()
+
+    def _write_kept(self) -> None:
+        self._again = None
+        while self._kept:
+            try:
+                self._write(*self._kept[0])
+            except StoreBusy:
+                self._again = self._clock.after(KEPT_RETRY_MS, self._write_kept)
+                return
+            self._kept.popleft()
+
+    def _write(self, note: AuditEvent, body: Mapping[str, Any], wall_ms: int | None) -> bool:
+        try:
+            self._recorder.add_audit_event(note.value, body, wall_ms)
+        except StoreBusy as busy:
+            self.error = str(busy)
+            raise
+        except StoreFailed as failure:
+            _log.error("%s", failure)
+            self.error = str(failure)
+            return False
+        self.error = ""
+        return True
+
+
+class ActionController:
+    """The experimenter's hand."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - whom it has to do with
+        self,
+        booth: Services,
+        asking: AuthorisationFlow,
+        note: NoteScreen,
+        write: AuditLog,
+        upkeep: MaintenanceScheduler,
+        catalogue: Catalogue,
+    ) -> None:
+        """Nothing is done yet; ``panel`` is told to open or close by ``toggle_panel``."""
+        self.toggle_panel: Callable[[], None] = lambda: None
+        self.changed: Callable[[], None] = lambda: None
+        """Is told when what can be chosen looks different."""
+        self.volume = booth.assigner.study.settings.voice.volume
+        self.paused_by_panel = False
+        """Whether the session goes on when the panel is closed."""
+        self._booth = booth
+        self._asking = asking
+        self._note = note
+        self._write = write
+        self._upkeep = upkeep
+        self._text = catalogue.text
+        self._turn = condition_cycle(booth.assigner.study.settings.allocation.quotas)
+        self._acts: deque[Callable[[], None]] = deque()
+        self._acting = False
+        self._busy = BusyWait(booth.clock, booth.recorder.wait_ms, self._tell_busy)
+        self._turning_for: str | None = None
+        self._note_away: TimerWait | None = None
+        booth.runner.on_session_started = self._begun
+        booth.runner.on_idle = self._rested
+
+    @property
+    def stage(self) -> Stage:
+        """The stage that the booth is in; over while the error screen is up."""
+        runner = self._booth.runner
+        return Stage.OVER if runner.is_blocked else runner.stage
+
+    @property
+    def condition_choices(self) -> tuple[Condition | None, ...]:
+        """What can be chosen as the next condition, the list's (None) first."""
+        return self._turn
+
+    def press(self, name: str) -> None:
+        """A shortcut was pressed."""
+        action = Action(name)
+        if action is Action.CONDITION and self._turning_for is not None:
+            self._choose_next_in_turn(self._turning_for)
+        elif action is Action.PANEL:
+            self.toggle_panel()
+        else:
+            self.request(name, "")
+
+    def request(self, name: str, choice: str) -> None:
+        """Something is to be done; without a choice the next one in turn."""
+        action = Action(name)
+        held = permission(action, self.stage)
+        if held.effect is ActionEffect.REFUSED:
+            self.tell("console-not-now")
+        else:
+            self._asking.ask(held.asks, partial(self._do, action, choice))
+
+    def tell(self, message: str, **variables: str | int) -> None:
+        """Show a few words at the screen's edge for a moment."""
+        self._note.tell(self._text(message, **variables))
+        self._keep_note()
+
+    def _do(self, action: Action, choice: str, reason: str) -> None:
+        act = partial(self._do_now, action, choice, reason)
+        if action is Action.LEAVE:
+            # Nothing that waits for the database keeps anybody here.
+            act()
+        else:
+            self._in_turn(act)
+
+    def _in_turn(self, act: Callable[[], None]) -> None:
+        """Do something that is written down first, after what still waits for the database."""
+        self._acts.append(act)
+        if not self._acting and not self._busy.under_way:
+            self._act()
+
+    def _act(self) -> None:
+        self._acting = True
+        try:
+            while self._acts:
+                act = self._acts.popleft()
+                try:
+                    act()
+                except StoreBusy as busy:
+                    # It was to be written down before it is done, so nothing is done yet.
+                    if self._try_again(act, busy):
+                        return
+                else:
+                    self._busy.end()
+        finally:
+            self._acting = False
+
+    def _try_again(self, act: Callable[[], None], busy: StoreBusy) -> bool:
+        """Whether there is still patience."""
+        try:
+            self._busy.try_again(self._act, busy)
+        except StoreFailed as failure:
+            self._not_written(failure)
+            return False
+        self._acts.appendleft(act)
+        return True
+
+    def _tell_busy(self, waits: bool) -> None:  # noqa: FBT001 - it is what is shown
+        if waits:
+            self.tell("console-busy")
+
+    def _do_now(self, action: Action, choice: str, reason: str) -> None:
+        # Since it was asked for, the session has gone on.
+        if permission(action, self.stage).effect is ActionEffect.REFUSED:
+            self.tell("console-not-now")
+            return
+        {
+            Action.CONDITION: self._condition,
+            Action.BODY: self._body,
+            Action.AGAIN: self._again,
+            Action.QUIET: self._quiet,
+            Action.PAUSE: self._pause,
+            Action.END: self._end,
+            Action.NEXT: self._next,
+            Action.RESUME: self._resume,
+            Action.LANGUAGE: self._language,
+            Action.VOLUME: self._set_volume,
+            Action.BACKUP: self._backup,
+            Action.LEAVE: self._leave,
+        }[action](choice, reason)
+        self.changed()
+
+    # What holds from the next session on
+
+    def _condition(self, choice: str, reason: str) -> None:
+        if not choice:
+            self._choose_next_in_turn(reason)
+        else:
+            self._choose(None if choice == AUTOMATIC else Condition(choice), reason)
+
+    def _choose_next_in_turn(self, reason: str) -> None:
+        at = self._turn.index(self._booth.assigner.chosen)
+        self._choose(self._turn[(at + 1) % len(self._turn)], reason)
+        self._turning_for = reason
+
+    def _choose(self, condition: Condition | None, reason: str) -> None:
+        try:
+            self._booth.assigner.choose(condition, reason)
+        except StoreBusy:
+            raise
+        except StoreFailed as failure:
+            self._not_written(failure)
+            return
+        # Never a name: the participant may be looking.
+        self._note.point(self._turn.index(condition), len(self._turn))
+        self._keep_note()
+        self.changed()
+
+    def _body(self, choice: str, reason: str) -> None:
+        embodiments = self._booth.embodiments
+        if not embodiments.has_robot:
+            self.tell("console-robot-none")
+            return
+        robot = next(name for name in embodiments.health if name is not EmbodimentName.AVATAR)
+        to_avatar = choice == EmbodimentName.AVATAR.value if choice else not embodiments.prefers_avatar
+        name = EmbodimentName.AVATAR if to_avatar else robot
+        if self._written(AuditEvent.BODY_CHOSEN, {"body": name.value, "reason": reason}):
+            embodiments.prefer(name)
+            self.tell("console-next-avatar" if to_avatar else "console-next-robot")
+
+    def _language(self, choice: str, reason: str) -> None:
+        if self._written(AuditEvent.LANGUAGE_CHOSEN, {"language": choice, "reason": reason}):
+            screens = self._booth.screens
+            screens.attract.rest_in(choice)
+            if self.resting:
+                screens.clear()
+            self.tell("console-done")
+
+    def _set_volume(self, choice: str, _reason: str) -> None:
+        volume = float(choice)
+        if self._written(AuditEvent.VOLUME_CHANGED, {"volume": volume}):
+            self.volume = volume
+            if self.resting:
+                self._booth.voice.set_volume(volume)
+
+    # What holds at once
+
+    def _again(self, _choice: str, _reason: str) -> None:
+        self._tell_session(happened.RepeatRequested)
+
+    def _quiet(self, _choice: str, _reason: str) -> None:
+        embodiments = self._booth.embodiments
+        quiet = not embodiments.is_muted
+        if not self._written(AuditEvent.SOUND_CHANGED, {"quiet": quiet}):
+            return
+        self._booth.runner.tell(happened.MuteChanged, quiet=quiet)
+        if quiet:
+            embodiments.mute()
+        else:
+            embodiments.unmute()
+        self.tell("console-quiet-on" if quiet else "console-quiet-off")
+
+    def _pause(self, _choice: str, _reason: str) -> None:
+        runner = self._booth.runner
+        if runner.accepts(happened.PauseRequested):
+            runner.tell(happened.PauseRequested)
+        elif self._panel_is_open:
+            # It stays as it is as long as the panel is open; what changes is what comes after.
+            self.paused_by_panel = not self.paused_by_panel
+        else:
+            self._tell_session(happened.PauseEnded)
+
+    def _end(self, _choice: str, reason: str) -> None:
+        # What was typed of a visitor stands with their session alone, and goes with it, or was never to be kept.
+        kind = DeviationReason.without_words(reason)
+        if self._written(AuditEvent.SESSION_ABORTED, {"stage": self.stage.value, "reason": kind}):
+            self._booth.runner.tell(happened.AbortRequested, reason=reason)
+
+    def _next(self, _choice: str, reason: str) -> None:
+        match self.stage:
+            case Stage.OVER:
+                self._booth.runner.go_on()
+            case Stage.THANKS:
+                self._booth.runner.tell(happened.NextParticipantRequested)
+            case _:
+                self._end("", reason)
+
+    def _resume(self, choice: str, reason: str) -> None:
+        self._booth.read_cut_off(int(choice), partial(self._go_on_with, reason))
+
+    def _go_on_with(self, reason: str, found: InterruptedSession | UnreadableSession) -> None:
+        self._in_turn(partial(self._go_on_now, reason, found))
+
+    def _go_on_now(self, reason: str, found: InterruptedSession | UnreadableSession) -> None:
+        if isinstance(found, UnreadableSession):
+            self.tell("console-cannot-resume", why=found.why)
+            return
+        if permission(Action.RESUME, self.stage).effect is ActionEffect.REFUSED:
+            self.tell("console-not-now")
+            return
+        noted = partial(self._written, AuditEvent.SESSION_RESUMED, {"session": found.number, "reason": reason})
+        try:
+            self._booth.runner.resume(found.session, found.number, found.past, noted)
+        except StoreBusy:
+            raise
+        except (UserInputError, InvalidTransition, StoreFailed) as failure:
+            self.tell("console-cannot-resume", why=str(failure))
+        else:
+            self._hold_for_panel()
+        self.changed()
+
+    def _backup(self, _choice: str, _reason: str) -> None:
+        self._upkeep.back_up()
+
+    def _leave(self, _choice: str, reason: str) -> None:
+        # A disk that takes nothing keeps nobody here.
+        self._write.record(AuditEvent.KIOSK_LEFT, {"stage": self.stage.value, "reason": reason})
+        self._booth.leave()
+
+    # The panel
+
+    def panel_opened(self) -> None:
+        """Stop the session that is under way, for as long as the panel is open."""
+        self._panel_is_open = True
+        self.paused_by_panel = False
+        self._hold_for_panel()
+
+    def panel_closed(self) -> None:
+        """Let the session go on, unless it was stopped before or is to stay so."""
+        self._panel_is_open = False
+        paused, self.paused_by_panel = self.paused_by_panel, False
+        if paused and self._booth.runner.accepts(happened.PauseEnded):
+            self._booth.runner.tell(happened.PauseEnded)
+
+    _panel_is_open = False
+
+    def _hold_for_panel(self) -> None:
+        runner = self._booth.runner
+        if self._panel_is_open and runner.accepts(happened.PauseRequested):
+            self.paused_by_panel = True
+            runner.tell(happened.PauseRequested)
+
+    @property
+    def resting(self) -> bool:
+        """Whether no session is under way."""
+        return self.stage in (Stage.ATTRACT, Stage.OVER)
+
+    def _begun(self) -> None:
+        """A session that begins in silence says so."""
+        if self._booth.embodiments.is_muted:
+            self._booth.runner.tell(happened.MuteChanged, quiet=True)
+        self.changed()
+
+    def _rested(self) -> None:
+        """Do what has waited for the end of a session."""
+        self.paused_by_panel = False
+        self._booth.voice.set_volume(self.volume)
+        self._upkeep.on_idle()
+        self.changed()
+
+    def _tell_session(self, kind: type[happened.WorldEvent]) -> None:
+        runner = self._booth.runner
+        if runner.accepts(kind):
+            runner.tell(kind)
+        else:
+            self.tell("console-not-now")
+
+    def _written(self, note: AuditEvent, body: Mapping[str, Any]) -> bool:
+        """Write it down before it is done; what cannot be written is not done."""
+        if self._write(note, body):
+            return True
+        self.tell("console-not-written")
+        return False
+
+    def _not_written(self, failure: StoreFailed) -> None:
+        _log.error("%s", failure)
+        self._write.error = str(failure)
+        self.tell("console-not-written")
+
+    def _keep_note(self) -> None:
+        self._turning_for = None
+        if self._note_away is not None:
+            self._note_away.cancel()
+        self._note_away = self._booth.clock.after(NOTE_MS, self._take_note_away)
+
+    def _take_note_away(self) -> None:
+        self._turning_for = None
+        self._note.hide()
+
+
+AUTOMATIC = "automatic"
+"""What the list's condition is called where the others go by name."""

@@ -1,0 +1,409 @@
+"""The experimenter's console: shortcuts, panel and maintenance, put together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent, QWindow
+from PySide6.QtQuick import QQuickWindow
+
+from kiosk import UserInputError
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.events import EmbodimentName, PauseEnded, Stage
+from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
+from kiosk.experiment.session_config import SessionKind
+from kiosk.store.snapshot import DashboardSnapshot, last_written_ms, read_interrupted_session, read_snapshot, wrong_pins
+from kiosk.ui.event_loop import Executor, TimerWait
+from kiosk.ui.experimenter.actions import AUTOMATIC, ActionController, AuditLog, Services
+from kiosk.ui.experimenter.authorisation import AuthorisationFlow, PinVerifier
+from kiosk.ui.experimenter.maintenance import MaintenanceScheduler, MaintenanceTasks
+from kiosk.ui.experimenter.status import (
+    Clocks,
+    HealthInputs,
+    HealthLine,
+    condition_name,
+    health_lines,
+    health_summary,
+    session_rows,
+)
+from kiosk.ui.experimenter.view_model import PanelScreen, Row
+from kiosk.units import MS_PER_SECOND
+
+_KEYS = (QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride)
+_SIGNS_OF_LIFE = (
+    QEvent.Type.KeyPress,
+    QEvent.Type.MouseButtonPress,
+    QEvent.Type.MouseMove,
+    QEvent.Type.Wheel,
+    QEvent.Type.TouchBegin,
+)
+_SHORTCUT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
+
+
+class InputCapture(QObject):
+    """Stands before the window as long as the experimenter is at something, and not a moment longer."""
+
+    def __init__(
+        self, window: QWindow, asking: AuthorisationFlow, stirred: Callable[[], None], parent: QObject
+    ) -> None:
+        """``stirred`` is told of every sign of the experimenter's hand."""
+        super().__init__(parent)
+        self._window = window
+        self._asking = asking
+        self._stirred = stirred
+        self._stands = False
+
+    def set_enabled(self, stands: bool) -> None:  # noqa: FBT001 - it is what is set
+        """Look at what comes to the window, or at nothing."""
+        if stands is self._stands:
+            return
+        self._stands = stands
+        if stands:
+            self._window.installEventFilter(self)
+        else:
+            self._window.removeEventFilter(self)
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Take what is meant for the card; whether it was taken."""
+        if event.type() in _SIGNS_OF_LIFE:
+            self._stirred()
+        if not self._asking.asks or event.type() not in _KEYS or not isinstance(event, QKeyEvent):
+            return False
+        if event.modifiers() & _SHORTCUT:
+            return False
+        # A key that is held down counts once, but for the one that deletes.
+        once = not event.isAutoRepeat() or event.key() == Qt.Key.Key_Backspace
+        if event.type() == QEvent.Type.KeyPress and once:
+            self._take(event)
+        event.accept()
+        return True
+
+    def _take(self, key: QKeyEvent) -> None:
+        match key.key():
+            case Qt.Key.Key_Escape:
+                self._asking.cancel()
+            case Qt.Key.Key_Backspace:
+                self._asking.erase()
+            case Qt.Key.Key_Return | Qt.Key.Key_Enter:
+                self._asking.enter()
+            case _ if key.text():
+                self._asking.type(key.text())
+
+
+LOOK_MS = 1_000
+RECORDS_EVERY = 10
+"""Among so many looks there is one at the records: while the panel is open, they change by its own actions alone."""
+
+CLOSE_MS = 60_000
+"""Without a hand on it for so long, the panel closes."""
+
+LOUDNESS = (0.2, 0.4, 0.6, 0.8, 1.0)
+"""The volumes to choose from."""
+
+
+class Panel:
+    """The panel at work."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - all that it shows
+        self,
+        screen: PanelScreen,
+        booth: Services,
+        actions: ActionController,
+        asking: AuthorisationFlow,
+        upkeep: MaintenanceScheduler,
+        write: AuditLog,
+        catalogue: Catalogue,
+        state: Callable[[], HealthInputs],
+        look: Callable[[Callable[[DashboardSnapshot | str], None]], None],
+    ) -> None:
+        """``state`` tells how everything is now; ``look`` reads the records, and hands over what it found, soon."""
+        self.changed: Callable[[], None] = lambda: None
+        """Is told when the panel comes or goes."""
+        self._screen = screen
+        self._booth = booth
+        self._actions = actions
+        self._asking = asking
+        self._upkeep = upkeep
+        self._write = write
+        self._catalogue = catalogue
+        self._state = state
+        self._look = look
+        self._looking = False
+        self._looks = 0
+        self._unread = ""
+        self._stirred_at = 0
+        self._tick: TimerWait | None = None
+        screen.set_language({name: catalogue.text(name) for name in WORDS})
+        screen.wished.connect(self._wish)
+        actions.toggle_panel = self.toggle
+        actions.changed = self._refresh
+        upkeep.changed = self._refresh
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is to be seen."""
+        return self._screen.is_open
+
+    def toggle(self) -> None:
+        """Close it, or open it for whoever has the PIN."""
+        if self.is_open:
+            self.close()
+        else:
+            self._asking.ask(permission(Action.PANEL, self._actions.stage).asks, lambda _: self._open())
+
+    def close(self) -> None:
+        """Leave it; from now on the PIN is asked for again."""
+        if self._tick is not None:
+            self._tick.cancel()
+            self._tick = None
+        self._asking.unlocked = False
+        self._asking.cancel()
+        self._screen.open(False)  # noqa: FBT003 - it is what is set
+        self._booth.screens.kiosk.step_back(False)  # noqa: FBT003 - it is what is set
+        self._actions.panel_closed()
+        self.changed()
+
+    def stir(self) -> None:
+        """Somebody is at it."""
+        self._stirred_at = self._booth.clock.now_ms()
+
+    def _open(self) -> None:
+        self._write.record(AuditEvent.PANEL_OPENED, {"stage": self._actions.stage.value})
+        self._asking.unlocked = True
+        self._actions.panel_opened()
+        self.stir()
+        self._looks = 0
+        self._booth.screens.kiosk.step_back(True)  # noqa: FBT003 - it is what is set
+        # All that it shows is there before it comes.
+        self._screen.show_choices(self._choices())
+        self._screen.open(True)  # noqa: FBT003 - it is what is set
+        self._see()
+        self.changed()
+
+    def _wish(self, action: str, choice: str) -> None:
+        if action == Action.PANEL.value:
+            self.close()
+        else:
+            self._actions.request(action, choice)
+
+    def _see(self) -> None:
+        """Look at everything, and once more in a second."""
+        if self._booth.clock.now_ms() - self._stirred_at >= CLOSE_MS:
+            self.close()
+            return
+        if self._looks % RECORDS_EVERY == 0:
+            self._refresh()
+        else:
+            self._show_health()
+        self._looks += 1
+        self._tick = self._booth.clock.after(LOOK_MS, self._see)
+
+    def _refresh(self) -> None:
+        """Look at everything, the records too."""
+        if not self.is_open:
+            return
+        self._show_health()
+        if not self._looking:
+            self._looking = True
+            self._look(self._have_looked)
+
+    def _show_health(self) -> None:
+        found = health_lines(self._state(), self._booth.assigner.study, self._catalogue)
+        if self._unread:
+            found = (*found, HealthLine(self._catalogue.text("console-database"), self._unread, is_ok=False))
+        whole = health_summary(found, self._catalogue)
+        self._screen.show_health(
+            {"well": whole.is_ok, "summary": whole.message, "lines": [asdict(line) for line in found]}
+        )
+        self._screen.show_choices(self._choices())
+
+    def _have_looked(self, seen: DashboardSnapshot | str) -> None:
+        self._looking = False
+        self._unread = seen if isinstance(seen, str) else ""
+        if isinstance(seen, DashboardSnapshot):
+            self._screen.show_records(session_rows(seen, self._catalogue, played=self._under_way))
+
+    @property
+    def _under_way(self) -> bool:
+        return self._actions.stage not in (Stage.ATTRACT, Stage.OVER)
+
+    def _choices(self) -> Row:
+        """What can be chosen, and what is chosen now."""
+        booth, actions, told = self._booth, self._actions, self._catalogue.text
+        under_way = self._under_way
+        embodiments = booth.embodiments
+        robot = next((name.value for name in embodiments.health if name is not EmbodimentName.AVATAR), "")
+        return {
+            "session": told("console-session-paused") if under_way else told("console-session-none"),
+            "underWay": under_way,
+            "conditions": [
+                {"value": each.value if each else AUTOMATIC, "label": condition_name(each, told)}
+                for each in actions.condition_choices
+            ],
+            "condition": booth.assigner.chosen.value
+            if booth.assigner.chosen and not booth.assigner.is_followed
+            else AUTOMATIC,
+            "embodiments": [
+                {"value": robot, "label": told("console-robot")},
+                {"value": EmbodimentName.AVATAR.value, "label": told("console-avatar")},
+            ]
+            if embodiments.has_robot
+            else [],
+            "body": EmbodimentName.AVATAR.value if embodiments.prefers_avatar else robot,
+            "languages": [
+                {"value": plan.language, "label": plan.catalogue.text("language-name")}
+                for plan in booth.assigner.study.plans
+            ],
+            "language": booth.screens.attract.resting.language,
+            "volumes": [{"value": str(volume), "label": f"{volume:.0%}"} for volume in LOUDNESS],
+            "volume": str(min(LOUDNESS, key=lambda volume: abs(volume - actions.volume))),
+            "canBeNext": permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
+            "quiet": embodiments.is_muted,
+            "staysPaused": booth.runner.accepts(PauseEnded) and not actions.paused_by_panel,
+            "backup": told("console-backup-busy")
+            if self._upkeep.busy
+            else told("console-backup-waits")
+            if self._upkeep.waits
+            else "",
+        }
+
+
+WORDS = (
+    "console-title",
+    "console-close",
+    "console-health",
+    "console-counts",
+    "console-counts-done",
+    "console-counts-dropped",
+    "console-counts-overridden",
+    "console-counts-beyond",
+    "console-counts-withdrawn",
+    "console-sessions",
+    "console-sessions-none",
+    "console-deviations",
+    "console-deviations-none",
+    "console-next-session",
+    "console-condition",
+    "console-body",
+    "console-language",
+    "console-volume",
+    "console-now",
+    "console-again",
+    "console-quiet",
+    "console-heard",
+    "console-stay-paused",
+    "console-not-stay-paused",
+    "console-end",
+    "console-next",
+    "console-resume",
+    "console-resume-none",
+    "console-backup",
+    "console-leave",
+    "console-keys",
+)
+"""Every message that the panel shows as it stands."""
+
+
+def wall_ms() -> int:
+    """The wall's clock, in ms since 1970."""
+    return time.time_ns() // 1_000_000
+
+
+class ExperimenterConsole:
+    """The experimenter at one booth."""
+
+    def __init__(
+        self, booth: Services, window: QQuickWindow, work: Executor, slow: Executor, now_ms: Callable[[], int] = wall_ms
+    ) -> None:
+        """``work`` does what takes milliseconds, ``slow`` what takes seconds; ``now_ms`` is the wall's clock."""
+        study = booth.assigner.study
+        settings = study.settings
+        catalogue = study.plans[0].catalogue
+        screen = booth.screens.experimenter
+        card, note, panel = screen.parts
+        folder = booth.recorder.folder
+        self._booth = booth
+        self._window = window
+        self._now_ms = now_ms
+        self._began_ms, self._run_from_ms = now_ms(), booth.clock.now_ms()
+        self._written_ms = last_written_ms(folder)
+        self._kind = booth.assigner.kind
+        self._write = AuditLog(booth.recorder, booth.clock)
+        self._lock = PinVerifier(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write.record)
+        self._asking = AuthorisationFlow(card, self._lock, booth.clock, catalogue)
+        self.upkeep = MaintenanceScheduler(
+            MaintenanceTasks.of(folder, settings.experimenter.backups),
+            settings.experimenter.backup_every,
+            booth.clock,
+            now_ms,
+            slow,
+            self._write.record,
+            lambda: self.actions.resting,
+            booth.runner.set_closed,
+        )
+        self.actions = ActionController(booth, self._asking, note, self._write, self.upkeep, catalogue)
+        look = partial(_look, folder, simulated=self._kind)
+        self.panel = Panel(
+            panel,
+            booth,
+            self.actions,
+            self._asking,
+            self.upkeep,
+            self._write,
+            catalogue,
+            self._state,
+            lambda then: work(look, then),
+        )
+        self._keyboard = InputCapture(window, self._asking, self.panel.stir, screen)
+        self._asking.changed = self.panel.changed = self._stand_by
+        screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.keys).items()})
+        screen.pressed.connect(self.actions.press)
+
+    def close(self) -> None:
+        """Listen no more, and write down what is left to be."""
+        self._keyboard.set_enabled(False)
+        self._write.close()
+
+    def _stand_by(self) -> None:
+        self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
+
+    def _state(self) -> HealthInputs:
+        """How everything is now."""
+        booth = self._booth
+        robot = next(
+            (health for name, health in booth.embodiments.health.items() if name is not EmbodimentName.AVATAR), None
+        )
+        width, height = self._window.width(), self._window.height()
+        held = booth.window_health()
+        return HealthInputs(
+            robot=robot,
+            voice=booth.voice.health,
+            muted=booth.embodiments.is_muted,
+            free_space=self.upkeep.free_space,
+            last_backup=self.upkeep.last_backup,
+            audit_error=self._write.error,
+            clocks=Clocks(self._now_ms(), self._began_ms, booth.clock.now_ms() - self._run_from_ms, self._written_ms),
+            has_pin=self._lock.has_pin,
+            screen="; ".join((f"{width} x {height}", *(health.message for health in held))),
+            screen_well=all(health.is_ok for health in held),
+        )
+
+
+def read_for(work: Executor, folder: Path) -> Callable[..., None]:
+    """How a session that was cut off is read, elsewhere."""
+    return lambda number, then: work(partial(read_interrupted_session, folder, number), then)
+
+
+def _look(folder: Path, *, simulated: SessionKind) -> DashboardSnapshot | str:
+    """The records since this morning, or why they cannot be read."""
+    today = datetime.now().astimezone().replace(hour=0, minute=0, second=0, microsecond=0)
+    try:
+        return read_snapshot(folder, int(today.timestamp() * MS_PER_SECOND), simulated=simulated)
+    except UserInputError as failure:
+        return str(failure)

@@ -1,0 +1,190 @@
+"""What a booth does for itself between sessions: copies of its database, and a look at the room on the disk.
+
+Both are slow work, done elsewhere; what comes of them is written down and shown, and never stops a session.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.experiment.experimenter import AuditEvent
+from kiosk.store.maintenance import FOLDER, FreeSpace, SpaceLevel, back_up, free_space, list_backups
+from kiosk.ui.event_loop import Clock, Executor
+from kiosk.ui.experimenter.authorisation import Write
+from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
+
+BEAT_MS = 60_000
+"""How often the disk is looked at, and whether a copy is due."""
+
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class BackupOutcome:
+    """What became of the last copy: when, in ms since 1970, and where, or why not."""
+
+    at_ms: int
+    file: Path | None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class MaintenanceTasks:
+    """How copies are made, and the disk is looked at; another one stands in for it in tests."""
+
+    copy: Callable[[], Path]
+    """Raises BadInput or StoreFailed."""
+    last_copy: Callable[[], Path | None]
+    free_space: Callable[[], FreeSpace]
+    """Raises BadInput."""
+
+    @classmethod
+    def of(cls, folder: Path, keep: int) -> MaintenanceTasks:
+        """Take care of a data folder; of its copies so many are kept."""
+        into = folder / FOLDER
+        return cls(
+            partial(back_up, folder, into, keep),
+            lambda: next(reversed(list_backups(into)), None) if into.is_dir() else None,
+            partial(free_space, folder),
+        )
+
+
+class Shut(Protocol):
+    """Lets nobody begin, or everybody again."""
+
+    def __call__(self, *, shut: bool) -> None:
+        """From now on."""
+        ...
+
+
+class MaintenanceScheduler:
+    """The booth's own care, beat by beat."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - whom it has to do with
+        self,
+        care: MaintenanceTasks,
+        every_minutes: int,
+        clock: Clock,
+        now_ms: Callable[[], int],
+        work: Executor,
+        write: Write,
+        resting: Callable[[], bool],
+        shut: Shut,
+    ) -> None:
+        """``resting`` tells whether no session is under way; ``shut`` lets nobody begin, or everybody again."""
+        self._care = care
+        self._every_ms = every_minutes * MS_PER_MINUTE
+        self._clock = clock
+        self._now_ms = now_ms
+        self._work = work
+        self._write = write
+        self._resting = resting
+        self._shut = shut
+        self._copied_at = clock.now_ms()
+        self._wished = self._busy = False
+        self.last_backup: BackupOutcome | None = None
+        """What became of the last copy; None before the first."""
+        self.free_space: FreeSpace | None = None
+        """The room that is left; None as long as nobody has looked, or can tell."""
+        self.changed: Callable[[], None] = lambda: None
+
+    @property
+    def busy(self) -> bool:
+        """Whether a copy is being made."""
+        return self._busy
+
+    @property
+    def waits(self) -> bool:
+        """Whether a copy is to be made as soon as the session is over."""
+        return self._wished
+
+    def begin(self) -> None:
+        """See how things are, and go on seeing to them."""
+        self._work(self._last_copy, self._found_copy)
+        self._beat()
+
+    def check_due(self) -> None:
+        """Look at the disk now, and make a copy if one is due."""
+        self._work(self._look_at_room, self._found_room)
+        if self._clock.now_ms() - self._copied_at >= self._every_ms:
+            self._wished = True
+        self.on_idle()
+
+    def back_up(self) -> None:
+        """Make a copy now, or as soon as no session is under way."""
+        self._wished = True
+        self.on_idle()
+        self.changed()
+
+    def on_idle(self) -> None:
+        """Make the copy that has waited for the end of a session."""
+        if self._wished and not self._busy and self._resting():
+            self._wished, self._busy = False, True
+            self._copied_at = self._clock.now_ms()
+            self._work(self._copy, self._have_copied)
+
+    def _beat(self) -> None:
+        self.check_due()
+        self._clock.after(BEAT_MS, self._beat)
+
+    def _copy(self) -> BackupOutcome:
+        try:
+            return BackupOutcome(self._now_ms(), self._care.copy())
+        except (UserInputError, StoreFailed) as failure:
+            return BackupOutcome(self._now_ms(), None, str(failure))
+
+    def _have_copied(self, copied: BackupOutcome) -> None:
+        self._busy = False
+        self.last_backup = copied
+        if copied.file is not None:
+            self._write(AuditEvent.BACKUP_MADE, {"file": copied.file.name})
+        else:
+            _log.error("%s", copied.why)
+            self._write(AuditEvent.BACKUP_FAILED, {"why": copied.why})
+        self.changed()
+
+    def _last_copy(self) -> BackupOutcome | None:
+        file = self._care.last_copy()
+        if file is None:
+            return None
+        try:
+            return BackupOutcome(int(file.stat().st_mtime * MS_PER_SECOND), file)
+        except OSError as failure:
+            # A newer copy may just have taken its place.
+            _log.info("the last copy cannot be looked at: %s", failure)
+            return None
+
+    def _found_copy(self, found: BackupOutcome | None) -> None:
+        if found is not None and self.last_backup is None:
+            self.last_backup = found
+            self._copied_at -= max(0, self._now_ms() - found.at_ms)
+            self.changed()
+
+    def _look_at_room(self) -> FreeSpace | None:
+        try:
+            return self._care.free_space()
+        except UserInputError as failure:
+            _log.error("%s", failure)
+            return None
+
+    def _found_room(self, found: FreeSpace | None) -> None:
+        before, self.free_space = self.free_space, found
+        level = found.level if found else SpaceLevel.ENOUGH
+        if level is not (before.level if before else SpaceLevel.ENOUGH):
+            free_mib = found.free_mib if found else None
+            _log.log(
+                logging.INFO if level is SpaceLevel.ENOUGH else logging.WARNING,
+                "the disk has %s MiB left%s",
+                free_mib,
+                "; nobody can begin" if level is SpaceLevel.REFUSE else "",
+            )
+            self._write(AuditEvent.ROOM_CHANGED, {"level": level.value, "free_mib": free_mib})
+            self._shut(shut=level is SpaceLevel.REFUSE)
+        self.changed()

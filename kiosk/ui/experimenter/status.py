@@ -1,0 +1,316 @@
+"""The health of the booth and the stored sessions, as lines of the console."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from math import ceil
+from typing import Any
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Status
+from kiosk.experiment.experimenter import AuditEvent, DeviationReason
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.robots.embodiment import Health
+from kiosk.store.maintenance import FreeSpace, SpaceLevel
+from kiosk.store.participants import CountCell, Disposition
+from kiosk.store.snapshot import DashboardSnapshot, SnapshotAuditEvent, SnapshotSession
+from kiosk.ui.experimenter.maintenance import BackupOutcome
+from kiosk.ui.experimenter.view_model import Row
+from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
+
+SHORT_SHA = 8
+MS_PER_HOUR = 60 * MS_PER_MINUTE
+DRIFT_MS = 60_000
+"""So far may the wall's clock go from one that nobody can set, or stand before what was last written."""
+
+MIB_PER_GIB = 1024
+
+
+@dataclass(frozen=True)
+class HealthLine:
+    """How one thing is; ``name`` says what it is."""
+
+    name: str
+    message: str
+    is_ok: bool = True
+
+
+@dataclass(frozen=True)
+class Clocks:
+    """The wall's clock, in ms since 1970: now, when the program began, and when anything was last written before that.
+
+    ``run_ms`` is how long the program has run by a clock that nobody can set.
+    """
+
+    now_ms: int
+    began_ms: int
+    run_ms: int
+    written_ms: int
+
+    @property
+    def set_back_ms(self) -> int:
+        """How far the program began before what was written already."""
+        return max(0, self.written_ms - self.began_ms)
+
+    @property
+    def jump_ms(self) -> int:
+        """How far the clock was set since the program began."""
+        return self.now_ms - self.began_ms - self.run_ms
+
+
+@dataclass(frozen=True)
+class HealthInputs:
+    """Everything that health is told from."""
+
+    robot: Health | None
+    """None if there is none."""
+    voice: Health
+    muted: bool
+    free_space: FreeSpace | None
+    last_backup: BackupOutcome | None
+    audit_error: str
+    """What the disk did not take last; empty if it took everything since."""
+    clocks: Clocks
+    has_pin: bool
+    screen: str
+    screen_well: bool
+
+
+def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
+    """Every line, in the order in which a person looks."""
+    told = catalogue.text
+    return (
+        _robot(state, catalogue),
+        _voice(state, catalogue),
+        _disk(state, catalogue),
+        _database(state, catalogue),
+        _clock(state.clocks, catalogue),
+        HealthLine(told("console-policy"), _policy(study)),
+        HealthLine(told("console-study"), f"{study.settings.title} · {study.settings.sha256[:SHORT_SHA]}"),
+        HealthLine(
+            told("console-pin-line-name"),
+            told("console-pin-set" if state.has_pin else "console-pin-none"),
+            state.has_pin,
+        ),
+        HealthLine(told("console-screen"), state.screen, state.screen_well),
+    )
+
+
+def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> HealthLine:
+    """One line for all."""
+    ill = [line for line in found if not line.is_ok]
+    if not ill:
+        return HealthLine("", catalogue.text("console-all-well"))
+    return HealthLine("", "  ·  ".join(f"{line.name}: {line.message}" for line in ill), is_ok=False)
+
+
+def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-robot")
+    if state.robot is None:
+        return HealthLine(name, catalogue.text("console-robot-none"))
+    return HealthLine(name, state.robot.message, state.robot.is_ok)
+
+
+def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-voice")
+    if state.muted:
+        return HealthLine(name, catalogue.text("console-voice-quiet"), is_ok=False)
+    return HealthLine(name, state.voice.message, state.voice.is_ok)
+
+
+def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-disk")
+    if state.free_space is None:
+        return HealthLine(name, catalogue.text("console-disk-unknown"), is_ok=False)
+    free = state.free_space.free_mib
+    size = f"{free / MIB_PER_GIB:.1f} GiB" if free >= MIB_PER_GIB else f"{free} MiB"
+    message = {
+        SpaceLevel.ENOUGH: "console-disk-free",
+        SpaceLevel.WARN: "console-disk-warn",
+        SpaceLevel.REFUSE: "console-disk-refuse",
+    }[state.free_space.level]
+    return HealthLine(name, catalogue.text(message, free=size), state.free_space.level is SpaceLevel.ENOUGH)
+
+
+def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
+    name, told = catalogue.text("console-database"), catalogue.text
+    if state.audit_error:
+        return HealthLine(name, state.audit_error, is_ok=False)
+    if state.last_backup is None:
+        return HealthLine(name, told("console-backup-none"))
+    if state.last_backup.file is None:
+        return HealthLine(name, told("console-backup-failed", why=state.last_backup.why), is_ok=False)
+    minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE
+    return HealthLine(name, told("console-backup-made", ago=ago(minutes, catalogue)))
+
+
+def ago(minutes: int, catalogue: Catalogue) -> str:
+    """So many minutes, in words of the size that matters."""
+    if minutes < _MINUTES_PER_HOUR:
+        return catalogue.text("console-minutes", minutes=minutes)
+    if minutes < _MINUTES_PER_DAY:
+        return catalogue.text("console-hours", hours=minutes // _MINUTES_PER_HOUR)
+    return catalogue.text("console-days", days=minutes // _MINUTES_PER_DAY)
+
+
+_MINUTES_PER_HOUR = 60
+_MINUTES_PER_DAY = 24 * 60
+
+
+def _clock(clocks: Clocks, catalogue: Catalogue) -> HealthLine:
+    name = catalogue.text("console-clock")
+    if clocks.set_back_ms > DRIFT_MS:
+        # A clock that is wrong is wrong by hours; one that is off by less is so by at most one.
+        hours = ceil(clocks.set_back_ms / MS_PER_HOUR)
+        return HealthLine(name, catalogue.text("console-clock-behind", hours=hours), is_ok=False)
+    if abs(clocks.jump_ms) > DRIFT_MS:
+        return HealthLine(
+            name, catalogue.text("console-clock-jumped", seconds=round(clocks.jump_ms / MS_PER_SECOND)), is_ok=False
+        )
+    return HealthLine(name, catalogue.text("console-clock-well"))
+
+
+def _policy(study: StudyConfig) -> str:
+    policy = study.plans[0].policy
+    return f"{policy.name} · {policy.sha256[:SHORT_SHA]}"
+
+
+DEVIATIONS_SHOWN = 5
+
+Told = Callable[..., str]
+
+
+def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, *, played: bool) -> Row:
+    """Every list of the panel that follows from the records; while somebody plays, none tells of a condition."""
+    told = _discreet(catalogue.text) if played else catalogue.text
+    visits = {why.value: number for why, number in seen.counts.visits.items()}
+    cells = {} if played else seen.counts.cells
+    return {
+        "cells": [_cell(condition, cell, told) for condition, cell in cells.items()],
+        "visits": told("console-visits", **visits),
+        "sessions": [_session(session, told) for session in seen.sessions],
+        "deviations": [_deviation(noted, told) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
+        "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, told),
+        "resumable": [_resumable(session, told) for session in seen.resumable],
+    }
+
+
+def _discreet(told: Told) -> Told:
+    """The same words, but for the names of conditions: from those before, the one of now could be guessed."""
+
+    def tell(message: str, **what: str | int) -> str:
+        return told("console-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
+
+    return tell
+
+
+_OF_CONDITIONS = ("console-condition-", "console-automatic")
+
+
+def condition_name(condition: Condition | None, told: Told) -> str:
+    """What a condition is called in the panel; None is the list's."""
+    return told(
+        "console-automatic" if condition is None else f"console-condition-{condition.name.lower().replace('_', '-')}"
+    )
+
+
+def _cell(condition: Condition, cell: CountCell, told: Told) -> Row:
+    done, quota = cell.fates[Disposition.CONSUMED], cell.quota
+    return {
+        "name": condition_name(condition, told),
+        "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED] or ""),
+        "share": min(1.0, done / quota) if quota else 0.0,
+        "counts": [
+            str(number or "")
+            for number in (
+                cell.fates[Disposition.DROPPED_OUT],
+                cell.fates[Disposition.OVERRIDDEN],
+                cell.fates[Disposition.BEYOND],
+                cell.withdrawn,
+            )
+        ],
+    }
+
+
+def _session(session: SnapshotSession, told: Told) -> Row:
+    return {
+        "participant": session.participant or "-",
+        "when": _time(datetime.fromisoformat(session.started_at)),
+        "condition": condition_name(session.condition, told),
+        "stage": told(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-",
+        "status": told(f"console-status-{session.status.value if session.status else 'running'}"),
+        "robot": told("console-robot-lost") if session.robot_lost else "",
+        "odd": session.robot_lost or session.status in (Status.ABANDONED, Status.INTERRUPTED, Status.STOPPED),
+    }
+
+
+def _resumable(session: SnapshotSession, told: Told) -> Row:
+    stage = told(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-"
+    when = _time(datetime.fromisoformat(session.started_at))
+    return {
+        "number": str(session.number),
+        "label": told("console-resume-one", participant=session.participant, when=when, stage=stage),
+    }
+
+
+def _deviation(noted: SnapshotAuditEvent, told: Told) -> Row:
+    when = datetime.fromtimestamp(noted.wall_ms / MS_PER_SECOND).astimezone()
+    reason = str(noted.body.get("reason") or "")
+    return {
+        "when": f"{when:%H:%M}",
+        "words": told(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, told)),
+        "reason": _reason(reason, told),
+    }
+
+
+def _more(number: int, told: Told) -> str:
+    """How many are not shown; nothing if all are."""
+    return told("console-deviations-more", number=number) if number > 0 else ""
+
+
+def _what(noted: SnapshotAuditEvent, told: Told) -> str:
+    """The one thing that a note is about, in words."""
+    body: dict[str, Any] = noted.body
+    match noted.kind:
+        case AuditEvent.CONDITION_CHOSEN:
+            named = {condition.value: condition for condition in Condition}
+            return condition_name(named.get(body.get("condition", "")), told)
+        case AuditEvent.VOLUME_CHANGED:
+            return f"{body.get('volume', 0):.0%}"
+        case AuditEvent.SOUND_CHANGED:
+            return told("console-quiet-on" if body.get("quiet") else "console-quiet-off")
+        case AuditEvent.SESSION_ABORTED | AuditEvent.KIOSK_LEFT:
+            stage = str(body.get("stage", ""))
+            return told(f"console-stage-{_kebab(stage)}") if stage else ""
+        case AuditEvent.ROOM_CHANGED:
+            return told(f"console-room-{body.get('level', 'enough')}")
+    of = {AuditEvent.BODY_CHOSEN: "body", AuditEvent.LANGUAGE_CHOSEN: "language", AuditEvent.SESSION_RESUMED: "session"}
+    of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why"}
+    value = body.get(of.get(noted.kind, ""), "")
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def _reason(reason: str, told: Told) -> str:
+    """A reason of the list in the panel's language, one in the experimenter's words as it is."""
+    for each in DeviationReason:
+        if reason == each.value:
+            return told(f"console-reason-{each.name.lower()}")
+    return reason.removeprefix(f"{DeviationReason.OTHER.value}: ")
+
+
+def _time(when: datetime) -> str:
+    """The time of day; with the day if that is another one."""
+    local = when.astimezone()
+    return f"{local:%H:%M}" if local.date() == datetime.now().astimezone().date() else f"{local:%d.%m. %H:%M}"
+
+
+def _kebab(name: str) -> str:
+    return name.replace("_", "-")
+
+
+def _kebab_of(note: AuditEvent) -> str:
+    return note.name.lower().replace("_", "-")

@@ -1,0 +1,140 @@
+"""Input of visitors: signs of life, keys that are held down, and where characters begin."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, Qt, QTextBoundaryFinder
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtQuick import QQuickItem, QQuickWindow
+
+from kiosk.ui.event_loop import Clock
+from kiosk.ui.screens.shell import KioskScreen
+
+
+def before(text: str, place: int) -> int:
+    """Return where the character begins that ends at ``place``; both count UTF-16 units, as Qt does."""
+    finder = QTextBoundaryFinder(QTextBoundaryFinder.BoundaryType.Grapheme, text)
+    finder.setPosition(place)
+    return max(0, finder.toPreviousBoundary())
+
+
+def fitting(text: str, place: int, longest: int) -> int:
+    """Return where what stands before ``place`` has to end, so that the text has at most ``longest`` code points."""
+    head = _units(text)[: 2 * place].decode("utf-16-le", "surrogatepass")
+    kept = head[: max(0, len(head) - max(0, len(text) - longest))]
+    return len(_units(kept)) // 2
+
+
+def without_last(text: str) -> str:
+    """Return the text without its last character."""
+    units = _units(text)
+    return units[: 2 * before(text, len(units) // 2)].decode("utf-16-le", "surrogatepass")
+
+
+def _units(text: str) -> bytes:
+    return text.encode("utf-16-le", "surrogatepass")
+
+
+_KEYS = (QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride)
+_MOVING = frozenset(
+    {
+        Qt.Key.Key_Left,
+        Qt.Key.Key_Right,
+        Qt.Key.Key_Up,
+        Qt.Key.Key_Down,
+        Qt.Key.Key_PageUp,
+        Qt.Key.Key_PageDown,
+        Qt.Key.Key_Home,
+        Qt.Key.Key_End,
+        Qt.Key.Key_Tab,
+        Qt.Key.Key_Backtab,
+    }
+)
+_NEVER_TYPED = frozenset({Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Select, Qt.Key.Key_Escape})
+
+
+class HeldKeys(QObject):
+    """Filters the keys that come to a window."""
+
+    def __init__(self, window: QQuickWindow, parent: QObject) -> None:
+        """Stand before this window until ``parent`` goes."""
+        super().__init__(parent)
+        self._window = window
+        window.installEventFilter(self)
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Take a repetition that would press something; return whether it was taken."""
+        if event.type() not in _KEYS or not isinstance(event, QKeyEvent) or not event.isAutoRepeat():
+            return False
+        key = event.key()
+        if key in _MOVING or (key not in _NEVER_TYPED and self._types()):
+            return False
+        # An override that is accepted keeps the key from shortcuts too.
+        event.accept()
+        return True
+
+    def _types(self) -> bool:
+        """Whether the keyboard is at a text field."""
+        item: QQuickItem | None = self._window.activeFocusItem()
+        return item is not None and item.inherits("QQuickTextInput")
+
+
+_HAND = frozenset({QEvent.Type.MouseButtonPress, QEvent.Type.TouchBegin, QEvent.Type.TouchUpdate, QEvent.Type.Wheel})
+_MODIFIERS = frozenset(
+    {
+        Qt.Key.Key_Control,
+        Qt.Key.Key_Shift,
+        Qt.Key.Key_Alt,
+        Qt.Key.Key_AltGr,
+        Qt.Key.Key_Meta,
+        Qt.Key.Key_Super_L,
+        Qt.Key.Key_Super_R,
+    }
+)
+
+
+class Activity(QObject):
+    """Looks at what comes to the kiosk's window."""
+
+    def __init__(self, window: QQuickWindow, kiosk: KioskScreen, clock: Clock, parent: QObject) -> None:
+        """Look until ``parent`` goes."""
+        super().__init__(parent)
+        self._kiosk = kiosk
+        self._clock = clock
+        self._last_ms: int | None = None
+        window.installEventFilter(self)
+
+    def last_ms(self) -> int | None:
+        """When the visitor last did anything, on the clock; None if they never did."""
+        return self._last_ms
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Notice what a visitor does; return whether it was taken as an answer."""
+        key = _is_key(event)
+        if not key and event.type() not in _HAND and not _drags(event):
+            return False
+        if self._kiosk.waits_for_answer and self._kiosk.takes_input:
+            self._kiosk.confirm()
+            # The key has done its work; it is not meant for what comes to light below.
+            return key
+        if not self._kiosk.covered:
+            self._last_ms = self._clock.now_ms()
+        return False
+
+
+def _is_key(event: QEvent) -> bool:
+    """Whether a key was pressed that was not down before; one that only modifies others is half a key.
+
+    The experimenter's shortcuts never get here.
+    """
+    if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+        return False
+    return not event.isAutoRepeat() and event.key() not in _MODIFIERS
+
+
+def _drags(event: QEvent) -> bool:
+    """Whether the mouse is moved with a button down."""
+    return (
+        event.type() == QEvent.Type.MouseMove
+        and isinstance(event, QMouseEvent)
+        and event.buttons() != Qt.MouseButton.NoButton
+    )

@@ -1,0 +1,468 @@
+"""Rehearse sessions and whole days without a person, with screenshots."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import traceback
+from collections import Counter, deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from random import Random
+from statistics import linear_regression, median
+from time import monotonic
+from typing import Any
+
+import psutil
+from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtQuick import QQuickWindow
+
+from kiosk import DISK_FULL, StoreFailed, UserInputError, is_nearly_full, unwritable
+from kiosk.config import STAGES
+from kiosk.experiment import effects as do
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import Stage, WorldEvent
+from kiosk.experiment.questionnaire import Item
+from kiosk.ui.app import App
+from kiosk.ui.event_loop import Clock
+from kiosk.ui.simulated_visitor import (
+    Aside,
+    BehaviourKind,
+    BehaviourProfile,
+    BoardView,
+    Errand,
+    FormFiller,
+    SimulatedParticipant,
+    UiDriver,
+    UiTimeout,
+)
+from kiosk.units import MS_PER_SECOND
+
+EVERY_MS = 5
+
+
+class LatencyMonitor(QObject):
+    """A timer that wishes to be called every EVERY_MS, and keeps how late it was called at the worst."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.longest_ms = 0.0
+        """The longest time between two beats, in ms; a free loop reaches EVERY_MS and a little more."""
+        self._last: float | None = None
+        self._timer = QTimer(self)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.setInterval(EVERY_MS)
+        self._timer.timeout.connect(self._beat)
+
+    def start(self) -> None:
+        """Count from the first beat on: what is done before the loop runs is not the loop's."""
+        self._last = None
+        self._timer.start()
+
+    def stop(self) -> None:
+        """Count no more."""
+        self._timer.stop()
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """What happens meanwhile is not the interface's doing, and does not count."""
+        begun = monotonic()
+        yield
+        if self._last is not None:
+            self._last += monotonic() - begun
+
+    def _beat(self) -> None:
+        now = monotonic()
+        if self._last is not None:
+            self.longest_ms = max(self.longest_ms, (now - self._last) * MS_PER_SECOND)
+        self._last = now
+
+
+def make_folder(folder: Path) -> None:
+    """Make the folder for the pictures, if it is not there; raises BadInput or StoreFailed."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise unwritable(f"the folder for the pictures, {folder}, cannot be made", error) from error
+
+
+class Screenshots:
+    """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
+
+    def __init__(self, window: QQuickWindow, folder: Path, clock: Clock, settle_ms: int) -> None:
+        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more."""
+        self._window = window
+        self._folder = folder
+        self._clock = clock
+        self._settle_ms = settle_ms
+        self._taken: list[str] = []
+
+    def watch(self, commands: tuple[Effect, ...], stage: Stage) -> None:
+        """Take a picture if these commands, which led to this stage, were the first to bring their moment."""
+        for moment in _moments(commands, stage):
+            if moment not in self._taken:
+                self._taken.append(moment)
+                self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
+
+    def take(self, moment: str) -> None:
+        """Take a picture of what is shown now."""
+        self._taken.append(moment)
+        self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
+
+    def _take_when_settled(self, name: str) -> None:
+        if self._settle_ms == 0:
+            self._save(name)
+        else:
+            self._clock.after(self._settle_ms, lambda: self._save(name))
+
+    def _save(self, name: str) -> None:
+        file = self._folder / name
+        if not self._window.grabWindow().save(str(file)):
+            raise unwritten(file)
+
+
+def unwritten(picture: Path) -> UserInputError | StoreFailed:
+    """Return what to raise when a picture could not be written; Qt does not say why."""
+    what = f"the picture {picture} cannot be written"
+    return StoreFailed(f"{what}: {DISK_FULL}") if is_nearly_full(picture.parent) else UserInputError(what)
+
+
+_NAMES: dict[type[Effect], str] = {
+    do.ShowAbout: "about",
+    do.ShowConsent: "consent",
+    do.ShowTicks: "ticks",
+    do.ShowAgeQuestion: "age",
+    do.ShowValidationErrors: "missing",
+    do.ShowIntroduction: "introduction",
+    do.RevealCard: "card",
+    do.MarkMatched: "pair",
+    do.ShowResult: "result",
+    do.ShowAnswer: "answer",
+    do.ShowDebrief: "debrief",
+    do.ShowThanks: "thanks",
+    do.AskStillThere: "still-there",
+    do.ShowPause: "pause",
+}
+
+
+def _moments(commands: tuple[Effect, ...], stage: Stage) -> Iterable[str]:
+    """What these commands have brought, in names for files."""
+    for command in commands:
+        match command:
+            case do.ShowBoard(practice=practice):
+                yield "practice" if practice else "board"
+            case do.LockBoard(wait=wait):
+                yield wait.value.replace("_", "-")
+            case do.HighlightHint(row=row, column=column):
+                yield _mark(row, column)
+            case do.SetExpression(mood=mood):
+                yield mood.value
+            case do.ShowItems(number=number):
+                yield f"{'about-you' if stage is Stage.ABOUT_YOU else 'items'}-{number}"
+            case _ if type(command) in _NAMES:
+                yield _NAMES[type(command)]
+
+
+def _mark(row: int | None, column: int | None) -> str:
+    if column is None:
+        return "mark-row"
+    return "mark-column" if row is None else "mark-card"
+
+
+LONGEST_MS = 2 * 60 * 60 * 1000
+"""A session that takes longer than two hours has got stuck."""
+
+_DECIDING = ("attract", "consent", "age")
+"""Where even the hasty look at what they tap."""
+
+_LINGERING = frozenset({Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS})
+"""Stages that whoever leaves them leaves in the middle."""
+
+
+_USUAL = BehaviourProfile()
+
+MakeHand = Callable[[QQuickWindow, Aside], UiDriver]
+"""Gives a visitor the hand to work a window with."""
+
+
+class Rehearsal:
+    """One session of one simulated visitor."""
+
+    def __init__(
+        self,
+        app: App,
+        seed: int,
+        shots: Screenshots | None = None,
+        visitor: BehaviourProfile = _USUAL,
+        hand: MakeHand = UiDriver,
+    ) -> None:
+        """Go through it on this kiosk; the same seed does the same things.
+
+        ``shots`` takes pictures on the way; ``hand`` reaches what a visitor wants in another way than with a mouse.
+        """
+        self.pulse = LatencyMonitor()
+        self._app = app
+        self._manner = visitor.manner
+        self._leaves_in = visitor.leaves_in if visitor.manner is BehaviourKind.LEAVES else None
+        self._language = visitor.language or app.screens.resting.language
+        chance = Random(f"{seed}/visitor")
+        self._chance = chance
+        self._visitor = SimulatedParticipant(chance)
+        self._hand = hand(app.window, self.pulse.aside)
+        self._filling = FormFiller(self._hand, chance, hasty=visitor.manner is BehaviourKind.HASTY)
+        self._page: object = None
+        self._errands: deque[Errand] = deque()
+        self._shots = shots
+        self._stage = Stage.ATTRACT
+        self._acts = 0
+        self._practises: bool | None = None
+        self._began = self._over = False
+        self._begun_ms = app.clock.now_ms()
+        self._stuck: UiTimeout | None = None
+        app.runner.on_event = self._watch
+        app.on_fault = self._fail
+
+    def run(self) -> None:
+        """Go through the session to its end; raises Stuck if it has none."""
+        if self._shots is not None:
+            self._shots.take("attract")
+        self._think()
+        self.pulse.start()
+        if self._stuck is None:
+            self._app.run()
+        self.pulse.stop()
+        if self._stuck is not None:
+            raise self._stuck
+
+    def _think(self) -> None:
+        self._app.clock.after(self._visitor.think(), self._act)
+
+    def _act(self) -> None:
+        if self._over:
+            return
+        try:
+            self._check_time()
+            if not self._is_gone():
+                self._do_what_comes_next()
+        except UiTimeout as stuck:
+            self._give_up(stuck)
+            return
+        self._think()
+
+    def _fail(self, fault: BaseException) -> None:
+        """A fault ends the rehearsal: whoever acts next may be the one that it came from."""
+        where = traceback.extract_tb(fault.__traceback__)[-1:]
+        at = "".join(f" ({Path(frame.filename).name}, line {frame.lineno})" for frame in where)
+        self._give_up(UiTimeout(f"there was a fault in Recollect, {type(fault).__name__}: {fault}{at}"))
+
+    def _give_up(self, stuck: UiTimeout) -> None:
+        if self._stuck is None:
+            self._stuck = UiTimeout(f"{stuck}, on the screen {self._app.screens.kiosk.shown}")
+        self._app.quit()
+
+    def _check_time(self) -> None:
+        if self._app.clock.now_ms() > self._begun_ms + LONGEST_MS:
+            raise UiTimeout("the session has taken two hours")
+
+    def _is_gone(self) -> bool:
+        patience = 1 if self._stage in _LINGERING else 0
+        return self._stage is self._leaves_in and self._acts >= patience
+
+    def _do_what_comes_next(self) -> None:
+        kiosk = self._app.screens.kiosk
+        if kiosk.shown == "pause":
+            raise UiTimeout("the disk did not take what happened")
+        if not kiosk.takes_input:
+            return
+        self._acts += 1
+        if kiosk.covered:
+            self._answer_the_cover()
+        elif self._manner is BehaviourKind.HASTY and kiosk.shown not in _DECIDING and self._visitor.tosses():
+            self._hand.tap_anywhere(self._chance)
+        else:
+            self._go_on(kiosk.shown)
+
+    def _answer_the_cover(self) -> None:
+        if self._hand.is_visible("still-here"):
+            self._click("still-here")
+
+    def _go_on(self, shown: str) -> None:
+        match shown:
+            case "attract" if not self._began and self._app.embodiments.settled:
+                self._began = True
+                self._click(f"start-{self._language}")
+            case "about" | "introduction" | "result" | "debrief":
+                self._click("continue")
+            case "thanks" if self._visitor.tosses():
+                self._click("continue")
+            case "consent":
+                self._decide()
+            case "age":
+                self._click("age-no" if self._manner is BehaviourKind.UNDER_AGE else "age-yes")
+            case "form":
+                self._fill_in()
+            case "practice" | "game":
+                self._play(shown)
+
+    def _decide(self) -> None:
+        """Agree, once all that has to be is ticked; the hasty try it before."""
+        consent = self._app.screens.consent
+        if self._manner is BehaviourKind.DECLINES:
+            self._click("decline")
+        elif self._manner is BehaviourKind.HASTY and self._page is not consent:
+            self._page = consent
+            self._click("agree")
+        elif consent.needed:
+            self._click(f"purpose-{min(consent.needed)}")
+        else:
+            self._click("agree")
+
+    def _fill_in(self) -> None:
+        items = self._app.screens.form.shown
+        if items is not self._page:
+            self._page = items
+            self._errands = deque(self._filling.errands(self._wanted()))
+        if self._errands:
+            self._errands.popleft()()
+        else:
+            self._click("continue")
+
+    def _wanted(self) -> tuple[Item, ...]:
+        """The items that this visitor answers."""
+        items = self._app.screens.form.shown
+        if self._manner is not BehaviourKind.HASTY:
+            return items
+        return tuple(item for item in items if getattr(item, "required", False))
+
+    def _will_practise(self) -> bool:
+        if self._practises is None:
+            likes = self._leaves_in is Stage.PRACTICE or self._visitor.tosses()
+            self._practises = self._manner is not BehaviourKind.HASTY and likes
+        return self._practises
+
+    def _play(self, shown: str) -> None:
+        board = self._app.screens.board
+        if shown == "practice" and not self._will_practise():
+            self._click("skip")
+        elif board.accepts_taps and board.closed:
+            row, column = board.highlighted
+            first = next(iter(board.unmatched.values()), None)
+            position = self._visitor.choose(BoardView(board.closed, first, row, column))
+            self._click(f"card-{board.location(position)}")
+
+    def _watch(self, _: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
+        if stage is not self._stage:
+            self._stage, self._acts = stage, 0
+        if any(isinstance(command, do.ShowBoard) for command in commands):
+            self._visitor.sit_down()
+        self._visitor.see(self._app.screens.board.unmatched)
+        if self._shots is not None:
+            with self.pulse.aside():
+                self._shots.watch(commands, stage)
+        if stage is Stage.OVER:
+            self._over = True
+            self._app.quit()
+
+    def _click(self, name: str) -> None:
+        """Click on the item of this name, or click it twice if in a hurry."""
+        act = self._hand.double_click if self._manner is BehaviourKind.HASTY else self._hand.click
+        act(name)
+
+
+KIB = 1024
+
+_CROWD = {
+    BehaviourKind.COMPLETES: 62,
+    BehaviourKind.LEAVES: 14,
+    BehaviourKind.HASTY: 10,
+    BehaviourKind.DECLINES: 7,
+    BehaviourKind.UNDER_AGE: 7,
+}
+"""Of a hundred visitors, how many have which manner; our own guess, with every manner well represented."""
+
+WARM_UP = 0.1
+"""The share of the day before anything is compared: pictures and sentences are loaded when they are first needed."""
+
+
+@dataclass(frozen=True)
+class ProcessUsage:
+    """What the process holds after a session; the gap is the event loop's longest during it."""
+
+    memory_kib: int
+    handles: int
+    threads: int
+    children: int
+    database_kib: int
+    longest_gap_ms: float
+
+    @classmethod
+    def now(cls, data: Path, longest_gap_ms: float) -> ProcessUsage:
+        """Look at this process, and at the files of its data folder."""
+        gc.collect()
+        process = psutil.Process()
+        stored = sum(file.stat().st_size for file in data.glob("recollect.db*"))
+        return cls(
+            process.memory_info().rss // KIB,
+            _handles(process),
+            process.num_threads(),
+            len(process.children()),
+            stored // KIB,
+            round(longest_gap_ms, 1),
+        )
+
+
+def _handles(process: psutil.Process) -> int:
+    """How many files, sockets and the like it holds."""
+    if sys.platform == "win32":
+        return process.num_handles()
+    return process.num_fds()
+
+
+def draw_visitors(sessions: int, seed: int, languages: Sequence[str]) -> Iterator[BehaviourProfile]:
+    """So many visitors of every manner, as a seed draws them."""
+    chance = Random(f"{seed}/crowd")
+    leaving = [Stage(name) for name in STAGES]
+    for _ in range(sessions):
+        manner = chance.choices(list(_CROWD), list(_CROWD.values()))[0]
+        yield BehaviourProfile(manner, chance.choice(leaving), chance.choice(languages))
+
+
+def rehearse_day(app: App, seed: int, visitors: Sequence[BehaviourProfile], data: Path) -> Iterator[ProcessUsage]:
+    """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on.
+
+    Nobody comes any more once the system asked the kiosk to end.
+    """
+    for number, visitor in enumerate(visitors):
+        rehearsal = Rehearsal(app, seed + number, visitor=visitor)
+        rehearsal.run()
+        if app.stop_requested:
+            return
+        yield ProcessUsage.now(data, rehearsal.pulse.longest_ms)
+
+
+def day_summary(visitors: Sequence[BehaviourProfile], holdings: Sequence[ProcessUsage]) -> dict[str, Any]:
+    """The day in figures: slopes per session after the warm-up, and what was held then and at the end."""
+    after = holdings[min(int(WARM_UP * len(holdings)), len(holdings) - 1) :]
+    gaps = [holding.longest_gap_ms for holding in after]
+    return {
+        "sessions": len(visitors),
+        "visitors": dict(Counter(visitor.manner.value for visitor in visitors)),
+        "slopes_per_session": {name: _slope([getattr(h, name) for h in after]) for name in asdict(after[0])},
+        "after_warm_up": asdict(after[0]),
+        "at_the_end": asdict(after[-1]),
+        "longest_gap_ms": max(gaps),
+        "median_gap_ms": median(gaps),
+        "nothing_is_left": _nothing_is_left(after[0], after[-1]),
+    }
+
+
+def _slope(values: Sequence[float]) -> float:
+    """How much a figure grew from one session to the next, by least squares."""
+    return round(linear_regression(range(len(values)), values).slope, 4) if len(values) > 1 else 0.0
+
+
+def _nothing_is_left(begun: ProcessUsage, ended: ProcessUsage) -> bool:
+    """Whether handles, threads and child processes are as few at the end as after the warm-up."""
+    return ended.handles <= begun.handles and ended.threads <= begun.threads and ended.children <= begun.children

@@ -1,1 +1,0 @@
-"""Stored sittings, played again on the screen."""

@@ -1,0 +1,219 @@
+"""The screens that a visitor reads, and goes on from: one small object each. None knows what comes next."""
+
+from __future__ import annotations
+
+import segno
+from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
+from PySide6.QtQml import QmlElement
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.information import Page
+from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+
+QUIET_MODULES = 4
+"""The white frame that a QR code must have to be found, in its own squares."""
+
+
+@QmlElement
+class ReadingScreen(QObject):
+    """Something to read, with one way on.
+
+    A property's signal is declared in the class of the property: Qt does not find it in a base.
+    """
+
+    continued = Signal()
+    """The visitor goes on."""
+
+    @Slot()
+    def proceed(self) -> None:
+        """The visitor goes on."""
+        self.continued.emit()
+
+
+@QmlElement
+class PageScreen(ReadingScreen):
+    """A title and some paragraphs."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._page: Page | None = None
+
+    def show(self, page: Page) -> None:
+        """Show this page."""
+        self._page = page
+        self.changed.emit()
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self._page = None
+        self.changed.emit()
+
+    @Property(str, notify=changed)
+    def title(self) -> str:
+        """The title."""
+        return "" if self._page is None else self._page.title
+
+    @Property(list, notify=changed)
+    def paragraphs(self) -> list[str]:
+        """The paragraphs, in their order."""
+        return [] if self._page is None else list(self._page.paragraphs)
+
+
+@QmlElement
+class AboutScreen(PageScreen):
+    """What the study is about."""
+
+
+@QmlElement
+class IntroductionScreen(ReadingScreen):
+    """What the game is about."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._helped = True
+
+    def show(self, *, helped: bool) -> None:
+        """Speak of hints, or not."""
+        self._helped = helped
+        self.changed.emit()
+
+    def clear(self) -> None:
+        """Speak of hints, as for most."""
+        self.show(helped=True)
+
+    @Property(bool, notify=changed)
+    def helped(self) -> bool:
+        """Whether hints are spoken of."""
+        return self._helped
+
+
+@QmlElement
+class ResultScreen(ReadingScreen):
+    """What the visitor achieved."""
+
+    changed = Signal()
+
+    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._catalogue = catalogue
+        self._pairs = self._moves = self._time = ""
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Tell the time in this language, from the next result on."""
+        self._catalogue = catalogue
+
+    def show(self, pairs: int, moves: int, time_ms: int) -> None:
+        """Show a finished game."""
+        minutes, seconds = divmod(round(time_ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
+        self._pairs, self._moves = str(pairs), str(moves)
+        self._time = self._catalogue.text("result-time", minutes=minutes, seconds=seconds)
+        self.changed.emit()
+
+    def clear(self) -> None:
+        """Show no figures."""
+        self._pairs = self._moves = self._time = ""
+        self.changed.emit()
+
+    @Property(str, notify=changed)
+    def pairs(self) -> str:
+        """How many pairs were found."""
+        return self._pairs
+
+    @Property(str, notify=changed)
+    def moves(self) -> str:
+        """In how many moves."""
+        return self._moves
+
+    @Property(str, notify=changed)
+    def time(self) -> str:
+        """In what time."""
+        return self._time
+
+
+@QmlElement
+class DebriefScreen(PageScreen):
+    """What the study was about, and the code to withdraw with, to be written down or photographed."""
+
+    given = Signal()
+    """Another code, contact or language."""
+
+    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._catalogue = catalogue
+        self._code = self._contact = ""
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Say in this language what the code is for."""
+        self._catalogue = catalogue
+        self.given.emit()
+
+    def give_contact(self, contact: str) -> None:
+        """Tell whom to write to."""
+        self._contact = contact
+        self.given.emit()
+
+    def give_code(self, code: str) -> None:
+        """Show this code; with an empty one nothing is said about withdrawing."""
+        if code != self._code:
+            self._code = code
+            self.given.emit()
+
+    def clear(self) -> None:
+        """Show no page and no code."""
+        self._code = self._contact = ""
+        self.given.emit()
+        super().clear()
+
+    @property
+    def payload(self) -> str:
+        """What stands in the QR code: a letter that needs only to be sent, or else what to write in one."""
+        if not self._code:
+            return ""
+        subject = self._catalogue.text("debrief-subject", code=self._code)
+        if "@" in self._contact:
+            return f"mailto:{self._contact}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
+        return f"{subject}\n{self._contact}".rstrip()
+
+    @Property(str, notify=given)
+    def code(self) -> str:
+        """The code; empty if there is none."""
+        return self._code
+
+    @Property(str, notify=given)
+    def withdrawing(self) -> str:
+        """What the code is for, in words."""
+        if not self._code:
+            return ""
+        if not self._contact:
+            return self._catalogue.text("debrief-withdraw-here")
+        return self._catalogue.text("debrief-withdraw-by-mail", contact=self._contact)
+
+    @Property(str, notify=given)
+    def picture(self) -> str:
+        """The QR code as a data address, one pixel for each of its squares, with its white frame."""
+        if not self._code:
+            return ""
+        return str(segno.make(self.payload, micro=False).png_data_uri(scale=1, border=QUIET_MODULES))
+
+    @Property(int, notify=given)
+    def squares(self) -> int:
+        """How many squares the picture is wide; 0 without one."""
+        if not self._code:
+            return 0
+        return int(segno.make(self.payload, micro=False).symbol_size(border=QUIET_MODULES)[0])
+
+
+@QmlElement
+class ThanksScreen(ReadingScreen):
+    """The end."""
+
+    def clear(self) -> None:
+        """It is the same for everybody."""

@@ -1,0 +1,293 @@
+"""The questionnaire screen: its pages, items and answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
+from PySide6.QtQml import QmlElement
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.questionnaire import (
+    Answer,
+    Differential,
+    Integer,
+    Item,
+    Likert,
+    Multiple,
+    Pictures,
+    ShortText,
+    Single,
+    Slider,
+    TextPage,
+    can_be_kept,
+    in_language,
+)
+from kiosk.ui.input import before, fitting
+
+
+def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
+    """An item as QML shows it; ``scale`` tells where the pictures of a scale are."""
+    shown = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
+    return shown | _ends(item, catalogue.language) | _choice(item, catalogue, scale)
+
+
+def _ends(item: Item, language: str) -> dict[str, Any]:
+    """The words at the two ends of a rating."""
+    match item:
+        case Likert() | Pictures():
+            return {"left": in_language(item.lowest, language), "right": in_language(item.highest, language)}
+        case Differential() | Slider():
+            return {"left": in_language(item.left, language), "right": in_language(item.right, language)}
+    return {}
+
+
+def _choice(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
+    """What there is to choose from, or how much can be typed."""
+    match item:
+        case Likert() | Differential() | Pictures():
+            return {"points": item.points, "pictures": _pictures(item, scale)}
+        case Slider():
+            return {"lowest": item.lowest, "highest": item.highest}
+        case Integer():
+            field = item.input
+            words = catalogue.text("form-range", lowest=item.lowest, highest=item.highest)
+            return {"range": words, "minus": field.has_minus, "widest": field.longest, "pattern": field.pattern}
+        case Single() | Multiple():
+            language = catalogue.language
+            return {"options": [{"id": each.id, "text": in_language(each.text, language)} for each in item.options]}
+        case ShortText():
+            return {"longest": item.longest}
+    return {}
+
+
+def _pictures(item: Likert | Differential | Pictures, scale: Callable[[str], Path]) -> list[str]:
+    """The addresses of the pictures, from the lowest point on; none where points are numbers."""
+    if not isinstance(item, Pictures):
+        return []
+    folder = scale(item.pictures)
+    return [QUrl.fromLocalFile(str(folder / f"{point}.svg")).toString() for point in range(1, item.points + 1)]
+
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+
+KEYSTROKES = 5
+"""After so many letters it is told again that somebody types: nobody who does is asked whether they are there."""
+
+
+@QmlElement
+class FormScreen(QObject):
+    """A page of items."""
+
+    changed = Signal()
+    """Another page is shown."""
+    marked = Signal()
+    """Another answer is chosen, typed or missed; apart from ``changed``, so that the items stay the same items."""
+    missed = Signal(str)
+    """The first item that is missed is to be brought into view."""
+    answered = Signal(str, object)
+    """The visitor answered an item; None takes the answer back."""
+    typed = Signal()
+    """The visitor is typing; told every few letters."""
+    filled = Signal(str, str)
+    """A field is to show this text: its answer came without anybody typing here, as in a replay."""
+    continued = Signal()
+
+    def __init__(self, catalogue: Catalogue, scale: Callable[[str], Path], parent: QObject | None = None) -> None:
+        """``scale`` tells where the pictures of a scale are, as ``1.svg`` and so on."""
+        super().__init__(parent)
+        self._catalogue = catalogue
+        self._scale = scale
+        self._items: tuple[Item, ...] = ()
+        self._number = self._of = 0
+        self._answers: dict[str, Answer] = {}
+        self._given: dict[str, Answer | None] = {}
+        """What the visitor has answered, although it may not be shown yet."""
+        self._drafts: dict[str, str] = {}
+        self._missing: tuple[str, ...] = ()
+        self._keystrokes = 0
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Ask in this language, from the next page on."""
+        self._catalogue = catalogue
+        self.marked.emit()
+
+    def show(self, items: tuple[Item, ...], number: int, of: int) -> None:
+        """Show a page, ``number`` ``of`` so many; nothing is answered."""
+        self._items, self._number, self._of = items, number, of
+        self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
+        self._keystrokes = 0
+        self.changed.emit()
+        self.marked.emit()
+
+    def show_answer(self, item: str, value: Answer | None) -> None:
+        """Show which answer is chosen."""
+        self._given[item] = value
+        if value is None:
+            self._answers.pop(item, None)
+        else:
+            self._answers[item] = value
+        self._missing = tuple(name for name in self._missing if name != item)
+        self.marked.emit()
+        if isinstance(self._item(item), Integer | ShortText) and self._typed(item) != value:
+            self.filled.emit(item, "" if value is None else str(value))
+
+    def show_missing(self, items: tuple[str, ...]) -> None:
+        """Show which items have to be answered before the visitor can go on."""
+        self._missing = items
+        self.marked.emit()
+        self.missed.emit(items[0])
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self.show((), 0, 0)
+
+    @property
+    def shown(self) -> tuple[Item, ...]:
+        """The items of the page, as anybody in front of the screen can see."""
+        return self._items
+
+    @property
+    def given(self) -> dict[str, Answer]:
+        """The answers that are chosen, as anybody in front of the screen can see."""
+        return dict(self._answers)
+
+    @Property(list, notify=changed)
+    def items(self) -> list[dict[str, Any]]:
+        """What is shown of the items, in their order."""
+        return [item_view(item, self._catalogue, self._scale) for item in self._items]
+
+    @Property(str, notify=changed)
+    def progress(self) -> str:
+        """Which page of how many this is."""
+        if self._of < 2:  # noqa: PLR2004 - a single page needs no number
+            return ""
+        return self._catalogue.text("form-progress", number=self._number, all=self._of)
+
+    @Property(bool, notify=changed)
+    def last(self) -> bool:
+        """Whether no further page follows."""
+        return self._number == self._of
+
+    @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
+    def answers(self) -> dict[str, Any]:
+        """The chosen answers, by their items."""
+        return {item: list(value) if isinstance(value, tuple) else value for item, value in self._answers.items()}
+
+    @Property(list, notify=marked)
+    def missing(self) -> list[str]:
+        """The items that have to be answered first, or have an answer that cannot be."""
+        return list(self._missing)
+
+    @Property(list, notify=marked)
+    def refused(self) -> list[str]:
+        """The fields in which a character stands that cannot be kept."""
+        return [item for item, text in self._drafts.items() if not can_be_kept(text)]
+
+    @Property(bool, notify=marked)
+    def skips(self) -> bool:
+        """Whether to go on is to leave out everything on this page, and one may."""
+        asked = [item for item in self._items if not isinstance(item, TextPage)]
+        untouched = not self._answers and not any(self._drafts.values())
+        return bool(asked) and untouched and not any(item.required for item in asked)
+
+    @Slot(str, int)
+    def rate(self, item: str, value: int) -> None:
+        """The visitor chooses a point of a scale."""
+        self._answer(item, value)
+
+    @Slot(str, str)
+    def choose(self, item: str, option: str) -> None:
+        """The visitor chooses one of several options."""
+        self._answer(item, option)
+
+    @Slot(str, str)
+    def toggle(self, item: str, option: str) -> None:
+        """The visitor adds one of several options, or takes it away."""
+        before = self._given.get(item, ())
+        chosen = before if isinstance(before, tuple) else ()
+        after = set(chosen) ^ {option}
+        self._answer(item, tuple(known for known in self._options(item) if known in after) or None)
+
+    @Slot(str, str)
+    def draft(self, item: str, text: str) -> None:
+        """The visitor is typing; this is what stands there now."""
+        self._drafts[item] = text
+        self.marked.emit()
+        self._keystrokes += 1
+        if self._keystrokes % KEYSTROKES == 0:
+            self.typed.emit()
+
+    @Slot(str, str, int, result=str)
+    def step(self, item: str, text: str, by: int) -> str:
+        """What stands in a number's field after one step up or down from this text."""
+        asked = self._item(item)
+        return str(asked.input.step(text, by)) if isinstance(asked, Integer) else text
+
+    @Slot(str, str, result=str)
+    def negate(self, item: str, text: str) -> str:
+        """What stands in a number's field once its minus sign came, or went."""
+        asked = self._item(item)
+        return asked.input.negate(text) if isinstance(asked, Integer) else text
+
+    @Slot(str, int, result=int)
+    def before(self, text: str, place: int) -> int:
+        """Where the character begins that ends at a place in a text, as Qt counts places."""
+        return before(text, place)
+
+    @Slot(str, int, int, result=int)
+    def fitting(self, text: str, place: int, longest: int) -> int:
+        """Where the part before a place has to end for a text to be no longer than a number of characters."""
+        return fitting(text, place, longest)
+
+    @Slot(str)
+    def finish(self, item: str) -> None:
+        """The visitor has done with typing, for now."""
+        if item not in self._drafts or self._is_wrong(item):
+            return
+        typed = self._typed(item)
+        if typed != self._answers.get(item):
+            self._answer(item, typed)
+
+    @Slot()
+    def proceed(self) -> None:
+        """The visitor goes on; what is typed is answered first, and what cannot be an answer has to be mended."""
+        for item in tuple(self._drafts):
+            self.finish(item)
+        wrong = tuple(item for item in self._drafts if self._is_wrong(item))
+        if wrong:
+            self.show_missing(wrong)
+        else:
+            self.continued.emit()
+
+    def _answer(self, item: str, value: Answer | None) -> None:
+        self._given[item] = value
+        self.answered.emit(item, value)
+
+    def _typed(self, name: str) -> Answer | None:
+        """What stands in a field, as an answer, spaces and all.
+
+        None for blanks alone, which say nothing, and for what is no number where one is asked for.
+        """
+        text, item = self._drafts.get(name, ""), self._item(name)
+        if isinstance(item, Integer):
+            return item.input.read(text.strip())
+        return text if text.strip() else None
+
+    def _is_wrong(self, name: str) -> bool:
+        """Whether something stands in a field that cannot be an answer."""
+        text, typed = self._drafts.get(name, ""), self._typed(name)
+        if typed is None:
+            return bool(text.strip()) or not can_be_kept(text)
+        return not self._item(name).accepts(typed)
+
+    def _item(self, name: str) -> Item:
+        return next(item for item in self._items if item.id == name)
+
+    def _options(self, name: str) -> tuple[str, ...]:
+        item = self._item(name)
+        return item.ids if isinstance(item, Single | Multiple) else ()

@@ -1,0 +1,128 @@
+"""Every screen there is, together: what they all are told at once, and whom they tell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject, QUrl
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import WorldEvent
+from kiosk.experiment.session_config import StudyConfig
+from kiosk.ui.experimenter.view_model import ExperimenterScreen
+from kiosk.ui.screens.avatar import AvatarScreen
+from kiosk.ui.screens.board import BoardScreen
+from kiosk.ui.screens.consent import AgeScreen, ConsentScreen
+from kiosk.ui.screens.pages import AboutScreen, DebriefScreen, IntroductionScreen, ResultScreen, ThanksScreen
+from kiosk.ui.screens.questionnaire import FormScreen
+from kiosk.ui.screens.shell import AttractScreen, KioskScreen
+
+
+class Dispatch(Protocol):
+    """Takes an event of this kind, with what belongs to it."""
+
+    def __call__(self, kind: type[WorldEvent], **what: object) -> None:
+        """Something happened just now."""
+        ...
+
+
+@dataclass(frozen=True)
+class ScreenSet:
+    """Everything that can be shown."""
+
+    kiosk: KioskScreen
+    attract: AttractScreen
+    about: AboutScreen
+    consent: ConsentScreen
+    age: AgeScreen
+    form: FormScreen
+    introduction: IntroductionScreen
+    board: BoardScreen
+    result: ResultScreen
+    debrief: DebriefScreen
+    thanks: ThanksScreen
+    avatar: AvatarScreen
+    experimenter: ExperimenterScreen
+
+    @classmethod
+    def of(cls, study: StudyConfig, owner: QObject) -> ScreenSet:
+        """The screens of a study, all of them empty; they live as long as ``owner``."""
+        catalogues = [plan.catalogue for plan in study.plans]
+        first, find = catalogues[0], study.settings.find
+        return cls(
+            kiosk=KioskScreen(first, owner),
+            attract=AttractScreen(_pictures(study, partial(find, "cards")), catalogues, owner),
+            about=AboutScreen(owner),
+            consent=ConsentScreen(owner),
+            age=AgeScreen(first, owner),
+            form=FormScreen(first, partial(find, "scales"), owner),
+            introduction=IntroductionScreen(owner),
+            board=BoardScreen(first, partial(find, "cards"), owner),
+            result=ResultScreen(first, owner),
+            debrief=DebriefScreen(first, owner),
+            thanks=ThanksScreen(owner),
+            avatar=AvatarScreen(owner),
+            experimenter=ExperimenterScreen(owner),
+        )
+
+    @property
+    def resting(self) -> Catalogue:
+        """The language while nobody is there."""
+        return self.attract.resting
+
+    @property
+    def by_name(self) -> dict[str, QObject]:
+        """Every screen by its name, which is also what QML calls it."""
+        return {name: screen for name, screen in vars(self).items() if isinstance(screen, QObject)}
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Show everything in this language."""
+        for screen in (self.kiosk, self.age, self.form, self.board, self.result, self.debrief):
+            screen.set_language(catalogue)
+
+    def clear(self) -> None:
+        """Leave nothing of a visitor, and show the language again that is shown at rest."""
+        for screen in (
+            self.kiosk,
+            self.attract,
+            self.about,
+            self.consent,
+            self.age,
+            self.form,
+            self.introduction,
+            self.board,
+            self.result,
+            self.debrief,
+            self.thanks,
+            self.avatar,
+        ):
+            screen.clear()
+        self.set_language(self.resting)
+
+    def listen(self, start: Callable[[str], None], tell: Dispatch) -> None:
+        """Hand on what visitors do: ``start`` takes the language of a new one, ``tell`` everything after that."""
+        self.attract.started.connect(start)
+        self.kiosk.confirmed.connect(partial(tell, happened.PresenceConfirmed))
+        self.consent.ticked.connect(
+            lambda purpose, ticked: tell(happened.ConsentPurposeToggled, purpose=purpose, ticked=ticked)
+        )
+        self.consent.agreed.connect(partial(tell, happened.ConsentSubmitted))
+        self.consent.declined.connect(partial(tell, happened.ConsentDeclined))
+        self.age.answered.connect(lambda adult: tell(happened.AgeConfirmed, adult=adult))
+        self.form.typed.connect(partial(tell, happened.TypingActivity))
+        self.form.answered.connect(lambda item, value: tell(happened.ResponseGiven, item=item, value=value))
+        self.board.tapped.connect(lambda position: tell(happened.CardSelected, position=position))
+        self.board.skipped.connect(partial(tell, happened.PracticeSkipped))
+        for screen in (self.about, self.form, self.introduction, self.result, self.debrief, self.thanks):
+            screen.continued.connect(partial(tell, happened.ContinuePressed))
+
+
+def _pictures(study: StudyConfig, folder_of: Callable[[str], Path]) -> list[str]:
+    """The addresses of the pictures of the game's deck."""
+    folder = folder_of(study.settings.game.deck)
+    return [QUrl.fromLocalFile(str(folder / f"{card}.svg")).toString() for card in study.plans[0].deck]

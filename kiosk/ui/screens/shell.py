@@ -1,0 +1,260 @@
+"""The window as a whole, and what draws people to it. Neither knows what comes next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Property, QObject, Signal, Slot
+from PySide6.QtQml import QmlElement
+
+from kiosk.assistance.wording import Catalogue
+from kiosk.ui.screens.texts import fixed_texts
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+_NO_CARD = -1
+
+
+@QmlElement
+class KioskScreen(QObject):
+    """The window as a whole: which screen is shown, in which language, and what lies over it."""
+
+    changed = Signal()
+    spoken = Signal()
+    """Another language is spoken; apart from ``changed``, because all texts follow."""
+    confirmed = Signal()
+    """The visitor said that they are still there."""
+    unsettled = Signal()
+    """Something else is shown than a moment ago."""
+
+    def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._words = fixed_texts(catalogue)
+        self._screen = "attract"
+        self._asks_still_there = False
+        self._paused = self._behind_panel = self._waits = False
+        self._leaving = False
+        self._settled = True
+
+    def set_language(self, catalogue: Catalogue) -> None:
+        """Show every fixed text in this language."""
+        self._words = fixed_texts(catalogue)
+        self.spoken.emit()
+
+    def show(self, screen: str) -> None:
+        """Show the screen of this name; it takes no input until ``settle``."""
+        self._screen = screen
+        self._unsettle()
+
+    def end_input_guard(self) -> None:
+        """Take input: whoever clicked twice on the last screen has let go by now."""
+        self._settled = True
+        self.changed.emit()
+
+    def ask_still_there(self, *, asks: bool) -> None:
+        """Ask over whatever is shown, or stop asking."""
+        if asks != self._asks_still_there:
+            self._asks_still_there = asks
+            self._unsettle()
+
+    def pause(self, *, paused: bool) -> None:
+        """Cover everything with a calm word, or take it away."""
+        if paused != self._paused:
+            self._paused = paused
+            self._unsettle()
+
+    def wait(self, *, waits: bool) -> None:
+        """Ask the visitor for a moment, over whatever is shown, or let them go on."""
+        if waits != self._waits:
+            self._waits = waits
+            self._unsettle()
+
+    def step_back(self, steps_back: bool) -> None:  # noqa: FBT001 - it is what is set
+        """Leave input to the experimenter's panel, or take it again."""
+        self._behind_panel = steps_back
+        self._unsettle()
+
+    def clear(self) -> None:
+        """Nothing of a session lies over the screen."""
+        self.ask_still_there(asks=False)
+        self.pause(paused=False)
+        self.wait(waits=False)
+
+    @property
+    def shown(self) -> str:
+        """The name of the screen that is shown."""
+        return self._screen
+
+    @property
+    def takes_input(self) -> bool:
+        """Whether what is shown can be tapped."""
+        return self._settled
+
+    @property
+    def waits_for_answer(self) -> bool:
+        """Whether the visitor is asked if they are still there, and nothing lies over that question."""
+        return self._asks_still_there and not (self._paused or self._waits or self._behind_panel)
+
+    @property
+    def covered(self) -> bool:
+        """Whether a question, a calm word or the experimenter's panel lies over the screen."""
+        return self._asks_still_there or self._paused or self._waits or self._behind_panel
+
+    @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
+    def words(self) -> dict[str, str]:
+        """The fixed texts, by the names of their messages."""
+        return self._words
+
+    @Property(str, notify=changed)
+    def screen(self) -> str:
+        """The name of the screen that is shown."""
+        return self._screen
+
+    @Property(bool, notify=changed)
+    def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether the visitor is asked if they are still there."""
+        return self._asks_still_there and not (self._paused or self._waits)
+
+    @Property(bool, notify=changed)
+    def waits(self) -> bool:
+        """Whether the visitor is asked for a moment."""
+        return self._waits and not self._paused
+
+    @Property(bool, notify=changed)
+    def paused(self) -> bool:
+        """Whether a calm word covers everything."""
+        return self._paused
+
+    @Property(bool, notify=changed)
+    def bare(self) -> bool:
+        """Whether nothing lies over the screen."""
+        return not self.covered
+
+    @Property(bool, notify=changed)
+    def settled(self) -> bool:
+        """Whether what is shown can be tapped."""
+        return self._settled
+
+    @Property(bool, notify=changed)
+    def leaving(self) -> bool:
+        """Whether the window may be closed."""
+        return self._leaving
+
+    def let_go(self) -> None:
+        """Let the window be closed."""
+        self._leaving = True
+        self.changed.emit()
+
+    @Slot()
+    def confirm(self) -> None:
+        """The visitor is still there."""
+        self.confirmed.emit()
+
+    def _unsettle(self) -> None:
+        self._settled = False
+        self.changed.emit()
+        self.unsettled.emit()
+
+
+@QmlElement
+class AttractScreen(QObject):
+    """What draws people in: cards that turn, a title in one language after another, and a way in for each of them."""
+
+    changed = Signal()
+    started = Signal(str)
+    """A visitor begins, in this language."""
+
+    def __init__(self, pictures: Sequence[str], catalogues: Sequence[Catalogue], parent: QObject | None = None) -> None:
+        """Show these pictures; the first of the languages is shown first."""
+        super().__init__(parent)
+        self._pictures = list(pictures)
+        self._catalogues = tuple(catalogues)
+        self._shown = self._language = self._first = 0
+        self._up = True
+        self._trial: str | None = None
+
+    def show_trial(self, shortcut: str) -> None:
+        """Say that this is a trial, and by which shortcut it is left; it may have none."""
+        self._trial = shortcut
+        self.changed.emit()
+
+    @property
+    def resting(self) -> Catalogue:
+        """The language while nobody is there."""
+        return self._catalogues[self._first]
+
+    def rest_in(self, language: str) -> None:
+        """Show this language first, from the next time on that nobody is there."""
+        self._first = [catalogue.language for catalogue in self._catalogues].index(language)
+
+    def animate(self) -> None:
+        """Turn back the card that is up; or, when none is, turn up the next one: two never move at once."""
+        self._up = not self._up
+        if self._up:
+            self._shown = (self._shown + 1) % len(self._pictures)
+        self.changed.emit()
+
+    def next_language(self) -> None:
+        """Show the title in the next language."""
+        self._language = (self._language + 1) % len(self._catalogues)
+        self.changed.emit()
+
+    @property
+    def greetings(self) -> tuple[str, ...]:
+        """What may be shown to whoever passes, in the language of the moment."""
+        return self._catalogues[self._language].wordings("attract-greeting")
+
+    def clear(self) -> None:
+        """Begin anew, with the first card and the first language."""
+        self._shown, self._language = 0, self._first
+        self._up = True
+        self.changed.emit()
+
+    @Property(list, constant=True)
+    def pictures(self) -> list[str]:
+        """Where the pictures of the cards are, as addresses."""
+        return self._pictures
+
+    @Property(int, notify=changed)
+    def shown(self) -> int:
+        """Which of the cards is turned up; -1 for none."""
+        return self._shown if self._up else _NO_CARD
+
+    @Property(str, notify=changed)
+    def title(self) -> str:
+        """The title, in the language of the moment."""
+        return self._text("attract-title")
+
+    @Property(str, notify=changed)
+    def line(self) -> str:
+        """The line below it, in the same language."""
+        return self._text("attract-line")
+
+    @Property(str, notify=changed)
+    def trial(self) -> str:
+        """That this is a trial, and how it is left, in the same language; empty if it is none."""
+        if self._trial is None:
+            return ""
+        text = self._catalogues[self._language].text
+        return text("attract-trial", shortcut=self._trial) if self._trial else text("attract-trial-keyless")
+
+    @Property(list, constant=True)
+    def ways(self) -> list[dict[str, str]]:
+        """The ways in, one for each language: its code, its name, and "start" in it."""
+        return [
+            {
+                "language": catalogue.language,
+                "name": catalogue.text("language-name"),
+                "start": catalogue.text("attract-start"),
+            }
+            for catalogue in self._catalogues
+        ]
+
+    @Slot(str)
+    def start(self, language: str) -> None:
+        """A visitor begins, in this language."""
+        self.started.emit(language)
+
+    def _text(self, message: str) -> str:
+        return self._catalogues[self._language].text(message)

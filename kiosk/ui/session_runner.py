@@ -1,0 +1,523 @@
+"""Run one session after another: record each event, then show and speak its effects."""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Self
+
+from kiosk import StoreFailed
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import EmbodimentName, Event, Stage, Timer, WorldEvent
+from kiosk.experiment.experimenter import AuditEvent
+from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.session import RecordingState, Session
+from kiosk.experiment.session_config import SessionKind, StudyConfig
+from kiosk.experiment.transitions import InvalidTransition
+from kiosk.robots.embodiment import EmbodimentSelector
+from kiosk.store.recorder import Provenance, Recorder, StoreBusy
+from kiosk.ui.event_loop import Clock, TimerWait
+from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
+from kiosk.ui.screens.registry import ScreenSet
+from kiosk.units import MS_PER_SECOND
+
+
+@dataclass(frozen=True)
+class _Choice:
+    """A condition that the experimenter chose; a later choice is another one, even of the same condition."""
+
+    condition: Condition
+
+
+@dataclass(frozen=True)
+class RunContext:
+    """What all sessions of a run of the program have in common."""
+
+    code_commit: str
+    simulated: bool | SessionKind
+    seed: Callable[[], int]
+    """Gives every session a seed of its own."""
+    condition: Condition | None = None
+    """Every session is in this one, whatever the list says, and takes no place in it."""
+
+
+class ConditionAssigner:
+    """Chooses the next session's condition: the experimenter's, else the list's next, else the study file's."""
+
+    def __init__(self, study: StudyConfig, recorder: Recorder, origin: RunContext) -> None:
+        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed, or StoreFailed."""
+        self.study = study
+        self._recorder = recorder
+        self._origin = origin
+        self._choice: _Choice | None = None
+        self._followed: _Choice | None = None
+        """The choice that the latest session follows."""
+        allocation = study.settings.allocation
+        quotas = {Condition.from_name(name): quota for name, quota in allocation.quotas.items()}
+        self._listed = bool(quotas) and origin.condition is None
+        if self._listed:
+            recorder.create_allocation_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
+
+    @property
+    def kind(self) -> SessionKind:
+        """Who sits there."""
+        return SessionKind(self._origin.simulated)
+
+    @property
+    def chosen(self) -> Condition | None:
+        """The condition that the experimenter chose for the next session; None for the list's."""
+        return self._choice.condition if self._choice else None
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether the choice is that of the visitor who sits there, and not yet one for the visitor after."""
+        return self._choice is not None and self._choice is self._followed
+
+    def choose(self, condition: Condition | None, reason: str) -> None:
+        """Have the next session in this condition, or, with None, in the list's; raises StoreFailed."""
+        name = condition.value if condition else "automatic"
+        self._recorder.add_audit_event(AuditEvent.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
+        self._choice = None if condition is None else _Choice(condition)
+
+    def next_session(self, language: str) -> Provenance:
+        """What the next session is to follow; raises StoreFailed."""
+        self._followed = self._choice
+        place = self._next_place() if self._listed and self._choice is None else None
+        condition = self.chosen or (place.condition if place else self._origin.condition)
+        return Provenance(
+            self.study.plan(language, condition),
+            self._origin.seed(),
+            EmbodimentName.AVATAR.value,
+            self._origin.code_commit,
+            simulated=self._origin.simulated,
+            slot=place,
+            allocation_source=self._allotted(place),
+        )
+
+    def confirm_recorded(self, provenance: Provenance) -> None:
+        """Note that a session is on record: what was chosen for it does not hold for the one after."""
+        if provenance.allocation_source is AllocationSource.OVERRIDE and self._choice is self._followed:
+            self._choice = None
+
+    def _next_place(self) -> AllocationSlot | None:
+        return self._recorder.next_slot(simulated=self._origin.simulated)
+
+    def _allotted(self, place: AllocationSlot | None) -> AllocationSource | None:
+        if self._choice is not None:
+            return AllocationSource.OVERRIDE
+        if not self._listed:
+            return None
+        return AllocationSource.BEYOND if place is None else AllocationSource.LIST
+
+
+class SessionRecording:
+    """What becomes of a session's events."""
+
+    def __init__(self, recorder: Recorder, provenance: Provenance, kept: Callable[[], None] = lambda: None) -> None:
+        """Nothing is written until a command says so; ``kept`` is told when it is."""
+        self.code = ""
+        """What the participant can withdraw with; empty while nothing is stored."""
+        self._recorder = recorder
+        self._provenance = provenance
+        self._kept = kept
+        self._keeping = RecordingState.UNDECIDED
+        self._held: list[Event] = []
+
+    @classmethod
+    def resumed(cls, recorder: Recorder, provenance: Provenance, number: int) -> Self:
+        """The record of a stored session that goes on."""
+        record = cls(recorder, provenance)
+        record.code = recorder.resume(number).code
+        record._keeping = RecordingState.KEPT
+        return record
+
+    def write(self, event: WorldEvent, commands: tuple[Effect, ...]) -> None:
+        """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it.
+
+        Where it raises nothing has changed, so the same event can be written again after StoreBusy.
+        """
+        events = (event, *(command.event for command in commands if isinstance(command, do.EmitEvent)))
+        forgotten = next((command for command in commands if isinstance(command, do.DiscardRecording)), None)
+        if self._keeping is RecordingState.KEPT:
+            self._recorder.append(events)
+        elif forgotten is not None:
+            self._recorder.count_visit(forgotten.why, simulated=self._provenance.simulated)
+            self._keeping = RecordingState.FORGOTTEN
+            self._held.clear()
+        elif self._keeping is RecordingState.UNDECIDED:
+            held = [*self._held, *events]
+            if any(isinstance(command, do.StartRecording) for command in commands):
+                self._keep(held)
+            else:
+                self._held = held
+
+    def _keep(self, events: list[Event]) -> None:
+        self.code = self._recorder.begin(self._provenance, events).code
+        self._keeping = RecordingState.KEPT
+        self._held.clear()
+        self._kept()
+
+
+RETRY_MS = 20
+"""How long until the same is tried again."""
+TOLD_AFTER_MS = 1_000
+"""A longer wait is told to the person in front of the screen."""
+LONGEST_MS = 120_000
+"""After so long the database counts as failed."""
+
+
+class BusyWait:
+    """One wait for the database, from the first attempt that found it held to the one that did not."""
+
+    def __init__(self, clock: Clock, recorder_waits_ms: int, show: Callable[[bool], None]) -> None:
+        """``show`` is told when the wait has become long, and again when a long wait is over.
+
+        A recorder that waits by itself at each attempt is tried again at once, so that virtual time stands still.
+        """
+        self._clock = clock
+        self._retry_ms = 0 if recorder_waits_ms else RETRY_MS
+        self._step_ms = recorder_waits_ms or RETRY_MS
+        self._show = show
+        self._wait: TimerWait | None = None
+        self._waited_ms = 0
+
+    @property
+    def under_way(self) -> bool:
+        """Whether something is to be tried again."""
+        return self._wait is not None
+
+    def try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
+        """Call back soon; raises StoreFailed, and ends the wait, once it has taken too long."""
+        self._waited_ms += self._step_ms
+        if self._waited_ms > LONGEST_MS:
+            self.end()
+            raise StoreFailed(f"{busy}; it was tried for {LONGEST_MS // MS_PER_SECOND} s") from busy
+        if self._waited_ms >= TOLD_AFTER_MS:
+            self._show(True)  # noqa: FBT003 - it is what is shown
+        self._wait = self._clock.after(self._retry_ms, lambda: self._call(call))
+
+    def end(self) -> None:
+        """Wait no more: the database took it, or nothing is to be tried again."""
+        if self._wait is not None:
+            self._wait.cancel()
+            self._wait = None
+        if self._waited_ms >= TOLD_AFTER_MS:
+            self._show(False)  # noqa: FBT003 - as above
+        self._waited_ms = 0
+
+    def _call(self, call: Callable[[], None]) -> None:
+        self._wait = None
+        call()
+
+
+PAUSE_MS = 8_000
+"""How long the error screen stays before the kiosk tries to go on."""
+
+CLOSING_WAIT_MS = 2_000
+"""How long closing waits for another program that holds the database; the supervisor waits five seconds."""
+
+_log = logging.getLogger(__name__)
+
+Witness = Callable[[WorldEvent, tuple[Effect, ...], Stage], None]
+"""Is told of every event once its commands were carried out, and of the stage that the session is in."""
+
+
+@dataclass(frozen=True)
+class _Queued:
+    """What happened, and waits for its turn."""
+
+    event: WorldEvent
+    by_visitor: bool
+    """Whether it answers what was on the screen then."""
+
+
+class SessionRunner:
+    """Runs one session after another; it is also the body's listener."""
+
+    def __init__(self, screens: ScreenSet, recorder: Recorder, clock: Clock, assigner: ConditionAssigner) -> None:
+        """``assigner`` is asked once for each provenance, when it begins."""
+        self.on_event: Witness | None = None
+        self.play_sound: Callable[[SoundEffect], None] = lambda _: None
+        self.on_session_started: Callable[[], None] = lambda: None
+        """Is told when a visitor has begun, or a session goes on."""
+        self.on_idle: Callable[[], None] = lambda: None
+        """Is told when no session is under way any more."""
+        self.last_activity_ms: Callable[[], int | None] = lambda: None
+        """When the visitor last did anything to the screen, on the clock; None if they never did."""
+        self._idle_since = 0
+        self._shut = False
+        self._calm: TimerWait | None = None
+        self._recorder = recorder
+        self._clock = clock
+        self._assigner = assigner
+        self._renderer = Renderer(screens, clock, self._timer_ended)
+        self._queue: deque[_Queued] = deque()
+        self._unwritten: tuple[WorldEvent, tuple[Effect, ...]] | None = None
+        """What the session has concluded, and the database has not taken yet."""
+        self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
+        self._working = self._screen_changed = False
+        self._begun_at = 0
+        self._session: Session | None = None
+        self._record: SessionRecording | None = None
+        screens.listen(self.start, self._tell_of_visitor)
+        screens.kiosk.unsettled.connect(self._note_change)
+        self._renderer.reset("attract")
+
+    @property
+    def stage(self) -> Stage:
+        """The stage of the session that is under way; attract if there is none."""
+        return Stage.ATTRACT if self._session is None else self._session.stage
+
+    @property
+    def is_blocked(self) -> bool:
+        """Whether the error screen is up, where nobody can begin."""
+        return self._session is None and self._renderer.screens.kiosk.shown == "pause"
+
+    def accepts(self, kind: type[WorldEvent], **what: object) -> bool:
+        """Whether this event has a place in the session now."""
+        if self._session is None:
+            return False
+        try:
+            self._session.check(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+        except InvalidTransition:
+            return False
+        return True
+
+    def set_embodiments(self, embodiments: EmbodimentSelector) -> None:
+        """Let these embodiments speak; embodiments report to the runner, so it is there before them."""
+        self._renderer.embodiments = embodiments
+
+    def start(self, language: str) -> None:
+        """A visitor begins, in this language; nothing happens while somebody else is at it."""
+        if self._session is None and not self._busy.under_way and self._renderer.screens.kiosk.shown == "attract":
+            self._start(language, self._clock.now_ms())
+
+    def _start(self, language: str, tapped_at: int) -> None:
+        try:
+            provenance = self._with_body(self._assigner.next_session(language))
+        except StoreBusy as busy:
+            self._try_again(partial(self._start, language, tapped_at), busy)
+            return
+        except StoreFailed as failure:
+            self._give_way(failure)
+            return
+        self._busy.end()
+        record = SessionRecording(self._recorder, provenance, partial(self._assigner.confirm_recorded, provenance))
+        self._begin(provenance, record, tapped_at)
+        self._enqueue(happened.SessionStarted(at_ms=0))
+        self._tell_begun()
+
+    def resume(
+        self,
+        provenance: Provenance,
+        number: int,
+        past: tuple[WorldEvent, ...],
+        noted: Callable[[], bool] = lambda: True,
+    ) -> None:
+        """Go on with a session that was cut off after these events, from the start of the stage it was in.
+
+        ``noted`` writes that down once it is known to be possible; if it says no, everything stays as it is. So it does
+        where this raises: UnexpectedEvent if that stage cannot begin anew, BadInput or StoreFailed from the store.
+        """
+        session = Session(provenance.plan, provenance.seed)
+        for event in past:
+            session.handle(event)
+        body = self._renderer.body_name
+        resumed = happened.SessionResumed(at_ms=past[-1].at_ms, body=body or happened.EmbodimentName.AVATAR)
+        session.check(resumed)
+        record = SessionRecording.resumed(self._recorder, provenance, number)
+        if not noted():
+            return
+        self._begin(provenance, record, self._clock.now_ms() - past[-1].at_ms, session)
+        self.tell(happened.SessionResumed, body=resumed.body)
+        self._tell_begun()
+
+    def tell(self, kind: type[WorldEvent], **what: object) -> None:
+        """Something happened just now; without a session it does not matter."""
+        if self._session is not None:
+            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+
+    def _tell_of_visitor(self, kind: type[WorldEvent], **what: object) -> None:
+        """The visitor did something to what is on the screen."""
+        if self._session is not None:
+            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what), by_visitor=True)
+
+    def _enqueue(self, event: WorldEvent, *, by_visitor: bool = False) -> None:
+        self._queue.append(_Queued(event, by_visitor))
+        # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
+        if not self._working and not self._busy.under_way:
+            self._work()
+
+    def _timer_ended(self, timer: Timer) -> None:
+        last = self.last_activity_ms()
+        if timer is Timer.IDLE and last is not None and last > self._idle_since:
+            # Whoever scrolls, or goes about by keyboard, is there: the idle time counts from the last of it.
+            self.tell(happened.UserActivity, ago_ms=self._clock.now_ms() - last)
+        else:
+            self.tell(happened.TimerExpired, timer=timer)
+
+    def speech_started(self, utterance: int) -> None:
+        """The body began to say a sentence."""
+        self.tell(happened.SpeechStarted, utterance=utterance)
+
+    def speech_finished(self, utterance: int) -> None:
+        """The body has said a sentence."""
+        self.tell(happened.SpeechFinished, utterance=utterance)
+
+    def speech_failed(self, utterance: int, why: str) -> None:
+        """The body will not say a sentence, or not to its end."""
+        self.tell(happened.SpeechFailed, utterance=utterance, why=why)
+
+    def robot_lost(self, why: str) -> None:
+        """The robot that was helping cannot be counted on any more."""
+        self.tell(happened.RobotDisconnected, why=why)
+
+    def close(self) -> None:
+        """End the session that is under way, if there is one, because the program is being closed.
+
+        Another program that holds the database is waited for now, because no loop runs that could try again. If that
+        is in vain, the session counts as interrupted from the last thing that was written.
+        """
+        self._busy.end()
+        with self._recorder.retrying(CLOSING_WAIT_MS):
+            self.tell(happened.ApplicationClosed)
+        if self._busy.under_way:
+            _log.error("what happened last could not be written: another program holds the database")
+            self._busy.end()
+
+    def pause(self) -> None:
+        """Drop the session behind the error screen after a failure, then go on."""
+        self._rest("pause")
+        self._stay_calm()
+
+    def _stay_calm(self) -> None:
+        if self._calm is not None:
+            self._calm.cancel()
+        self._calm = self._clock.after(PAUSE_MS, self.go_on)
+
+    def go_on(self) -> None:
+        """Leave the error screen; nothing happens while a session is under way."""
+        if self.is_blocked:
+            self._rest("attract")
+
+    def set_closed(self, *, shut: bool) -> None:
+        """Let nobody begin, or everybody again; a session that is under way goes on to its end."""
+        self._shut = shut
+        if self._session is None and shut is not self.is_blocked:
+            self._rest("attract")
+
+    def _tell_begun(self) -> None:
+        # There is no session any more if the disk did not take its first event.
+        if self._session is not None:
+            self.on_session_started()
+
+    def _begin(
+        self, provenance: Provenance, record: SessionRecording, begun_at: int, session: Session | None = None
+    ) -> None:
+        self._session = session or Session(provenance.plan, provenance.seed)
+        self._record = record
+        self._begun_at = begun_at
+        self._renderer.begin(provenance.plan)
+
+    def _with_body(self, provenance: Provenance) -> Provenance:
+        """The session with the body that it begins with, whichever was meant."""
+        body = self._renderer.body_name
+        return provenance if body is None else replace(provenance, body=body.value)
+
+    def _rest(self, screen: str) -> None:
+        """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""
+        self._busy.end()
+        self._queue.clear()
+        self._session = self._record = self._unwritten = None
+        self._renderer.reset("pause" if self._shut else screen)
+        self.on_idle()
+
+    def _work(self) -> None:
+        """Take what happened in turn, until nothing is left or the database cannot take it now."""
+        self._working = True
+        try:
+            while self._session is not None and self._record is not None and self._decided(self._session):
+                if not self._written(self._record):
+                    return
+                self._carry_out(self._session, self._record)
+        finally:
+            self._working = False
+
+    def _decided(self, session: Session) -> bool:
+        """Whether there is something to be written; what has no place in the session is passed over."""
+        while self._unwritten is None and self._queue:
+            event = self._queue.popleft().event
+            try:
+                self._unwritten = (event, session.handle(event))
+            except InvalidTransition as refusal:
+                _log.info("%s", refusal)
+        return self._unwritten is not None
+
+    def _written(self, record: SessionRecording) -> bool:
+        """Write what was concluded; whether the database took it. Nothing of it is shown before."""
+        if self._unwritten is None:
+            return True
+        try:
+            record.write(*self._unwritten)
+        except StoreBusy as busy:
+            self._try_again(self._work, busy)
+            return False
+        except StoreFailed as failure:
+            self._give_way(failure)
+            return False
+        self._busy.end()
+        return True
+
+    def _carry_out(self, session: Session, record: SessionRecording) -> None:
+        if self._unwritten is None:
+            return
+        (event, commands), self._unwritten = self._unwritten, None
+        self._screen_changed = False
+        self._perform(commands, record)
+        self._queue = deque(one for one in self._queue if not self._is_outrun(one, commands))
+        if self.on_event is not None:
+            self.on_event(event, commands, session.stage)
+        if session.stage is Stage.OVER:
+            self._rest("attract")
+
+    def _is_outrun(self, queued: _Queued, commands: tuple[Effect, ...]) -> bool:
+        """Whether what waits belongs to what these commands have ended."""
+        timers = {command.timer for command in commands if isinstance(command, (do.StartTimer, do.StopTimer))}
+        match queued.event:
+            case happened.TimerExpired(timer=timer):
+                # It ended while the command to stop it, or to begin it anew, waited for the database.
+                return timer in timers
+            case happened.UserActivity():
+                # It was to put off an idle time that has begun anew meanwhile.
+                return Timer.IDLE in timers
+        # As with a double click: what was tapped meanwhile was meant for what was there before.
+        return queued.by_visitor and self._screen_changed
+
+    def _note_change(self) -> None:
+        self._screen_changed = True
+
+    def _try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
+        try:
+            self._busy.try_again(call, busy)
+        except StoreFailed as failure:
+            self._give_way(failure)
+
+    def _perform(self, commands: tuple[Effect, ...], record: SessionRecording) -> None:
+        self._renderer.screens.debrief.give_code(record.code)
+        for command in commands:
+            if isinstance(command, do.StartTimer) and command.timer is Timer.IDLE:
+                self._idle_since = self._clock.now_ms()
+            self._renderer.perform(command)
+        sound = sound_for(commands)
+        if sound is not None:
+            self.play_sound(sound)
+
+    def _give_way(self, failure: StoreFailed) -> None:
+        _log.error("%s", failure)
+        self.pause()

@@ -1,0 +1,309 @@
+"""A simulated visitor who drives the real window: clicks, forms and pace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from random import Random
+
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QGuiApplication, QKeyEvent
+from PySide6.QtQuick import QQuickItem, QQuickWindow
+from PySide6.QtTest import QTest
+
+from kiosk.experiment.events import Stage
+from kiosk.experiment.questionnaire import (
+    Differential,
+    Integer,
+    Item,
+    Likert,
+    Multiple,
+    Pictures,
+    ShortText,
+    Single,
+    Slider,
+)
+from kiosk.game import Position
+
+LEFT = Qt.MouseButton.LeftButton
+NO_KEY = Qt.KeyboardModifier.NoModifier
+MOST_SCROLLS = 50
+
+
+Aside = Callable[[], AbstractContextManager[None]]
+
+
+class UiTimeout(Exception):
+    """The visitor cannot go on; the message says where, and what was looked for."""
+
+
+class UiDriver:
+    """Clicks and types in one window."""
+
+    def __init__(self, window: QQuickWindow, aside: Aside = nullcontext) -> None:
+        """Work in this window; what it takes to look for something is done ``aside``, and is not the interface's."""
+        self._window = window
+        self._aside = aside
+
+    def click(self, name: str, across: float = 0.5) -> None:
+        """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1)."""
+        self._tap(self._reach(name, across))
+
+    def double_click(self, name: str, across: float = 0.5) -> None:
+        """Do it twice, as fast as a double click."""
+        QTest.mouseDClick(self._window, LEFT, NO_KEY, self._reach(name, across))
+
+    def tap_anywhere(self, chance: Random) -> None:
+        """Click wherever it happens to be."""
+        place = QPoint(chance.randrange(self._window.width()), chance.randrange(self._window.height()))
+        self._tap(place)
+
+    def type(self, text: str) -> None:
+        """Press the keys of a real keyboard."""
+        for letter in text:
+            for act in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
+                QGuiApplication.sendEvent(self._window, QKeyEvent(act, Qt.Key.Key_unknown, NO_KEY, letter))
+
+    def is_visible(self, name: str) -> bool:
+        """Whether there is an item of this name to be seen."""
+        return find_item(self._window.contentItem(), name) is not None
+
+    def _tap(self, place: QPoint) -> None:
+        QTest.mouseClick(self._window, LEFT, NO_KEY, place)
+
+    def _reach(self, name: str, across: float) -> QPoint:
+        """Where to click on an item; what is further down is scrolled to."""
+        for _ in range(MOST_SCROLLS):
+            with self._aside():
+                item = self._look_for(name)
+            place = item_point(item, across)
+            if _in_view(item, place):
+                return place
+            further = find_item(self._window.contentItem(), "more")
+            if further is None or not further.isEnabled():
+                raise UiTimeout(f"{name!r} lies where it cannot be clicked")
+            self._tap(item_centre(further))
+        raise UiTimeout(f"{name!r} never comes, however far one scrolls")
+
+    def _look_for(self, name: str) -> QQuickItem:
+        lay_out(self._window)
+        item = find_item(self._window.contentItem(), name)
+        if item is None:
+            raise UiTimeout(f"there is no {name!r} to be seen")
+        outside = not QRectF(0, 0, self._window.width(), self._window.height()).contains(QPointF(item_centre(item)))
+        if outside and _scroller(item) is None:
+            raise UiTimeout(f"{name!r} lies outside the window")
+        return item
+
+
+def lay_out(window: QQuickWindow) -> None:
+    """See that everything is where it belongs: Qt Quick places items only when it draws."""
+    window.grabWindow()
+
+
+def item_centre(item: QQuickItem) -> QPoint:
+    """Where the middle of an item is in its window."""
+    return item_point(item, 0.5)
+
+
+def item_point(item: QQuickItem, across: float) -> QPoint:
+    """Where a place half way down an item is in its window, ``across`` from its left (0) to its right (1)."""
+    return item.mapToScene(QPointF(item.width() * across, item.height() / 2)).toPoint()
+
+
+def find_item(item: QQuickItem, name: str) -> QQuickItem | None:
+    """The visible item of this object name; delegates are no children of their view for Qt's own search."""
+    if not item.isVisible():
+        return None
+    if item.objectName() == name:
+        return item
+    return next((found for child in item.childItems() if (found := find_item(child, name)) is not None), None)
+
+
+def _scroller(item: QQuickItem) -> QQuickItem | None:
+    """What an item scrolls in, if it does."""
+    above: QQuickItem | None = item.parentItem()
+    while above and not (above.inherits("QQuickFlickable") and above.property("interactive")):
+        above = above.parentItem()
+    return above
+
+
+def _in_view(item: QQuickItem, place: QPoint) -> bool:
+    scroller = _scroller(item)
+    if scroller is None:
+        return True
+    seen = scroller.mapRectToScene(QRectF(0, 0, scroller.width(), scroller.height()))
+    return seen.contains(QPointF(place))
+
+
+Errand = Callable[[], None]
+"""One thing that is done at one moment."""
+
+WORDS = ("perché no", "qué bien", "Ça va", "it was fun", "23 pairs, or so", "mañana")
+
+
+class FormFiller:
+    """Fills in the items of one page; what is chosen is chance's."""
+
+    def __init__(self, hand: UiDriver, chance: Random, *, hasty: bool) -> None:
+        """Do it with this hand; the hasty click everything twice."""
+        self._type = hand.type
+        self._click = hand.double_click if hasty else hand.click
+        self._chance = chance
+
+    def errands(self, items: tuple[Item, ...]) -> Iterator[Errand]:
+        """What is to be done for these items, in their order."""
+        for number, item in enumerate(items):
+            yield from self._item(item, last=number == len(items) - 1)
+
+    def _item(self, item: Item, *, last: bool) -> Iterator[Errand]:
+        match item:
+            case Likert() | Differential() | Pictures():
+                yield partial(self._click, f"answer-{item.id}-{self._chance.randint(*item.ends)}")
+            case Slider():
+                yield partial(self._click, f"slider-{item.id}", self._chance.uniform(0.05, 0.95))
+            case Single() | Multiple():
+                most = len(item.ids) if isinstance(item, Multiple) else 1
+                for option in self._chance.sample(item.ids, self._chance.randint(1, most)):
+                    yield partial(self._click, f"option-{item.id}-{option}")
+            case Integer():
+                yield from self._number(item)
+            case ShortText():
+                yield from self._text(item, last=last)
+
+    def _number(self, item: Integer) -> Iterator[Errand]:
+        """With the keys on the screen, or by a step up and a step down."""
+        if self._chance.random() < 1 / 3:
+            yield partial(self._click, f"more-{item.id}")
+            yield partial(self._click, f"more-{item.id}")
+            yield partial(self._click, f"less-{item.id}")
+            return
+        yield partial(self._click, f"number-{item.id}")
+        yield from self._keys(str(self._chance.randint(item.lowest, item.highest)))
+        yield partial(self._click, "key-done")
+
+    def _text(self, item: ShortText, *, last: bool) -> Iterator[Errand]:
+        """With a real keyboard, or with the keys on the screen; at the end of a page, nobody taps "Done"."""
+        words = self._chance.choice(WORDS)[: item.longest]
+        yield partial(self._click, f"text-{item.id}")
+        if self._chance.random() < 1 / 2:
+            yield partial(self._type, words)
+        else:
+            yield from self._keys(words.lower())
+        if not last:
+            yield partial(self._click, "key-done")
+
+    def _keys(self, text: str) -> Iterator[Errand]:
+        for letter in text:
+            yield partial(self._click, "key-space" if letter == " " else f"key-{letter}")
+
+
+FORGETTING = 0.15
+FOLLOWING = 0.9
+"""How often it follows a hint; the study's people did in .86 (noToM) and .92 (ToM) of the cases."""
+THINKING_MS = (500, 1_600)
+
+
+class BehaviourKind(Enum):
+    """What kind of visitor it is."""
+
+    COMPLETES = "completes"
+    """Agrees, answers everything, and stays to the end."""
+    DECLINES = "declines"
+    """Plays without taking part."""
+    UNDER_AGE = "under age"
+    """Agrees, but is too young."""
+    LEAVES = "leaves"
+    """Walks away in some stage, without a word."""
+    HASTY = "hasty"
+    """Clicks twice, taps everywhere, and skips all that can be skipped."""
+
+
+@dataclass(frozen=True)
+class BehaviourProfile:
+    """A visitor's manner, where one who leaves does so, and the language they choose: by default the study's first."""
+
+    manner: BehaviourKind = BehaviourKind.COMPLETES
+    leaves_in: Stage = Stage.GAME
+    language: str = ""
+
+
+@dataclass(frozen=True)
+class BoardView:
+    """What can be seen of an open board: the closed cards, the picture of the first card if one is up, and the mark."""
+
+    closed: tuple[Position, ...]
+    first: str | None
+    mark_row: int | None
+    mark_column: int | None
+
+    @property
+    def marked(self) -> tuple[Position, ...]:
+        """The closed cards that the mark leaves to choose from; none without a mark."""
+        if self.mark_row is None and self.mark_column is None:
+            return ()
+        return tuple(p for p in self.closed if self.mark_row in (None, p.row) and self.mark_column in (None, p.column))
+
+
+class SimulatedParticipant:
+    """One visitor, for one session; everything it does follows from ``rng`` and what it sees."""
+
+    def __init__(self, rng: Random) -> None:
+        """Remember nothing yet."""
+        self._rng = rng
+        self._seen: dict[Position, tuple[str, int]] = {}
+        self._recalled: dict[Position, str] = {}
+        self._flips = 0
+
+    def think(self) -> int:
+        """How long it thinks before it clicks, in ms."""
+        return self._rng.randint(*THINKING_MS)
+
+    def tosses(self) -> bool:
+        """Whether a coin it tosses falls on its right side."""
+        return self._rng.random() < 1 / 2
+
+    def sit_down(self) -> None:
+        """Begin with a board that nothing is known of."""
+        self._seen.clear()
+        self._recalled = {}
+        self._flips = 0
+
+    def choose(self, view: BoardView) -> Position:
+        """The closed card that it turns next."""
+        if view.first is None:
+            self._recalled = self._recall()
+        self._flips += 1
+        recalled = {position: picture for position, picture in self._recalled.items() if position in view.closed}
+        choice = view.marked if view.marked and self._rng.random() < FOLLOWING else view.closed
+        wanted = _mates(view.first, recalled) if view.first else _pairs(recalled)
+        return self._rng.choice(
+            [p for p in choice if p in wanted] or [p for p in choice if p not in recalled] or list(choice)
+        )
+
+    def see(self, shown: dict[Position, str]) -> None:
+        """Look at the open cards."""
+        for position, picture in shown.items():
+            self._seen[position] = (picture, self._flips)
+
+    def _recall(self) -> dict[Position, str]:
+        """The cards that it recalls in this move."""
+        return {
+            position: picture
+            for position, (picture, flip) in self._seen.items()
+            if self._rng.random() < (1 - FORGETTING) ** (self._flips - flip)
+        }
+
+
+def _mates(first: str, recalled: dict[Position, str]) -> set[Position]:
+    """Where the open card's mate is believed to lie."""
+    return {position for position, picture in recalled.items() if picture == first}
+
+
+def _pairs(recalled: dict[Position, str]) -> set[Position]:
+    """The cards of pairs that are believed to be known."""
+    pictures = list(recalled.values())
+    return {position for position, picture in recalled.items() if pictures.count(picture) > 1}

@@ -1,0 +1,256 @@
+"""Whatever the assistant says is true of what this player has seen, and gives away what the action allows and no more.
+
+Everything here is worked out a second time, from the bare list of flips and the text of the sentence.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import product
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
+from kiosk.assistance.policy import NO_GATE, Action, FlipInMove, Gate
+from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording, reasoning
+from kiosk.game import Board, Concentration, IllegalFlip, Position
+from tests.samples import ANIMALS, CATALOGUES, always
+
+HELP = (Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD)
+LANGUAGES = ("en", "it", "es")
+GAMES = 2000
+"""Random games in the long test; in every one some hints are asked for."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A hint, and the player's own flips before it."""
+
+    board: Board
+    flips: tuple[Position, ...]
+    hint: Hint
+
+    @cached_property
+    def target(self) -> int:
+        """How often the target was turned up."""
+        return self.flips.count(self.hint.target.position)
+
+    @cached_property
+    def other(self) -> int:
+        """How often its mate was turned up."""
+        return self.flips.count(self.board.mate(self.hint.target.position))
+
+    @property
+    def second(self) -> bool:
+        """Whether the coming flip is a second card: an odd number of flips has been made."""
+        return len(self.flips) % 2 == 1
+
+
+def asked(board: Board, taps: Iterable[int], rule: TargetRule, action: Action, rng: Random) -> Iterator[Asked]:
+    """Tap these places, as far as that is allowed, and ask for a hint now and then."""
+    game, flips, mentaliser = Concentration(board), list[Position](), Mentaliser(rule, rng)
+    for tap in taps:
+        if game.over:
+            return
+        if rng.random() < 1 / 12:
+            target = mentaliser.target(game)
+            hint = Hint(action, FlipInMove.coming(game), target, board.card(target.position))
+            yield Asked(board, tuple(flips), hint)
+        try:
+            flips.append(game.flip(board.position(tap)).position)
+        except IllegalFlip:
+            continue
+        game.turn_back()
+
+
+def restless(rng: Random, taps: int = 60) -> Iterator[int]:
+    """Taps of somebody who likes a few places better than the rest, so that some cards are seen often."""
+    favourites = rng.sample(range(24), 6)
+    return (rng.choice(favourites) if rng.random() < 0.5 else rng.randrange(24) for _ in range(taps))
+
+
+# The table of the design, once more
+
+CELLS: dict[tuple[bool, str], Callable[[int, int], bool]] = {
+    (False, "nothing-known"): lambda o, t: (o, t) == (0, 0),
+    (False, "one-seen-once"): lambda o, t: {o, t} == {0, 1},
+    (False, "both-seen-once"): lambda o, t: (o, t) == (1, 1),
+    (False, "often-and-never"): lambda o, t: max(o, t) >= 2 and min(o, t) == 0,
+    (False, "often-and-once"): lambda o, t: max(o, t) >= 2 and min(o, t) == 1,
+    (False, "both-often"): lambda o, t: o >= 2 and t >= 2,
+    (True, "first-sight"): lambda o, t: (o, t) == (1, 0),
+    (True, "both-seen-once"): lambda o, t: (o, t) == (1, 1),
+    (True, "often-and-never"): lambda o, t: o >= 2 and t == 0,
+    (True, "often-and-once"): lambda o, t: o >= 2 and t == 1,
+    (True, "open-once-mate-often"): lambda o, t: o == 1 and t >= 2,
+    (True, "both-often"): lambda o, t: o >= 2 and t >= 2,
+}
+
+
+def cell(asked: Asked) -> tuple[bool, str]:
+    """The one cell of the table that these counts belong to."""
+    found = [key for key, holds in CELLS.items() if key[0] == asked.second and holds(asked.other, asked.target)]
+    assert len(found) == 1
+    return found[0]
+
+
+# What a sentence claims
+
+NEVER = {
+    "en": r"never|\bnot\b|unseen|somewhere new|for the first time\.$|new, and its partner",
+    "it": r"\bmai\b|non ancora|ancora no\b|non l'hai ancora|non è ancora|non l'altr|un[oa] sol[oa], |non hai ancora"
+    r"|tutta da scoprire|posto nuovo",
+    "es": r"nunca|ninguna|todavía no|aún no|no (el|la) otr|solo has visto un[oa], |por descubrir|sitio nuevo",
+}
+"""Says that one of the two cards was never turned up; every reason says so if and only if it is true."""
+OFTEN = {
+    "en": "more than once|at least twice",
+    "it": "più di una volta|almeno due volte",
+    "es": "más de una vez|al menos dos veces",
+}
+"""Says that one of the two was turned up twice or more; of the open card "before" is said instead."""
+ONCE = {
+    "en": r"\bonce\b|one time|single time",
+    "it": r"\buna volta\b|soltanto una\b",
+    "es": r"\buna vez\b|\buna sola\b|solo una\b",
+}
+"""Says, once OFTEN is taken out, that one of the two was turned up exactly once."""
+NEW = {"en": r"is new\b|up for the first time", "it": r"è nuova|prima volta", "es": r"es nueva|primera vez"}
+"""Says of the open card that it was never up before."""
+KNOWN = {
+    "en": r"have (seen|met) this|was up before|have both been up",
+    "it": r"l'avevi già|era già uscita|avevi già incontrato quest",
+    "es": r"la habías visto|ya había salido|ya te había salido est",
+}
+"""Says of the open card that it was up before."""
+PLACES = {"en": ("row", "column"), "it": ("riga", "colonna"), "es": ("fila", "columna")}
+
+
+def check_reason(reason: str, language: str, asked: Asked) -> None:
+    """The reason claims nothing that the list of flips does not bear out, and names no place."""
+    counts = (asked.other, asked.target)
+    assert bool(re.search(NEVER[language], reason)) == (0 in counts), (reason, counts)
+    said_to_be_often = asked.target if asked.second else max(counts)
+    assert bool(re.search(OFTEN[language], reason)) == (said_to_be_often >= 2), (reason, counts)
+    if re.search(ONCE[language], re.sub(f"{OFTEN[language]}|prima volta|primera vez", "", reason)):
+        assert 1 in counts, (reason, counts)
+    if asked.second and re.search(NEW[language], reason):
+        assert asked.other == 1, (reason, counts)
+    if asked.second and re.search(KNOWN[language], reason, re.IGNORECASE):
+        assert asked.other >= 2, (reason, counts)
+    assert not re.search(r"\d", reason)
+
+
+def check_place(sentence: str, language: str, asked: Asked) -> None:
+    """The figures in the sentence are the target's row and column, as far as the action gives them away."""
+    row, column = PLACES[language]
+    target, action = asked.hint.target.position, asked.hint.action
+    expected = []
+    if action in (Action.SUG_ROW, Action.SUG_CARD):
+        expected.append((row, str(target.row + 1)))
+    if action in (Action.SUG_COL, Action.SUG_CARD):
+        expected.append((column, str(target.column + 1)))
+    assert re.findall(rf"({row}|{column}) (\d+)", sentence) == expected
+    assert len(re.findall(r"\d+", sentence)) == len(expected)
+    assert (row in sentence, column in sentence) == (action is not Action.SUG_COL, action is not Action.SUG_ROW)
+
+
+@cache
+def words(language: str) -> dict[str, str]:
+    """Every word by which a sentence may name a picture, and the picture."""
+    cards = ((name, CATALOGUES[language].card(name)) for name in ANIMALS)
+    forms = ("card", "card-plurale", "card-plural")
+    return {word: name for name, card in cards for form, word in card.items() if form in forms}
+
+
+def check_names(sentence: str, language: str, asked: Asked) -> None:
+    """Only the target's picture is named, and only if the player has seen it on one of the two cards."""
+    named = {words(language)[word] for word in re.findall(r"\w+", sentence) if word in words(language)}
+    assert named <= {asked.hint.name}, sentence
+    assert not named or asked.other + asked.target > 0, sentence
+
+
+def check(asked: Asked, language: str) -> None:
+    """Everything about one hint, whichever way it is said."""
+    assert (asked.hint.card is FlipInMove.SECOND) is asked.second
+    assert (asked.hint.target.mate_seen, asked.hint.target.seen) == (asked.other, asked.target)
+    assert asked.hint.target.reason.value == cell(asked)[1]
+    assert asked.hint.name == asked.board.card(asked.hint.target.position)
+    catalogue, wording = CATALOGUES[language], Wording(CATALOGUES[language], Random(0))
+    reasons = catalogue.wordings(reasoning(asked.hint), **catalogue.card(asked.hint.name))
+    places = PlainSentences(wording).all_wordings(asked.hint)
+    for reason in reasons:
+        check_reason(reason, language, asked)
+        check_names(reason, language, asked)
+    for where in places:
+        check_place(where, language, asked)
+        check_names(where, language, asked)
+    assert ReasonedSentences(wording).sentence(asked.hint) in {f"{why} {where}" for why in reasons for where in places}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("rule", TargetRule)
+@given(st.integers(0, 2**32), st.lists(st.integers(0, 23), max_size=40), st.sampled_from(HELP))
+def test_every_hint_of_any_game_is_true(
+    rule: TargetRule, language: str, seed: int, taps: list[int], action: Action
+) -> None:
+    board = Board.deal(4, 6, ANIMALS, Random(seed))
+    for one in asked(board, [*taps, 0], rule, action, Random(seed)):
+        check(one, language)
+
+
+def test_thousands_of_random_games_get_true_hints_only() -> None:
+    hints = Counter[tuple[bool, str]]()
+    combinations = list(product(TargetRule, HELP, LANGUAGES))
+    for seed in range(GAMES):
+        rule, action, language = combinations[seed % len(combinations)]
+        rng = Random(seed)
+        for one in asked(Board.deal(4, 6, ANIMALS, rng), restless(rng), rule, action, rng):
+            check(one, language)
+            hints[cell(one)] += 1
+    assert set(hints) == set(CELLS)
+    assert min(hints.values()) >= 20, hints
+    assert hints.total() >= 3 * GAMES
+
+
+# Ordinary play: what is reached, and where
+
+
+def reached(rule: TargetRule, gate: Gate, games: int = 150) -> Counter[tuple[bool, str]]:
+    """How often every cell of the table comes up while players without much of a memory play to the end."""
+    counts = Counter[tuple[bool, str]]()
+    for seed in range(games):
+        rng = Random(seed)
+        game = Concentration(Board.deal(4, 6, ANIMALS, rng))
+        assistant = Assistant(always(Action.SUG_ROW, gate), Mentaliser(rule, rng))
+        while not game.over:
+            hint = assistant.decide(game).hint
+            if hint is not None:
+                counts[hint.card is FlipInMove.SECOND, hint.target.reason.value] += 1
+            remembers = game.first_card is not None and rng.random() < 0.3
+            game.flip(game.board.mate(game.first_card) if remembers and game.first_card else rng.choice(game.closed))
+            game.turn_back()
+    return counts
+
+
+@pytest.mark.parametrize("rule", [TargetRule.MOST_FLIPPED, TargetRule.RANDOM])
+def test_every_cell_of_the_table_is_reached_in_play(rule: TargetRule) -> None:
+    assert set(reached(rule, NO_GATE)) == set(CELLS)
+
+
+def test_behind_the_gate_the_most_flipped_card_has_always_been_seen() -> None:
+    """Before a first card may be helped, two moves have failed; their four cards are closed and known."""
+    unreached = set(CELLS) - set(reached(TargetRule.MOST_FLIPPED, Gate()))
+    assert unreached == {(False, "nothing-known")}
+
+
+def test_behind_the_gate_a_random_card_can_be_any() -> None:
+    assert set(reached(TargetRule.RANDOM, Gate())) == set(CELLS)

@@ -1,0 +1,220 @@
+"""A decision of a stored session comes out as it was decided then, from nothing but what was recorded."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk import UserInputError
+from kiosk.assistance.policy import Gate
+from kiosk.cli.main import main
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, PolicyUpdated, Stage
+from kiosk.experiment.session import Session
+from kiosk.store.database import FILE
+from kiosk.store.queries import explain_stored_decision, open_repository
+from kiosk.store.recorder import Provenance, Recorder
+from tests.experiment.driver import Driver, at_random, notes
+from tests.samples import mixed, plan, whole
+
+SEED = 5
+
+
+def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) -> Driver:
+    """A game played to its end, and on the disk."""
+    followed = plan(condition, mixed(SEED, Gate()), **settings)
+    driver = Driver(followed, SEED)
+    driver.to_the_game()
+    driver.play(at_random(SEED))
+    with Recorder(folder) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    return driver
+
+
+@pytest.mark.parametrize("condition", [condition for condition in Condition if condition.value != "no_assistance"])
+def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: Condition) -> None:
+    driver = stored(tmp_path, condition)
+    given = {hint.flip: hint for hint in driver.noted(HintGiven)}
+    with open_repository(tmp_path) as sessions:
+        for then in driver.noted(AssistanceDecided)[::5]:
+            now = explain_stored_decision(sessions, 1, then.flip)
+            assert (now.decision.action, now.decision.gate_decision) == (then.action, then.gate)
+            assert (now.decision.state.game, now.decision.state.last) == (then.game, then.last)
+            assert now.decision.state.outcome is then.outcome
+            hint = given.get(then.flip)
+            assert now.spoken == (hint.sentence if hint else None)
+            assert hint is None or hint.target in now.candidates
+            assert hint is None or hint.sentence in now.sentences
+    assert len(given) > 10
+
+
+def test_the_other_target_rule_is_followed_too(tmp_path: Path) -> None:
+    driver = stored(tmp_path, assistance={"target_rule": "most_recent"})
+    with open_repository(tmp_path) as sessions:
+        for hint in driver.noted(HintGiven)[::5]:
+            assert explain_stored_decision(sessions, 1, hint.flip).candidates == (hint.target,)
+
+
+def test_a_table_that_went_on_learning_is_explained_as_it_stood_at_that_flip(tmp_path: Path) -> None:
+    driver = stored(tmp_path, assistance={"step": 0.05})
+    decisions = driver.noted(AssistanceDecided)
+    with open_repository(tmp_path) as sessions:
+        first, last = (
+            explain_stored_decision(sessions, 1, then.flip).decision for then in (decisions[0], decisions[-1])
+        )
+        for then in decisions[::7]:
+            assert explain_stored_decision(sessions, 1, then.flip).decision.action is then.action
+    policy = driver.plan.policy
+    assert first.q == policy.row(first.state)
+    assert last.q != policy.row(last.state)
+
+
+def test_what_a_table_came_to_is_recorded_and_the_table_it_began_as_is_unchanged(tmp_path: Path) -> None:
+    before = plan(Condition.TOM, mixed(SEED, Gate())).policy.sha256
+    driver = stored(tmp_path, assistance={"step": 0.05})
+    (adapted,) = driver.noted(PolicyUpdated)
+    assert driver.plan.policy.sha256 == before
+    assert adapted.sha256 != before
+    assert not stored(tmp_path / "frozen").noted(PolicyUpdated)
+
+
+def test_the_plan_of_a_session_is_kept_whole(tmp_path: Path) -> None:
+    driver = stored(tmp_path)
+    with open_repository(tmp_path) as sessions:
+        kept, seed = sessions.plan(1), sessions.seed(1)
+    assert seed == SEED
+    assert (kept.settings, kept.condition, kept.policy) == (
+        *(driver.plan.settings, driver.plan.condition),
+        driver.plan.policy,
+    )
+    assert (kept.questionnaires, kept.deck) == (driver.plan.questionnaires, driver.plan.deck)
+    assert kept.catalogue.sources == driver.plan.catalogue.sources
+
+
+def test_a_session_on_the_kept_plan_says_the_same_again(tmp_path: Path) -> None:
+    driver = stored(tmp_path)
+    with open_repository(tmp_path) as sessions:
+        session = Session(sessions.plan(1), sessions.seed(1))
+    again = [note for event in driver.world for note in notes(session.handle(event))]
+    assert again == [note for step in driver.steps for note in notes(step.commands)]
+
+
+def test_where_nobody_helped_the_state_is_told_all_the_same(tmp_path: Path) -> None:
+    stored(tmp_path, Condition.NO_ASSISTANCE)
+    with open_repository(tmp_path) as sessions:
+        told = explain_stored_decision(sessions, 1, 30).to_json()
+        assert (told["action"], told["targets"], told["target"]) == ("no_help", [], None)
+        with pytest.raises(UserInputError, match="nothing was decided about a flip 400"):
+            explain_stored_decision(sessions, 1, 400)
+
+
+def test_a_flip_that_never_came_is_refused(tmp_path: Path) -> None:
+    flips = len(stored(tmp_path).noted(CardFlipped))
+    with (
+        open_repository(tmp_path) as sessions,
+        pytest.raises(UserInputError, match=f"session 1 has {flips} flips; nothing was decided about a flip 400"),
+    ):
+        explain_stored_decision(sessions, 1, 400)
+
+
+def test_a_session_without_a_game_is_refused(tmp_path: Path) -> None:
+    followed = plan()
+    driver = Driver(followed, SEED)
+    driver.start()
+    with Recorder(tmp_path) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
+        explain_stored_decision(sessions, 1, 1)
+
+
+@pytest.mark.parametrize("condition", [Condition.TOM, Condition.NO_ASSISTANCE])
+def test_a_practice_is_not_taken_for_the_game(tmp_path: Path, condition: Condition) -> None:
+    followed = whole(condition)
+    driver = Driver(followed, SEED)
+    driver.to(Stage.PRACTICE)
+    driver.flip(driver.view.closed[0])
+    driver.end()
+    with Recorder(tmp_path) as recorder:
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+    with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
+        explain_stored_decision(sessions, 1, 1)
+
+
+def tamper(folder: Path, statement: str) -> None:
+    """Change a record in spite of everything."""
+    connection = sqlite3.connect(folder / FILE)
+    with connection:
+        connection.execute("DROP TRIGGER event_is_never_updated")
+        connection.execute(statement)
+    connection.close()
+
+
+@pytest.mark.parametrize("change", ["'$.action', 'no_help'", "'$.gate', 'opening'", "'$.last', 'sug_card'"])
+def test_a_record_that_does_not_follow_from_the_others_is_found_out(tmp_path: Path, change: str) -> None:
+    flip = stored(tmp_path).noted(HintGiven)[0].flip
+    tamper(
+        tmp_path,
+        f"UPDATE event SET body = json_set(body, {change}) "  # noqa: S608 - a test's own words
+        f"WHERE type = 'AssistanceDecided' AND body ->> '$.flip' = {flip}",
+    )
+    with (
+        open_repository(tmp_path) as sessions,
+        pytest.raises(UserInputError, match=f"flip {flip} of session 1 comes out otherwise"),
+    ):
+        explain_stored_decision(sessions, 1, flip)
+
+
+@pytest.mark.parametrize("change", ["'$.seen', 9", "'$.sentence', 'Look there.'", "'$.reason', 'nothing-known'"])
+def test_a_hint_that_does_not_follow_from_the_flips_is_found_out(tmp_path: Path, change: str) -> None:
+    flip = stored(tmp_path).noted(HintGiven)[0].flip
+    tamper(tmp_path, f"UPDATE event SET body = json_set(body, {change}) WHERE type = 'HintGiven'")  # noqa: S608
+    with (
+        open_repository(tmp_path) as sessions,
+        pytest.raises(UserInputError, match=f"flip {flip} of session 1 comes out otherwise"),
+    ):
+        explain_stored_decision(sessions, 1, flip)
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
+    """Call the command line in this process; returns its exit code."""
+    monkeypatch.setattr(sys, "argv", ["recollect", "explain", *map(str, arguments)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    return ended.value.code if isinstance(ended.value.code, int) else 0
+
+
+def test_the_command_line_tells_a_stored_decision(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hint = stored(tmp_path).noted(HintGiven)[0]
+    assert run(monkeypatch, 1, "--flip", hint.flip, "--data", tmp_path, "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["said"] == hint.sentence
+    assert told["target"]["location"] == 6 * hint.target.row + hint.target.column
+    assert told["counts"] == {"target": hint.seen, "other": hint.mate_seen}
+    assert run(monkeypatch, 1, "--flip", hint.flip, "--data", tmp_path) == 0
+    assert f"said       {hint.sentence}\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("session", "sentence"),
+    [("2", "there is no session 2"), ("one", "a stored session goes by its number, not by 'one'")],
+)
+def test_a_session_that_is_not_there_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], session: str, sentence: str
+) -> None:
+    stored(tmp_path)
+    assert run(monkeypatch, session, "--flip", 1, "--data", tmp_path) == 2
+    assert capsys.readouterr().err == f"recollect: {sentence}\n"
+
+
+def test_a_folder_without_a_database_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, 1, "--flip", 1, "--data", tmp_path) == 2
+    assert capsys.readouterr().err == f"recollect: there is no database in {tmp_path}\n"

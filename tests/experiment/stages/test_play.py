@@ -1,0 +1,387 @@
+"""A game with its help, as a visitor lives through it on the board."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from kiosk.assistance.policy import Action, FlipInMove, Gate
+from kiosk.config import Timing
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.effects import BoardWait, EmitEvent, Mood
+from kiosk.experiment.events import Stage, Timer
+from kiosk.game import FlipRejection, Position
+from tests.experiment.driver import SPEECH_LAG, SPEECH_TIME, Driver, Voice, at_random, with_memory
+from tests.experiment.table import a_pair, another, miss, playing, seen
+from tests.experiment.view import View
+from tests.samples import always, mixed, plan
+
+ONLY_SECOND = always(Action.SUG_CARD, Gate(opening=0, patience=99, first_patience=99))
+"""Names the mate before every second card, and says nothing before a first one."""
+
+
+# Flips
+
+
+def test_a_tap_turns_a_card_up() -> None:
+    driver = playing()
+    commands = driver.flip(Position(1, 2))
+    flipped = driver.noted(happened.CardFlipped)[0]
+    assert (flipped.number, flipped.move, flipped.position, flipped.matched) == (1, 1, Position(1, 2), None)
+    assert do.RevealCard(Position(1, 2), flipped.card) in commands
+    assert driver.view.held is None
+
+
+def test_a_pair_is_shown_and_the_board_stays_open() -> None:
+    driver = playing()
+    first, mate = a_pair(driver)
+    driver.flip(first)
+    commands = driver.flip(mate)
+    assert driver.noted(happened.CardFlipped)[1].matched is True
+    assert do.MarkMatched((mate, first)) in commands
+    assert do.ShowProgress(1, 1) in commands
+    assert seen(driver, "found", "held") == ({first, mate}, None)
+    assert driver.running.keys() == {Timer.IDLE}
+
+
+def test_two_different_cards_are_shown_for_a_while_and_turn_back() -> None:
+    driver = playing(turn_back=1500)
+    first, second = miss(driver)
+    assert driver.view.held is BoardWait.TURNING_BACK
+    shown_at = driver.now
+    commands = driver.wait()
+    assert (driver.now, driver.world[-1]) == (
+        shown_at + 1500,
+        happened.TimerExpired(at_ms=shown_at + 1500, timer=Timer.TURN_BACK),
+    )
+    assert commands.index(do.HideCards((first, second))) < commands.index(do.UnlockBoard())
+    assert seen(driver, "held", "up") == (None, {})
+    assert do.ShowProgress(0, 1) in driver.commands
+
+
+@pytest.mark.parametrize("which", ["open", "closed"])
+def test_taps_while_two_cards_turn_back_are_ignored(which: str) -> None:
+    driver = playing()
+    first, second = miss(driver)
+    place = first if which == "open" else another(driver, first, second)
+    before = driver.session.measures
+    assert driver.tap(place) == (
+        EmitEvent(happened.CardSelectionRejected(at_ms=driver.now, position=place, why=FlipRejection.TURNING_BACK)),
+        do.StartTimer(Timer.IDLE, 120_000),
+    )
+    assert driver.session.measures == before
+    driver.wait_until_open()
+    assert driver.view.up == {}
+
+
+def test_taps_that_the_rules_forbid_are_ignored_and_say_why() -> None:
+    driver = playing()
+    first, mate = a_pair(driver)
+    driver.flip(first)
+    driver.tap(first)
+    driver.tap(Position(-1, 10**12))
+    driver.flip(mate)
+    driver.tap(mate)
+    why = [event.why for event in driver.noted(happened.CardSelectionRejected)]
+    assert why == [FlipRejection.OPEN, FlipRejection.OUTSIDE, FlipRejection.FOUND]
+    assert driver.session.measures.flips == 2
+
+
+def test_the_last_pair_is_looked_at_before_the_result() -> None:
+    driver = playing(finish=2500)
+    while len(driver.view.found) < 24:
+        for place in a_pair(driver):
+            driver.flip(place)
+    at = driver.now
+    assert driver.stage is Stage.GAME
+    assert not driver.view.closed
+    driver.tap(Position(0, 0))
+    assert driver.noted(happened.CardSelectionRejected)[-1].why is FlipRejection.FOUND
+    driver.wait()
+    assert (driver.now, driver.stage) == (at + 2500, Stage.RESULT)
+    assert driver.noted(happened.GameFinished)[0].at_ms == driver.now
+
+
+# Hints
+
+
+def test_a_decision_is_taken_before_every_flip() -> None:
+    driver = playing(Action.SUG_ROW)
+    driver.play(with_memory(1))
+    decided = [event.flip for event in driver.noted(happened.AssistanceDecided)]
+    flipped = [event.number for event in driver.noted(happened.CardFlipped)]
+    assert decided == flipped == list(range(1, len(flipped) + 1))
+    order = [
+        (type(event).__name__, number)
+        for event in driver.events
+        if (number := getattr(event, "flip", None) or getattr(event, "number", None))
+        and isinstance(event, happened.AssistanceDecided | happened.CardFlipped)
+    ]
+    assert order == [(kind, number) for number in flipped for kind in ("AssistanceDecided", "CardFlipped")]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_is_recorded_of_a_decision_is_what_it_was(seed: int) -> None:
+    policy = mixed(seed, Gate(opening=2, patience=2, first_patience=4))
+    driver = Driver(plan(policy=policy), seed)
+    driver.to_the_game()
+    driver.play(at_random(seed))
+    decisions = driver.noted(happened.AssistanceDecided)
+    hints = {hint.flip: hint for hint in driver.noted(happened.HintGiven)}
+    for before, decision in pairwise(decisions):
+        assert decision.last is before.action
+        assert decision.card is (FlipInMove.SECOND if decision.flip % 2 == 0 else FlipInMove.FIRST)
+        assert decision.action is Action.NO_HELP or decision.gate.is_open
+        assert (decision.flip in hints) is (decision.action is not Action.NO_HELP)
+    assert {decision.gate.name for decision in decisions} >= {"OPEN", "OPENING", "DOING_WELL"}
+    assert {decision.game.name for decision in decisions} == {"BEGINNING", "MIDDLE", "END"}
+    for hint in hints.values():
+        decision = decisions[hint.flip - 1]
+        assert (hint.action, hint.card) == (decision.action, decision.card)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_is_recorded_of_a_hint_is_true_of_what_this_visitor_has_seen(seed: int) -> None:
+    driver = Driver(plan(policy=mixed(seed)), seed)
+    driver.to_the_game()
+    driver.play(at_random(seed))
+    dealt = driver.noted(happened.BoardDealt)[0]
+    name_at = {Position(*divmod(number, dealt.columns)): name for number, name in enumerate(dealt.cards)}
+    flipped: list[Position] = []
+    utterances = [1]
+    for event in driver.events:
+        if isinstance(event, happened.CardFlipped):
+            flipped.append(event.position)
+            assert event.card == name_at[event.position]
+        if isinstance(event, happened.HintGiven):
+            mate = next(p for p in name_at if name_at[p] == event.name and p != event.target)
+            assert name_at[event.target] == event.name
+            assert (event.seen, event.mate_seen) == (flipped.count(event.target), flipped.count(mate))
+            assert event.row == (None if event.action is Action.SUG_COL else event.target.row)
+            assert event.column == (None if event.action is Action.SUG_ROW else event.target.column)
+            assert event.flip == len(flipped) + 1
+            utterances.append(event.utterance)
+    assert utterances == list(range(1, len(utterances) + 1))
+
+
+def test_without_assistance_nothing_is_decided_and_nothing_said() -> None:
+    driver = Driver(plan(Condition.NO_ASSISTANCE, always(Action.SUG_CARD)), 1)
+    driver.to_the_game()
+    driver.play(with_memory(1))
+    assert not driver.noted(happened.AssistanceDecided)
+    assert not driver.noted(happened.HintGiven)
+    spoken = [command for command in driver.commands if isinstance(command, do.Speak)]
+    assert len(spoken) == 2
+
+
+def test_a_hint_holds_the_board_and_is_shown_as_it_is_recorded() -> None:
+    driver = playing(Action.SUG_CARD)
+    hint = driver.noted(happened.HintGiven)[0]
+    assert driver.view.held is BoardWait.SPEAKING
+    assert (driver.view.bubble, driver.view.speaking) == (hint.sentence, hint.utterance)
+    assert driver.view.mark is None
+
+
+def test_taps_while_the_assistant_speaks_are_ignored() -> None:
+    driver = playing(Action.SUG_CARD)
+    before = driver.session.measures
+    for place in (Position(0, 0), Position(-5, 0)):
+        assert driver.tap(place) == (
+            EmitEvent(happened.CardSelectionRejected(at_ms=driver.now, position=place, why=None)),
+            do.StartTimer(Timer.IDLE, 120_000),
+        )
+    assert driver.session.measures == before
+    assert driver.view.held is BoardWait.SPEAKING
+    driver.wait_until_open()
+    assert driver.view.up == {}
+
+
+@pytest.mark.parametrize(
+    ("action", "row", "column"),
+    [(Action.SUG_ROW, True, False), (Action.SUG_COL, False, True), (Action.SUG_CARD, True, True)],
+)
+def test_the_mark_shows_no_more_than_the_hint_gives_away(action: Action, *, row: bool, column: bool) -> None:
+    driver = playing(action)
+    target = driver.noted(happened.HintGiven)[0].target
+    driver.wait_until_open()
+    assert driver.view.mark == (target.row if row else None, target.column if column else None)
+
+
+@pytest.mark.parametrize("delay", [0, 1000, 1900])
+def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
+    driver = playing(Action.SUG_CARD, mark_delay=delay)
+    given_at = driver.now
+    while driver.view.mark is None:
+        driver.wait()
+    assert driver.now == given_at + SPEECH_LAG + delay
+    assert driver.view.held is BoardWait.SPEAKING
+
+
+def test_the_mark_comes_with_the_end_of_a_short_sentence() -> None:
+    driver = playing(Action.SUG_CARD, mark_delay=9000)
+    given_at = driver.now
+    driver.wait_until_open()
+    assert driver.now == given_at + SPEECH_TIME
+    assert driver.view.mark is not None
+    assert Timer.MARK not in driver.running
+
+
+@pytest.mark.parametrize("voice", Voice)
+@pytest.mark.parametrize("delay", [0, 700, 3500, 60_000])
+def test_no_flip_can_be_made_in_ignorance_of_the_mark(voice: Voice, delay: int) -> None:
+    driver = Driver(plan(timing=Timing(mark_delay=delay, mark_delay_silent=delay)), 4, voice)
+    driver.to_the_game()
+    driver.play(with_memory(4))
+    marked = {event.flip for event in driver.noted(happened.HintHighlighted)}
+    assert marked == {event.flip for event in driver.noted(happened.HintGiven)}
+    assert len(driver.noted(happened.HintHighlighted)) == len(marked) == len(driver.noted(happened.BoardUnlocked))
+    view = View()
+    for command in driver.commands:
+        view.obey([command])
+        if isinstance(command, do.UnlockBoard) and view.bubble:
+            assert view.mark is not None
+    names = [type(event).__name__ for event in driver.events]
+    course = [name for name in names if name in ("HintGiven", "HintHighlighted", "BoardUnlocked")]
+    assert course == ["HintGiven", "HintHighlighted", "BoardUnlocked"] * len(marked)
+
+
+def test_the_next_flip_clears_the_mark_and_the_bubble() -> None:
+    driver = Driver(plan(policy=ONLY_SECOND), 1)
+    driver.to_the_game()
+    first, mate = a_pair(driver)
+    driver.flip(first)
+    driver.wait_until_open()
+    assert driver.view.mark == (mate.row, mate.column)
+    commands = driver.flip(mate)
+    up = next(command for command in commands if isinstance(command, do.RevealCard))
+    assert commands.index(do.ClearHighlight()) < commands.index(up)
+    assert commands.index(do.ClearBubble()) < commands.index(up)
+    assert seen(driver, "mark", "bubble") == (None, None)
+
+
+def test_a_flip_without_a_hint_clears_nothing() -> None:
+    commands = playing().flip(Position(0, 0))
+    assert do.ClearHighlight() not in commands
+    assert do.ClearBubble() not in commands
+
+
+# The body
+
+
+def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
+    driver = playing(Action.SUG_ROW)
+    given_at = driver.now
+    driver.wait_until_open()
+    assert driver.now == given_at + SPEECH_TIME
+    assert driver.running.keys() == {Timer.IDLE}
+
+
+def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
+    driver = playing(Action.SUG_ROW, Voice.FAILS, reading=50, mark_delay_silent=600)
+    given_at, sentence = driver.now, str(driver.view.bubble)
+    driver.wait()
+    assert driver.running.keys() == {Timer.IDLE, Timer.READING, Timer.MARK}
+    driver.wait()
+    assert (driver.now, driver.view.mark is not None) == (given_at + 600, True)
+    driver.wait_until_open()
+    assert driver.now == given_at + max(1500, 50 * len(sentence))
+    assert driver.view.bubble == sentence
+
+
+def test_a_sentence_that_breaks_off_gives_what_is_left_of_the_time_to_read_it() -> None:
+    driver = playing(Action.SUG_ROW, Voice.BREAKS_OFF, reading=50)
+    given_at, sentence = driver.now, str(driver.view.bubble)
+    driver.wait_until_open()
+    assert driver.now == given_at + max(SPEECH_TIME, 1500, 50 * len(sentence))
+
+
+def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() -> None:
+    driver = playing(Action.SUG_ROW, Voice.IS_SILENT, speech_deadline=100, speech_deadline_least=1000)
+    given_at, sentence = driver.now, str(driver.view.bubble)
+    driver.wait_until_open()
+    assert driver.now == given_at + max(1000, 100 * len(sentence))
+    assert driver.steps[-1].commands[0:2] == (
+        EmitEvent(happened.HintHighlighted(at_ms=driver.now, flip=1)),
+        EmitEvent(happened.BoardUnlocked(at_ms=driver.now)),
+    )
+    assert do.StopSpeaking() in driver.steps[-1].commands
+    assert driver.view.bubble == sentence
+
+
+def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
+    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
+    driver.wait_until_open()
+    late = driver.view
+    for event in (
+        happened.SpeechStarted(at_ms=driver.now, utterance=2),
+        happened.SpeechFinished(at_ms=driver.now, utterance=2),
+        happened.SpeechFailed(at_ms=driver.now, utterance=2, why="late"),
+    ):
+        assert driver.send(event) == ()
+    assert driver.view == late
+
+
+@pytest.mark.parametrize("utterance", [-1, 0, 1, 3, 10**20])
+def test_another_sentence_s_end_does_not_open_the_board(utterance: int) -> None:
+    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
+    assert driver.noted(happened.HintGiven)[0].utterance == 2
+    for event in (
+        happened.SpeechStarted(at_ms=driver.now, utterance=utterance),
+        happened.SpeechFinished(at_ms=driver.now, utterance=utterance),
+        happened.SpeechFailed(at_ms=driver.now, utterance=utterance, why="no sound"),
+    ):
+        assert driver.send(event) == ()
+    assert driver.view.held is BoardWait.SPEAKING
+
+
+# Faces
+
+
+def test_a_helped_second_flip_that_matches_makes_the_assistant_happy_for_a_while() -> None:
+    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(mood=300)), 1)
+    driver.to_the_game()
+    first, mate = a_pair(driver)
+    driver.flip(first)
+    assert seen(driver, "mood") == (Mood.IDLE,)
+    driver.flip(mate)
+    assert seen(driver, "mood") == (Mood.HAPPY,)
+    driver.spend(299)
+    assert seen(driver, "mood") == (Mood.HAPPY,)
+    driver.spend(1)
+    assert seen(driver, "mood") == (Mood.IDLE,)
+
+
+def test_a_hint_that_was_not_followed_makes_it_confused() -> None:
+    driver = Driver(plan(policy=ONLY_SECOND), 1)
+    driver.to_the_game()
+    miss(driver)
+    assert driver.view.mood is Mood.CONFUSED
+
+
+def test_a_hint_that_was_followed_in_vain_makes_it_sad() -> None:
+    policy = always(Action.SUG_ROW, Gate(opening=0, patience=99, first_patience=99))
+    driver = Driver(plan(policy=policy), 1)
+    driver.to_the_game()
+    first, mate = a_pair(driver)
+    driver.flip(first)
+    driver.flip(next(p for p in driver.view.closed if p.row == mate.row and p not in (first, mate)))
+    assert driver.view.mood is Mood.SAD
+
+
+def test_a_second_flip_without_a_hint_leaves_the_face_as_it_is() -> None:
+    driver = playing()
+    begun = len(driver.steps)
+    for place in a_pair(driver):
+        driver.flip(place)
+    played = [command for step in driver.steps[begun:] for command in step.commands]
+    assert played
+    assert not [command for command in played if isinstance(command, do.SetExpression)]
+
+
+def test_a_hint_for_the_first_card_alone_leaves_the_face_as_it_is() -> None:
+    driver = playing(Action.SUG_CARD)
+    driver.flip(Position(0, 0))
+    assert driver.view.mood is Mood.IDLE

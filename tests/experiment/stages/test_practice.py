@@ -1,0 +1,177 @@
+"""The practice: a game in which nobody helps and nothing counts, and which may be left at any time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kiosk.assistance.policy import Action
+from kiosk.config import Practice, Timing
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.events import Event, PracticeEnd, Stage, Timer
+from kiosk.experiment.projections import Measures
+from tests.experiment.driver import Driver, driven_to, notes, with_memory
+from tests.experiment.table import a_pair, another, miss
+from tests.samples import ANIMALS, FRUIT, always, whole
+
+TOLD = (happened.BoardDealt, happened.AssistanceDecided, happened.HintGiven, happened.CardFlipped)
+HELPFUL = always(Action.SUG_CARD)
+
+
+def practising(longest: int = 300_000) -> Driver:
+    """A practice that has just begun, in a study whose assistant helps before every flip."""
+    return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(longest=longest)))
+
+
+def within(driver: Driver, stage: Stage) -> list[Event]:
+    """What happened in a stage, from its beginning on."""
+    events = driver.events
+    begun = next(i for i, e in enumerate(events) if isinstance(e, happened.StageEntered) and e.stage is stage)
+    later = (i for i, e in enumerate(events) if isinstance(e, happened.StageEntered) and i > begun)
+    return events[begun : next(later, None)]
+
+
+def test_it_has_a_board_and_a_deck_of_its_own() -> None:
+    driver = practising()
+    assert do.ShowBoard(rows=3, columns=4, pairs=6, deck="fruit", practice=True) in driver.steps[-1].commands
+    assert driver.view.screen == "practice"
+    dealt = driver.noted(happened.BoardDealt)[-1]
+    assert set(dealt.cards) == set(FRUIT)
+    driver.to(Stage.GAME)
+    assert driver.view.screen == "board"
+    assert set(driver.noted(happened.BoardDealt)[-1].cards) <= set(ANIMALS)
+    assert not set(FRUIT) & set(ANIMALS)
+
+
+def test_the_board_is_open_while_it_is_explained() -> None:
+    driver = practising()
+    assert driver.view.bubble
+    assert driver.view.held is None
+    driver.tap(driver.view.closed[0])
+    assert len(driver.view.up) == 1
+
+
+def test_nothing_is_decided_and_no_hint_is_given() -> None:
+    driver = practising()
+    driver.play(with_memory(1))
+    practised = within(driver, Stage.PRACTICE)
+    kinds = {type(event) for event in practised}
+    assert happened.CardFlipped in kinds
+    assert not kinds & {
+        happened.AssistanceDecided,
+        happened.HintGiven,
+        happened.HintHighlighted,
+        happened.BoardUnlocked,
+    }
+    assert driver.noted(happened.AssistanceDecided)[0].flip == 1
+
+
+def test_two_different_cards_turn_back_as_in_the_game() -> None:
+    driver = practising()
+    miss(driver)
+    assert driver.view.held is do.BoardWait.TURNING_BACK
+    driver.tap(another(driver))
+    assert len(driver.noted(happened.CardSelectionRejected)) == 1
+    driver.wait_until_open()
+    assert driver.view.up == {}
+    assert driver.stage is Stage.PRACTICE
+
+
+def test_it_ends_when_every_pair_was_found_and_looked_at() -> None:
+    driver = practising()
+    while len(driver.view.found) < 12:
+        for place in a_pair(driver):
+            driver.flip(place)
+    found_at = driver.now
+    assert driver.stage is Stage.PRACTICE
+    driver.wait_until_open()
+    assert (driver.stage, driver.now) == (Stage.GAME, found_at + driver.plan.settings.timing.finish)
+    assert driver.noted(happened.PracticeFinished) == [
+        happened.PracticeFinished(at_ms=driver.now, how=PracticeEnd.FOUND)
+    ]
+    assert driver.noted(happened.GameFinished) == []
+
+
+def test_it_can_be_left_at_once() -> None:
+    driver = practising()
+    driver.skip()
+    assert driver.stage is Stage.GAME
+    assert driver.noted(happened.PracticeFinished)[0].how is PracticeEnd.LEFT
+    assert not driver.view.up
+
+
+def test_it_can_be_left_while_two_cards_turn_back_and_nothing_of_that_comes_into_the_game() -> None:
+    driver = practising()
+    miss(driver)
+    driver.skip()
+    assert Timer.TURN_BACK not in driver.running
+    assert Timer.PRACTICE not in driver.running
+    assert driver.view.up == {}
+
+
+def test_it_ends_by_itself_after_its_time() -> None:
+    driver = practising(longest=30_000)
+    began = driver.now
+    driver.spend(29_999)
+    assert driver.stage is Stage.PRACTICE
+    driver.spend(1)
+    assert (driver.stage, driver.now) == (Stage.GAME, began + 30_000)
+    assert driver.noted(happened.PracticeFinished)[0].how is PracticeEnd.TIME
+
+
+def test_a_tap_does_not_make_it_longer() -> None:
+    driver = practising(longest=30_000)
+    until = driver.running[Timer.PRACTICE]
+    driver.spend(20_000)
+    driver.tap(driver.view.closed[0])
+    assert driver.running[Timer.PRACTICE] == until
+
+
+def test_it_ends_once_even_if_its_time_is_over_while_the_last_pair_is_looked_at() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(timing=Timing(finish=60_000), practice=Practice(longest=30_000)))
+    while len(driver.view.found) < 12:
+        for place in a_pair(driver):
+            driver.flip(place)
+    driver.spend(30_000)
+    assert [event.how for event in driver.noted(happened.PracticeFinished)] == [PracticeEnd.TIME]
+    assert driver.stage is Stage.GAME
+
+
+@pytest.mark.parametrize("much", [0, 1, 5])
+def test_its_flips_never_count(much: int) -> None:
+    driver = driven_to(Stage.PRACTICE)
+    for _ in range(much):
+        miss(driver)
+    assert driver.session.measures == Measures()
+    driver.to(Stage.GAME)
+    assert driver.session.measures.flips == 0
+    driver.play(with_memory(1))
+    played = [event for event in within(driver, Stage.GAME) if isinstance(event, happened.CardFlipped)]
+    assert driver.session.measures.flips == len(played)
+    assert [flip.number for flip in played] == list(range(1, len(played) + 1))
+    result = driver.view.result
+    assert result is not None
+    assert (result.pairs, result.moves) == (3, len(played) // 2)
+
+
+@pytest.mark.parametrize("much", [0, 3])
+def test_how_long_somebody_practised_changes_nothing_of_the_game(much: int) -> None:
+    """The board, the targets and the wordings come from streams of chance of their own."""
+    games = []
+    for flips in (0, much):
+        driver = driven_to(Stage.PRACTICE)
+        for _ in range(flips):
+            miss(driver)
+        driver.to(Stage.GAME)
+        driver.play(with_memory(2))
+        told = (event for event in within(driver, Stage.GAME) if isinstance(event, TOLD))
+        games.append([replace(event, at_ms=0) for event in told])
+    assert games[0] == games[1]
+
+
+def test_its_end_is_recorded_before_the_game_begins() -> None:
+    driver = practising()
+    kinds = [type(event).__name__ for event in notes(driver.skip())]
+    assert kinds[:3] == ["PracticeFinished", "StageEntered", "BoardDealt"]

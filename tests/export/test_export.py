@@ -1,0 +1,216 @@
+"""A data set is written as a whole or not at all, session by session, from whatever can still be read."""
+
+from __future__ import annotations
+
+import gc
+import sqlite3
+import weakref
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.experiment.events import NotRecordedReason, SessionStarted
+from kiosk.experiment.session_config import SessionKind
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import Exported, export_dataset
+from kiosk.export.layouts import PsychDs
+from kiosk.export.participants import ParticipantFlow
+from kiosk.store.database import FILE
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.session_records import SessionRecord
+from tests.export.conftest import FEW, rows_of
+from tests.export.psych_ds import issues
+from tests.export.visitors import COMMIT, store, study_plan, unsharing, visitor
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_same_data_give_the_same_data_set_byte_for_byte(few: Path, small: Path, tmp_path: Path) -> None:
+    export_dataset(few, tmp_path / "again", PsychDs)
+    assert contents(tmp_path / "again") == contents(small)
+
+
+def test_an_empty_folder_is_written_into(few: Path, tmp_path: Path) -> None:
+    assert export_dataset(few, tmp_path, PsychDs) == Exported(FEW, not_shared=0, under_way=0)
+
+
+def test_a_folder_that_holds_something_is_refused_and_left_as_it_was(few: Path, tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "mine.txt").write_text("mine", "utf-8")
+    with pytest.raises(UserInputError, match="is not empty; a data set is written into a new one"):
+        export_dataset(few, tmp_path / "out", PsychDs)
+    assert contents(tmp_path) == {"out/mine.txt": b"mine"}
+
+
+def test_a_file_in_its_place_is_refused(few: Path, tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("mine", "utf-8")
+    with pytest.raises(UserInputError, match="is a file"):
+        export_dataset(few, tmp_path / "out", PsychDs)
+
+
+def test_a_folder_that_cannot_be_made_is_refused(few: Path, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine", "utf-8")
+    with pytest.raises(UserInputError, match="cannot be used"):
+        export_dataset(few, tmp_path / "file" / "out", PsychDs)
+
+
+class Failing(PsychDs):
+    """Fails at the end."""
+
+    def finish(self, flows: tuple[ParticipantFlow, ...]) -> None:  # noqa: ARG002 - it fails whatever they are
+        raise OSError(28, "No space left on device")
+
+
+def test_nothing_stays_of_a_data_set_that_could_not_be_finished(few: Path, tmp_path: Path) -> None:
+    with pytest.raises(StoreFailed, match="disk full"):
+        export_dataset(few, tmp_path / "out", Failing)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_one_session_is_in_memory_at_a_time(few: Path, tmp_path: Path) -> None:
+    alive: list[weakref.ref[SessionRecord]] = []
+    most = 0
+
+    class Watching(PsychDs):
+        def add(self, kept: SessionRecord) -> None:
+            nonlocal most
+            super().add(kept)
+            alive.append(weakref.ref(kept))
+            gc.collect()
+            most = max(most, sum(ref() is not None for ref in alive))
+
+    export_dataset(few, tmp_path / "out", Watching)
+    assert len(alive) == FEW
+    assert most <= 2
+
+
+def test_how_far_it_is_is_told_session_by_session(few: Path, tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    export_dataset(few, tmp_path / "out", PsychDs, tell=lambda done, of: told.append((done, of)))
+    assert told == [(done, FEW) for done in range(1, FEW + 1)]
+
+
+def test_without_a_session_there_is_no_data_set(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "data"):
+        pass
+    with pytest.raises(UserInputError, match="there is no session in"):
+        export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UserInputError, match="no database"):
+        export_dataset(tmp_path, tmp_path / "out", PsychDs)
+
+
+def test_rehearsals_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    store(data, [(visitor(1), 1)], simulated=True)
+    with pytest.raises(UserInputError, match="rehearsals are left out"):
+        export_dataset(data, tmp_path / "out", PsychDs)
+    store(data, [(visitor(2), 2)])
+    export_dataset(data, tmp_path / "people", PsychDs)
+    assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["P0001"]
+    assert "simulated" not in rows_of(tmp_path / "people", "participants")[0]
+    export_dataset(data, tmp_path / "all", PsychDs, frozenset({ExportOption.REHEARSALS}))
+    told = [(row["participant_id"], row["simulated"]) for row in rows_of(tmp_path / "all", "participants")]
+    assert told == [("r0001", "true"), ("P0001", "false")]
+    assert {row["simulated"] for row in rows_of(tmp_path / "all", "flow")} == {"true", "false"}
+    assert issues(tmp_path / "all") == []
+
+
+def test_trials_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    store(data, [(visitor(1), 1)], simulated=SessionKind.TRIAL)
+    with pytest.raises(UserInputError, match="it holds no participant; trials are left out without --with-trials"):
+        export_dataset(data, tmp_path / "out", PsychDs)
+    store(data, [(visitor(2), 2)])
+    store(data, [(visitor(3), 3)], simulated=True)
+    assert export_dataset(data, tmp_path / "people", PsychDs).trials == 1
+    assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["P0001"]
+    assert {"trial", "simulated"}.isdisjoint(rows_of(tmp_path / "people", "participants")[0])
+    assert export_dataset(data, tmp_path / "tried", PsychDs, frozenset({ExportOption.TRIALS})).trials == 0
+    told = [(row["participant_id"], row["trial"]) for row in rows_of(tmp_path / "tried", "participants")]
+    assert told == [("t0001", "true"), ("P0001", "false")]
+    assert {row["trial"] for row in rows_of(tmp_path / "tried", "flow")} == {"true", "false"}
+    assert issues(tmp_path / "tried") == []
+
+
+def test_who_did_not_agree_to_publishing_in_a_trial_is_left_out_as_well(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(unsharing(1), 1), (visitor(2), 2)], simulated=SessionKind.TRIAL)
+    exported = export_dataset(tmp_path / "data", tmp_path / "out", PsychDs, frozenset({ExportOption.TRIALS}))
+    assert (exported.participants, exported.not_shared) == (1, 1)
+
+
+def test_a_site_stands_before_the_number(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(visitor(1), 1)], site="A")
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    (person,) = rows_of(tmp_path / "out", "participants")
+    assert (person["participant_id"], person["site"]) == ("A-P0001", "A")
+
+
+def test_a_session_that_is_going_on_is_left_out_and_counted(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    store(data, [(visitor(1), 1)])
+    with Recorder(data) as recorder:
+        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, simulated=False), [SessionStarted(at_ms=0)])
+        assert export_dataset(data, tmp_path / "out", PsychDs) == Exported(1, not_shared=0, under_way=1)
+    flow = {(row["quantity"], row["group"]): row["count"] for row in rows_of(tmp_path / "out", "flow")}
+    assert flow["not_ended", "tom"] == "1"
+
+
+def test_one_that_was_cut_off_is_told_as_interrupted(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    with Recorder(data) as recorder:
+        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, simulated=False), [SessionStarted(at_ms=0)])
+    export_dataset(data, tmp_path / "out", PsychDs)
+    (person,) = rows_of(tmp_path / "out", "participants")
+    assert (person["status"], person["last_stage"], person["flips"]) == ("interrupted", "attract", "0")
+
+
+def test_people_who_were_not_stored_are_counted_by_reason(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    store(data, [(visitor(1), 1)])
+    with Recorder(data) as recorder:
+        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
+        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
+        recorder.count_visit(NotRecordedReason.UNDER_AGE, simulated=True)
+    export_dataset(data, tmp_path / "out", PsychDs)
+    counted = [
+        (row["group"], row["count"]) for row in rows_of(tmp_path / "out", "flow") if row["quantity"] == "not_stored"
+    ]
+    assert counted == [("declined", "2")]
+
+
+def test_of_an_event_that_cannot_be_read_no_field_is_told_unless_texts_are_asked_for(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(visitor(1), 1)])
+    with closing(sqlite3.connect(tmp_path / "data" / FILE)) as connection, connection:
+        row = "1, 0, 0, 'world', 'NameTyped', '{\"name\": \"Zaphod\"}'"
+        connection.execute(f"INSERT INTO event (session, seq, at_ms, origin, type, body) VALUES ({row})")  # noqa: S608
+    told = {}
+    for extras in (frozenset[ExportOption](), frozenset({ExportOption.TEXTS})):
+        export_dataset(tmp_path / "data", tmp_path / f"with-{len(extras)}", PsychDs, extras)
+        first = rows_of(tmp_path / f"with-{len(extras)}", "events")[0]
+        told[len(extras)] = (first["type"], first["fields"])
+    assert told == {0: ("NameTyped", "{}"), 1: ("NameTyped", '{"name": "Zaphod"}')}
+
+
+def test_its_files_are_closed_whatever_goes_wrong(few: Path, tmp_path: Path) -> None:
+    closed: list[Path] = []
+
+    class Broken(PsychDs):
+        def add(self, kept: SessionRecord) -> None:
+            raise RuntimeError(kept.name)
+
+        def close(self) -> None:
+            super().close()
+            closed.append(self.root)
+
+    with pytest.raises(RuntimeError, match="P0001"):
+        export_dataset(few, tmp_path / "out", Broken)
+    assert len(closed) == 1
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,300 @@
+"""Furhat's Remote API: what is asked is what the robot takes, and whatever goes wrong is a failure in time."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from time import monotonic
+
+import pytest
+
+from kiosk.config import RobotConfig as RobotSettings
+from kiosk.experiment.effects import Mood
+from kiosk.robots.embodiment import BoardPoint, FailureKind, RobotError, RobotVoice, Utterance, speakable
+from kiosk.robots.furhat import Furhat, chosen_voice
+from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
+
+DEADLINE_MS = 250
+SPARE_S = 1.0
+"""How much later than its deadline a call may end on a machine that does other things as well."""
+
+
+@pytest.fixture
+def fake() -> Iterator[FurhatFake]:
+    """A robot."""
+    with FurhatFake() as robot:
+        yield robot
+
+
+def furhat(fake: FurhatFake, language: str = "en", **settings: object) -> Furhat:
+    """A client with short deadlines."""
+    deadlines = {
+        **dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), DEADLINE_MS),
+        "speech_deadline": 1,
+    }
+    given = {"host": "127.0.0.1", "port": fake.port, **deadlines, **settings}
+    return Furhat(RobotSettings.model_validate(given), language)
+
+
+def saying(text: str, started: Callable[[], None] = lambda: None) -> Utterance:
+    """A sentence."""
+    return Utterance(text, started)
+
+
+CALLS: dict[str, Callable[[Furhat], object]] = {
+    "probe": Furhat.health_check,
+    "voices": Furhat.voices,
+    "gestures": Furhat.gestures,
+    "users": Furhat.users,
+    "voice": lambda robot: robot.speak_with(RobotVoice("Amy", "en-GB")),
+    "say": lambda robot: robot.say(saying("Hello")),
+    "stop_speech": Furhat.stop_speech,
+    "confused": lambda robot: robot.express(Mood.CONFUSED),
+}
+
+
+def test_at_connect_it_is_given_the_first_voice_of_the_language(fake: FurhatFake) -> None:
+    assert furhat(fake, "it").connect().voice == RobotVoice("Bianca", "it-IT")
+    assert fake.voice == "Bianca"
+
+
+def test_a_voice_can_be_wished_for_by_name(fake: FurhatFake) -> None:
+    furhat(fake, "en", voice="Amy").connect()
+    assert fake.voice == "Amy"
+
+
+def test_a_robot_without_a_voice_of_the_language_is_not_used() -> None:
+    with FurhatFake(voices={"Astrid": "sv-SE"}) as fake, pytest.raises(RobotError, match="it has sv-SE") as failed:
+        furhat(fake, "es").connect()
+    assert failed.value.kind is FailureKind.NO_VOICE
+
+
+def test_it_is_given_a_voice_of_each_visitors_language(fake: FurhatFake) -> None:
+    robot = furhat(fake, "en")
+    robot.connect()
+    robot.set_language("it")
+    assert fake.voice == "Bianca"
+    robot.connect()
+    assert fake.voice == "Bianca"
+
+
+def test_a_language_that_it_lacks_is_lost_to_one_visitor_only(fake: FurhatFake) -> None:
+    robot = furhat(fake, "it")
+    robot.connect()
+    with pytest.raises(RobotError) as failed:
+        robot.set_language("fi")
+    assert failed.value.kind is FailureKind.NO_VOICE
+    assert robot.connect().voice == RobotVoice("Bianca", "it-IT")
+
+
+@pytest.mark.parametrize("language", ["en", "en-US", "en_GB", "EN-au"])
+def test_a_language_is_known_however_it_is_written(language: str) -> None:
+    assert chosen_voice((RobotVoice("X", "enm"), RobotVoice("Y", language)), "en").name == "Y"
+
+
+@pytest.mark.parametrize(
+    ("language", "name"), [("no", "Liv"), ("zh", "Zhiyu"), ("pt-BR", "Camila"), ("pt", "Ines"), ("en-GB", "Amy")]
+)
+def test_the_nearest_voice_is_chosen(language: str, name: str) -> None:
+    told = {"Nog": "nog", "Liv": "nb-NO", "Zhiyu": "cmn-CN", "Ines": "pt", "Camila": "pt_BR", "Joey": "en-US"}
+    voices = tuple(RobotVoice(each, code) for each, code in (told | {"Amy": "en-GB"}).items())
+    assert chosen_voice(voices, language).name == name
+
+
+def test_after_every_reconnection_the_voice_is_set_again(fake: FurhatFake) -> None:
+    robot = furhat(fake)
+    robot.connect()
+    fake.restart()
+    assert fake.voice is None
+    robot.connect()
+    assert fake.voice == "Matthew"
+
+
+def test_it_asks_only_for_what_the_robot_takes(fake: FurhatFake) -> None:
+    robot = furhat(fake)
+    robot.connect()
+    for mood in Mood:
+        robot.express(mood)
+    robot.look_at(None)
+    robot.look_at(BoardPoint(0.25, 1))
+    robot.say(saying("Try row 2 & <the owl>\u2069"))
+    robot.stop_speech()
+    assert robot.users() == 1
+    assert fake.refusals == []
+    assert fake.sentences == ["Try row 2 the owl"]
+
+
+def test_a_mood_becomes_a_gesture_that_the_robot_offers_or_none(fake: FurhatFake) -> None:
+    fake.gestures = {"Smile": 1.04}
+    robot = furhat(fake)
+    robot.connect()
+    for mood in (Mood.HAPPY, Mood.SAD, Mood.IDLE):
+        robot.express(mood)
+    assert [asked.parameters["name"] for asked in fake.asked("/furhat/gesture")] == ["Smile"]
+
+
+def test_a_sentence_is_said_when_it_has_been_heard_to_its_end() -> None:
+    with FurhatFake(character_ms=5) as fake:
+        begun = monotonic()
+        furhat(fake).say(saying("x" * 20))
+        assert monotonic() - begun >= 0.1
+
+
+def test_speech_starts_when_the_request_is_out(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    started = threading.Event()
+    with pytest.raises(RobotError):
+        furhat(fake).say(saying("Hello", started.set))
+    assert started.is_set()
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
+@pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
+def test_whatever_goes_wrong_is_a_failure_before_the_deadline(
+    fake: FurhatFake, mode: Mode, call: Callable[[Furhat], object]
+) -> None:
+    fake.mode = mode
+    begun = monotonic()
+    with pytest.raises(RobotError):
+        call(furhat(fake))
+    assert monotonic() - begun < DEADLINE_MS / 1000 + SPARE_S
+
+
+@pytest.mark.parametrize(
+    ("mode", "fault"),
+    [
+        (Mode.REFUSE, FailureKind.UNREACHABLE),
+        (Mode.HANG, FailureKind.SLOW),
+        (Mode.SLOW, FailureKind.SLOW),
+        (Mode.TRICKLE, FailureKind.SLOW),
+        (Mode.CLIENT_ERROR, FailureKind.DECLINED),
+        (Mode.BARE_CLIENT_ERROR, FailureKind.ERROR),
+        (Mode.SERVER_ERROR, FailureKind.ERROR),
+        (Mode.UNSUCCESSFUL, FailureKind.DECLINED),
+        (Mode.GARBAGE, FailureKind.GARBAGE),
+        (Mode.PAGE, FailureKind.GARBAGE),
+        (Mode.DROP, FailureKind.DROPPED),
+        (Mode.RESET, FailureKind.DROPPED),
+    ],
+    ids=lambda value: value.name.lower(),
+)
+def test_a_failure_says_what_went_wrong(fake: FurhatFake, mode: Mode, fault: FailureKind) -> None:
+    fake.mode = mode
+    with pytest.raises(RobotError) as failed:
+        furhat(fake).say(saying("Hello"))
+    assert failed.value.kind is fault
+    assert str(failed.value).startswith(f"the robot {fault.value} (POST /furhat/say")
+
+
+@pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
+def test_a_sentence_is_sent_once_whatever_becomes_of_it(fake: FurhatFake, mode: Mode) -> None:
+    fake.arm(mode, path="/furhat/say")
+    with pytest.raises(RobotError):
+        furhat(fake).say(saying("Hello"))
+    assert len(fake.sentences) == 1
+
+
+def test_nobody_to_look_at_is_no_failure(fake: FurhatFake) -> None:
+    fake.mode = Mode.UNSUCCESSFUL
+    furhat(fake).look_at(None)
+    fake.mode = Mode.SERVER_ERROR
+    with pytest.raises(RobotError):
+        furhat(fake).look_at(None)
+
+
+@pytest.mark.parametrize("success", ['"true"', "1", "null"])
+def test_only_true_counts_as_true(fake: FurhatFake, success: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tests.robots.furhat_fake.json.dumps", lambda _: f'{{"success": {success}}}')
+    with pytest.raises(RobotError) as failed:
+        furhat(fake).stop_speech()
+    assert failed.value.kind is FailureKind.GARBAGE
+
+
+def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    under_way = saying("Hello")
+    robot = furhat(fake, speech_deadline_least=60_000)
+    failures: list[RobotError] = []
+
+    def say() -> None:
+        with pytest.raises(RobotError) as failed:
+            robot.say(under_way)
+        failures.append(failed.value)
+
+    thread = threading.Thread(target=say)
+    thread.start()
+    fake.wait_until(lambda: fake.sentences)
+    under_way.cancel()
+    thread.join(SPARE_S)
+    assert [failure.kind for failure in failures] == [FailureKind.CUT]
+
+
+def test_a_sentence_that_was_cut_before_it_was_sent_is_not_waited_for(fake: FurhatFake) -> None:
+    fake.mode = Mode.HANG
+    cut = saying("Hello")
+    cut.cancel()
+    with pytest.raises(RobotError) as failed:
+        furhat(fake, speech_deadline_least=60_000).say(cut)
+    assert failed.value.kind is FailureKind.CUT
+
+
+def test_an_answer_without_an_end_is_garbage() -> None:
+    listening = socket.create_server(("127.0.0.1", 0))
+
+    def pour() -> None:
+        connection, _ = listening.accept()
+        with connection, suppress(OSError):
+            connection.recv(10_000)
+            connection.sendall(b"HTTP/1.1 200 OK\r\n\r\n")
+            while True:
+                connection.sendall(b"[" * 100_000)
+
+    thread = threading.Thread(target=pour)
+    thread.start()
+    settings = RobotSettings(host="127.0.0.1", port=listening.getsockname()[1])
+    with listening, pytest.raises(RobotError) as failed:
+        Furhat(settings, "en").voices()
+    thread.join(SPARE_S)
+    assert failed.value.kind is FailureKind.GARBAGE
+
+
+def test_a_name_that_nobody_knows_cannot_be_reached() -> None:
+    with pytest.raises(RobotError) as failed:
+        Furhat(RobotSettings(host="no such robot"), "en").connect()
+    assert failed.value.kind is FailureKind.UNREACHABLE
+
+
+@pytest.mark.parametrize(
+    ("axes", "there"),
+    [("x y z", "0.20,-0.08,0.50"), ("-x y z", "-0.20,-0.08,0.50"), ("y z -x", "-0.50,0.20,-0.08")],
+)
+def test_the_hinted_place_is_told_along_the_robots_own_axes(fake: FurhatFake, axes: str, there: str) -> None:
+    furhat(fake, axes=axes, board_middle=(0.4, -0.2, 0.5), board_size=(0.4, 0.24)).look_at(BoardPoint(0, 0))
+    assert fake.requests[-1].parameters == {"location": there}
+
+
+def test_gestures_and_gaze_can_be_switched_off(fake: FurhatFake) -> None:
+    robot = furhat(fake, gestures=False, attend=False)
+    robot.express(Mood.HAPPY)
+    robot.look_at(None)
+    assert fake.requests == []
+
+
+@pytest.mark.parametrize(
+    ("sentence", "said"),
+    [
+        ("12\N{NO-BREAK SPACE}pairs", "12 pairs"),
+        ("می\N{ZERO WIDTH NON-JOINER}خواهم", "می\N{ZERO WIDTH NON-JOINER}خواهم"),
+        ("one\ntwo\x07<b>", "one two b"),
+    ],
+)
+def test_a_sentence_loses_markup_and_control_characters_and_no_others(sentence: str, said: str) -> None:
+    assert speakable(sentence) == said
+
+
+def test_a_very_long_text_is_cut_at_a_word() -> None:
+    text = speakable("word " * 400)
+    assert len(text) < 1000
+    assert text.endswith("word")

@@ -1,0 +1,198 @@
+"""Whatever is not as this program wrote it is found, and named, and left as it is."""
+
+from __future__ import annotations
+
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from kiosk import UserInputError
+from kiosk.store.database import FILE
+from kiosk.store.participants import codes
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.verify import Verification, verify
+from kiosk.store.withdrawal import withdraw
+from tests.store.visitors import a_day
+
+OTHER_CODE = next(codes("MI", 12345))
+
+
+@pytest.fixture
+def day(folder: Path, provenance: Provenance) -> Path:
+    """A day at a booth, after which somebody withdrew."""
+    people = a_day(folder, provenance, "MI")
+    withdraw(folder, people[1].code)
+    return folder
+
+
+def tamper(folder: Path, *statements: str) -> None:
+    """Change what is stored in spite of everything, and put the triggers back."""
+    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+        triggers = connection.execute("SELECT name, sql FROM sqlite_master WHERE type = 'trigger'").fetchall()
+        for name, _ in triggers:
+            connection.execute(f"DROP TRIGGER {name}")
+        for statement in statements:
+            connection.execute(statement)
+        for _, text in triggers:
+            connection.execute(text)
+
+
+def found(folder: Path) -> dict[Verification, list[str]]:
+    """What is found, as where and what, by check."""
+    told: dict[Verification, list[str]] = {}
+    for flaw in verify(folder):
+        told.setdefault(flaw.check, []).append(f"{flaw.where}: {flaw.what}")
+    return told
+
+
+def test_what_this_program_wrote_is_sound(day: Path) -> None:
+    assert verify(day) == []
+
+
+def test_a_kiosk_may_be_writing_meanwhile(folder: Path, provenance: Provenance) -> None:
+    a_day(folder, provenance, "MI")
+    with Recorder(folder):
+        assert verify(folder) == []
+
+
+def test_it_says_how_far_it_is(day: Path) -> None:
+    told: list[tuple[int, int]] = []
+    verify(day, lambda done, of: told.append((done, of)))
+    assert told == [(done, len(Verification)) for done in range(len(Verification))]
+
+
+@pytest.mark.parametrize(
+    ("check", "words", "statements"),
+    [
+        (Verification.NUMBERING, "session 1: has 3 events, numbered from 1 to 4", ["DELETE FROM event WHERE seq = 2"]),
+        (
+            Verification.NUMBERING,
+            "numbered from 2 to 5",
+            ["UPDATE event SET seq = seq + 10", "UPDATE event SET seq = seq - 9"],
+        ),
+        (Verification.NUMBERING, "session 1: has no events", ["DELETE FROM event"]),
+        (
+            Verification.TIME,
+            "session 1, event 4: is at 1 ms, after one at 7 ms",
+            ["UPDATE event SET at_ms = 1 WHERE seq = 4"],
+        ),
+        (Verification.TIME, "session 1, event 1: is at -1 ms, after", ["UPDATE event SET at_ms = -1 WHERE seq = 1"]),
+        (Verification.READABLE, "event 1: Hacked cannot be read: ", ["UPDATE event SET type = 'Hacked' WHERE seq = 1"]),
+        (
+            Verification.READABLE,
+            "event 1: SessionStarted cannot be read",
+            ["UPDATE event SET body = '[1]' WHERE seq = 1"],
+        ),
+        (
+            Verification.READABLE,
+            "SessionStarted cannot be read",
+            ["UPDATE event SET body = '{\"x\": 1}' WHERE seq = 1"],
+        ),
+        (Verification.SOURCES, "is not what its hash says", ["UPDATE source SET content = content || ' '"]),
+        (
+            Verification.RECEIPTS,
+            "step 1: has no receipt, or that of another",
+            ["UPDATE migration SET sha256 = 'x' WHERE number = 1"],
+        ),
+        (Verification.RECEIPTS, "step 2: has no receipt", ["DELETE FROM migration WHERE number = 2"]),
+        (Verification.RECEIPTS, "step 99: has a receipt", ["INSERT INTO migration VALUES (99, '', '', '')"]),
+        (Verification.REFERENCES, "points at nothing in source", ["DELETE FROM source"]),
+        (
+            Verification.PARTICIPANTS,
+            "is mistyped",
+            ["UPDATE participant SET code = 'MI-2222223' WHERE number = 1 AND simulated"],
+        ),
+        (Verification.PARTICIPANTS, "of another site", ["UPDATE participant SET site = 'GI' WHERE number = 3"]),
+        (
+            Verification.PARTICIPANTS,
+            "of another site, or another kind",
+            ["UPDATE participant SET simulated = 1 WHERE number = 3"],
+        ),
+        (Verification.PARTICIPANTS, "has the number 0", ["UPDATE participant SET number = 0 WHERE number = 3"]),
+        (
+            Verification.PARTICIPANTS,
+            "participant 2 of site 'MI': stands there 2 times",
+            ["UPDATE participant SET number = 2 WHERE number = 3"],
+        ),
+        (
+            Verification.PLACES,
+            "list 1: does not meet its quotas",
+            ['UPDATE allocation SET quotas = \'{"tom": 4, "notom": 5}\''],
+        ),
+        (Verification.PLACES, "and place 9 of list 1 is not", ["UPDATE session SET place = 9 WHERE id = 1"]),
+        (
+            Verification.PLACES,
+            "session 1: is no_assistance, and",
+            ["UPDATE session SET condition = 'no_assistance' WHERE id = 1"],
+        ),
+        (
+            Verification.WITHDRAWN,
+            "session 1: was withdrawn, and 1 rows of it are left in session",
+            ["UPDATE tombstone SET session = 1"],
+        ),
+    ],
+)
+def test_what_was_tampered_with_is_found(day: Path, check: Verification, words: str, statements: list[str]) -> None:
+    tamper(day, *statements)
+    before = (day / FILE).read_bytes()
+    assert [told for told in found(day)[check] if words in told]
+    assert (day / FILE).read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("words", "statements"),
+    [
+        ("trigger event_is_never_updated: is missing", ["DROP TRIGGER event_is_never_updated"]),
+        ("index game_finished: is missing", ["DROP INDEX game_finished"]),
+        ("table spy: is none of ours", ["CREATE TABLE spy (what TEXT)"]),
+        (
+            "trigger spy: is none of ours",
+            ["CREATE TRIGGER spy AFTER INSERT ON event BEGIN SELECT 1; END"],
+        ),
+        (
+            "trigger visit_is_never_updated: is not as it was made",
+            [
+                "DROP TRIGGER visit_is_never_updated",
+                "CREATE TRIGGER visit_is_never_updated BEFORE UPDATE ON visit BEGIN SELECT 1; END",
+            ],
+        ),
+        ("table visit: is not as it was made", ["ALTER TABLE visit ADD COLUMN name TEXT"]),
+    ],
+)
+def test_a_schema_that_is_not_ours_is_found(day: Path, words: str, statements: list[str]) -> None:
+    with closing(sqlite3.connect(day / FILE)) as connection, connection:
+        for statement in statements:
+            connection.execute(statement)
+    assert found(day) == {Verification.SCHEMA: [words]}
+
+
+def test_one_code_that_two_people_have_is_found(day: Path) -> None:
+    """Only where the table was made anew without its rule."""
+    tamper(
+        day,
+        "CREATE TABLE copy AS SELECT * FROM participant",
+        "DROP TABLE participant",
+        "ALTER TABLE copy RENAME TO participant",
+        f"UPDATE participant SET code = '{OTHER_CODE}' WHERE site = 'MI' AND NOT simulated",  # noqa: S608
+    )
+    told = found(day)
+    assert "sessions 1, 4: have one code, 2 times" in told[Verification.PARTICIPANTS]
+    assert "table participant: is not as it was made" in told[Verification.SCHEMA]
+
+
+def test_a_page_that_is_damaged_is_found(day: Path) -> None:
+    with closing(sqlite3.connect(day / FILE)) as connection:
+        root = connection.execute("SELECT rootpage FROM sqlite_master WHERE name = 'event'").fetchone()[0]
+        size = connection.execute("PRAGMA page_size").fetchone()[0]
+    damaged = bytearray((day / FILE).read_bytes())
+    damaged[(root - 1) * size : root * size] = b"\xff" * size
+    (day / FILE).write_bytes(damaged)
+    assert Verification.FILE in found(day)
+
+
+def test_where_there_is_nothing_to_check_it_is_said(folder: Path) -> None:
+    with pytest.raises(UserInputError, match="there is no database in"):
+        verify(folder)
+    assert not folder.exists()

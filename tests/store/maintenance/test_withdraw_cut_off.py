@@ -1,0 +1,273 @@
+"""A withdrawal that is cut off, wherever that is, is known to be unfinished and is finished afterwards."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sqlite3
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+
+import pytest
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.preflight import Severity
+from kiosk.store import withdrawal as withdraw_module
+from kiosk.store.checks import database_check
+from kiosk.store.database import FILE, open_for_reading
+from kiosk.store.maintenance import FOLDER, back_up, list_backups
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.verify import Verification, verify
+from kiosk.store.withdrawal import find_withdrawal, withdraw
+from tests.samples import plan
+from tests.store.visitors import COMPLETED, rows, saying
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it forks, and looks at modes of files")
+
+ANSWER = "a quite unmistakable answer"
+OTHERS = "the answer of another person"
+ROOT = Path(__file__).parents[3]
+PAGE = 4096
+KILLED, CUT_AT_A_PAGE = -9, -25
+
+Cut = Callable[..., int]
+
+
+@pytest.fixture(scope="module")
+def pristine(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A folder as a kiosk that was killed leaves it, with copies, one of them unfinished; and a visitor's code."""
+    place = tmp_path_factory.mktemp("pristine")
+    folder, left = place / "data", place / "left"
+    person = Provenance(plan(), 4, "avatar", "abc123", simulated=False)
+    with Recorder(folder) as recorder:
+        recorder.begin(person, saying(OTHERS))
+        code = recorder.begin(replace(person, seed=5), saying(ANSWER)[:-1]).code
+        recorder.append(saying(ANSWER * 500)[2:])
+        back_up(folder, folder / FOLDER)
+        copy = back_up(folder, folder / FOLDER)
+        shutil.copy(copy, f"{copy}.unfinished")
+        recorder.begin(replace(person, seed=6), saying(OTHERS))
+        shutil.copytree(folder, left)
+    assert (left / f"{FILE}-wal").stat().st_size > 0
+    return left, code
+
+
+@pytest.fixture
+def data(pristine: tuple[Path, str], tmp_path: Path) -> Path:
+    """A copy of that folder."""
+    return Path(shutil.copytree(pristine[0], tmp_path / "data"))
+
+
+@pytest.fixture
+def code(pristine: tuple[Path, str]) -> str:
+    """The code of the one who withdraws."""
+    return pristine[1]
+
+
+@pytest.fixture(scope="module")
+def cut() -> Iterator[Cut]:
+    """Withdraw up to a step or a page; returns the exit code, or the signal that ended it."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "tests.store.maintenance.cutting"],
+        cwd=ROOT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as program:
+
+        def order(folder: Path, code: str, *, step: int | None = None, page: int | None = None) -> int:
+            assert program.stdin is not None
+            assert program.stdout is not None
+            program.stdin.write(json.dumps({"folder": str(folder), "code": code, "step": step, "page": page}) + "\n")
+            program.stdin.flush()
+            return int(program.stdout.readline())
+
+        yield order
+        program.terminate()
+
+
+def holding(folder: Path, *what: str) -> list[str]:
+    """Every file of a folder, and of those within, in which any of these words stand."""
+    files = [file for file in folder.rglob("*") if file.is_file()]
+    return sorted(file.name for file in files if any(words.encode() in file.read_bytes() for words in what))
+
+
+def unfinished(folder: Path) -> bool:
+    """Whether ``verify`` says that a withdrawal is not finished."""
+    return Verification.FINISHED in {flaw.check for flaw in verify(folder)}
+
+
+def is_there(folder: Path, code: str) -> bool:
+    """Whether the participant is."""
+    with closing(open_for_reading(folder)) as connection:
+        return bool(connection.execute("SELECT count(*) FROM participant WHERE code = ?", (code,)).fetchone()[0])
+
+
+def check_finished(folder: Path, code: str) -> None:
+    """Hold that nothing is left of the participant, and everything of the others."""
+    assert verify(folder) == []
+    assert holding(folder, ANSWER, code) == []
+    assert [path.name for path in folder.rglob("*.unfinished*")] == []
+    assert rows(folder, "SELECT session FROM tombstone") == [(2,)]
+    assert rows(folder, "SELECT count(*) FROM unfinished_withdrawal") == [(0,)]
+    (copy,) = list_backups(folder / FOLDER)
+    with closing(sqlite3.connect(copy)) as connection:
+        assert connection.execute("SELECT session FROM tombstone").fetchall() == [(2,)]
+        assert connection.execute("SELECT count(*) FROM unfinished_withdrawal").fetchall() == [(0,)]
+    assert set(holding(folder, OTHERS)) == {FILE, copy.name}
+    with pytest.raises(UserInputError, match="nobody in"):
+        find_withdrawal(folder, code)
+
+
+def go_on(folder: Path, code: str, number: int) -> None:
+    """Finish it: by the next start of the kiosk or, every other time, by the same command."""
+    if number % 2 or is_there(folder, code):
+        assert withdraw(folder, code).session == 2
+    else:
+        Recorder(folder).__exit__(None, None, None)
+
+
+def check_cut_off(folder: Path, code: str, number: int) -> bool:
+    """Hold a folder after a cut to what may be, finish it, and say whether it was found unfinished."""
+    found = unfinished(folder)
+    if is_there(folder, code):
+        assert verify(folder) == []
+        assert find_withdrawal(folder, code).events == 5
+    elif not found:
+        assert holding(folder, ANSWER, code) == []
+        check_finished(folder, code)
+        return False
+    go_on(folder, code, number)
+    check_finished(folder, code)
+    return found
+
+
+def test_a_withdrawal_is_finished_wherever_it_was_cut_off(pristine: tuple[Path, str], tmp_path: Path, cut: Cut) -> None:
+    found, folder = 0, pristine[0]
+    for step in count(1):
+        folder = Path(shutil.copytree(pristine[0], tmp_path / str(step)))
+        if cut(folder, pristine[1], step=step) != KILLED:
+            break
+        found += check_cut_off(folder, pristine[1], step)
+    check_finished(folder, pristine[1])
+    assert found > 10
+    assert step > 30
+
+
+def test_a_withdrawal_is_finished_that_was_cut_off_in_the_middle_of_a_checkpoint(
+    pristine: tuple[Path, str], tmp_path: Path, cut: Cut
+) -> None:
+    found = 0
+    for page in range(2, (pristine[0] / FILE).stat().st_size // PAGE, 2):
+        folder = Path(shutil.copytree(pristine[0], tmp_path / str(page)))
+        if cut(folder, pristine[1], page=page) == CUT_AT_A_PAGE:
+            found += check_cut_off(folder, pristine[1], page // 2)
+    assert found > 3
+
+
+def test_a_withdrawal_that_is_cut_off_twice_is_finished(data: Path, code: str, cut: Cut) -> None:
+    step = next(step for step in count(1, 3) if cut(data, code, step=step) == KILLED and unfinished(data))
+    assert cut(data, code, step=step) == KILLED
+    assert unfinished(data)
+    assert withdraw(data, code).cut_off
+    check_finished(data, code)
+
+
+@pytest.fixture
+def cut_off(data: Path, code: str, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder whose copies could not be replaced."""
+
+    def full(*_: object, **__: object) -> Path:
+        raise StoreFailed("disk full")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(withdraw_module, "back_up", full)
+        with pytest.raises(StoreFailed, match="give the same command again, or open the kiosk, to finish it"):
+            withdraw(data, code)
+    return data
+
+
+def test_an_unfinished_withdrawal_is_told_by_verify_and_by_check(cut_off: Path) -> None:
+    (flaw,) = verify(cut_off)
+    assert (flaw.check, flaw.where) == (Verification.FINISHED, "session 2")
+    (found,) = database_check(cut_off, busy=False)
+    assert (found.state, "a withdrawal was cut off" in found.words) == (Severity.WARNING, True)
+
+
+def test_only_the_same_code_finishes_a_withdrawal_by_name(cut_off: Path, code: str) -> None:
+    with pytest.raises(UserInputError, match=r"nobody in .* has the code 2222222"):
+        withdraw(cut_off, "2222222")
+    gone = withdraw(cut_off, code.lower())
+    assert (gone.session, gone.participant, gone.cut_off, gone.started_at) == (2, "2", True, None)
+    check_finished(cut_off, code)
+
+
+def test_the_code_itself_goes_with_the_participant(cut_off: Path, code: str) -> None:
+    assert holding(cut_off, code) == [*sorted(path.name for path in (cut_off / FOLDER).glob("*.db*"))]
+
+
+def test_a_withdrawal_that_cannot_be_finished_keeps_no_kiosk_shut(
+    cut_off: Path, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> Path:
+        raise StoreFailed("disk full")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(withdraw_module, "back_up", full)
+        with Recorder(cut_off) as recorder:
+            recorder.begin(Provenance(plan(), 9, "avatar", "abc123", simulated=True), COMPLETED)
+    assert unfinished(cut_off)
+    Recorder(cut_off).__exit__(None, None, None)
+    check_finished(cut_off, code)
+
+
+def test_a_reader_does_not_let_a_withdrawal_pass_for_finished(
+    cut_off: Path, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(withdraw_module, "READER_WAIT_MS", 1)
+    with closing(open_for_reading(cut_off)) as reader:
+        reader.execute("BEGIN")
+        reader.execute("SELECT count(*) FROM event").fetchone()
+        Recorder(cut_off).__exit__(None, None, None)
+        assert unfinished(cut_off)
+    Recorder(cut_off).__exit__(None, None, None)
+    check_finished(cut_off, code)
+
+
+def test_two_withdrawals_that_were_cut_off_are_finished_together(cut_off: Path, code: str) -> None:
+    (other,) = rows(cut_off, "SELECT code FROM participant WHERE session = 3")[0]
+    withdraw(cut_off, str(other))
+    assert verify(cut_off) == []
+    assert holding(cut_off, ANSWER, code, str(other)) == []
+
+
+# Modes
+
+
+def modes(folder: Path) -> dict[str, int]:
+    """The modes of all files that hold data."""
+    return {path.name: path.stat().st_mode & 0o777 for path in folder.rglob("recollect*.db*")}
+
+
+def test_only_the_owner_may_read_the_database_its_logs_and_its_copies(data: Path, code: str) -> None:
+    for path in data.rglob("recollect*.db*"):
+        path.chmod(0o644)
+    with Recorder(data) as recorder:
+        recorder.begin(Provenance(plan(), 9, "avatar", "abc123", simulated=True), COMPLETED)
+        assert {name: mode for name, mode in modes(data).items() if name.startswith(f"{FILE}")} == dict.fromkeys(
+            (FILE, f"{FILE}-wal", f"{FILE}-shm"), 0o600
+        )
+    withdraw(data, code)
+    back_up(data, data / FOLDER)
+    assert set(modes(data).values()) == {0o600}
+    assert len(modes(data)) == 3
+
+
+def test_a_new_database_is_never_open_to_others(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "new"):
+        assert set(modes(tmp_path / "new").values()) == {0o600}

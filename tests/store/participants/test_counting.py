@@ -1,0 +1,123 @@
+"""Everybody who came is counted once, whatever became of them, and whoever withdrew is counted still."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import NotRecordedReason
+from kiosk.experiment.randomisation import AllocationSource
+from kiosk.experiment.session_config import SessionKind
+from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
+from kiosk.store.queries import open_repository
+from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.withdrawal import withdraw
+from tests.store.visitors import BEGUN, COMPLETED, FINISHED, FOUR, LEFT, seated
+
+TWO = {Condition.TOM: 2}
+
+
+def counted(folder: Path, *, simulated: bool = True) -> EnrolmentCounts:
+    """The counts of a folder."""
+    with open_repository(folder) as stored:
+        return stored.counts(simulated=simulated)
+
+
+def told(cell: CountCell) -> dict[str, int]:
+    """What there is of a cell, without what there is not."""
+    return {name: number for name, number in cell.to_json().items() if number}
+
+
+def test_of_a_folder_in_which_nothing_happened_there_is_nothing_to_count(folder: Path) -> None:
+    with Recorder(folder):
+        pass
+    assert counted(folder) == EnrolmentCounts({}, dict.fromkeys(NotRecordedReason, 0))
+
+
+def test_every_condition_that_has_a_quota_is_told(folder: Path) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(FOUR, 4, 1, simulated=True)
+    assert {condition: told(cell) for condition, cell in counted(folder).cells.items()} == {
+        Condition.TOM: {"quota": 4},
+        Condition.NOTOM: {"quota": 4},
+    }
+
+
+def test_every_fate_is_told_apart(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        for events in (LEFT, COMPLETED, BEGUN, BEGUN, FINISHED):
+            seated(recorder, provenance, events)
+        for allotted in (AllocationSource.OVERRIDE, AllocationSource.BEYOND, AllocationSource.BEYOND):
+            seated(recorder, provenance, allotted=allotted)
+        recorder.begin(provenance, COMPLETED)
+    assert told(counted(folder).cells[Condition.TOM]) == {
+        "quota": 2,
+        "begun": 9,
+        "consumed": 2,
+        "dropped_out": 3,
+        "overridden": 1,
+        "beyond": 2,
+        "unlisted": 1,
+    }
+
+
+def test_a_session_is_under_way_while_somebody_writes(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        seated(recorder, provenance, LEFT)
+        seated(recorder, provenance, BEGUN)
+        assert told(counted(folder).cells[Condition.TOM]) == {"quota": 2, "begun": 2, "dropped_out": 1, "under_way": 1}
+    assert told(counted(folder).cells[Condition.TOM]) == {"quota": 2, "begun": 2, "dropped_out": 2}
+
+
+def test_people_and_rehearsals_are_counted_apart(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=False)
+        seated(recorder, provenance, simulated=False)
+        recorder.begin(replace(provenance, simulated=True), COMPLETED)
+        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
+        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
+        recorder.begin(replace(provenance, simulated=SessionKind.TRIAL), BEGUN)
+        recorder.count_visit(NotRecordedReason.LEFT, simulated=SessionKind.TRIAL)
+    people, rehearsals = (counted(folder, simulated=simulated) for simulated in (False, True))
+    assert told(people.cells[Condition.TOM]) == {"quota": 2, "begun": 1, "consumed": 1}
+    assert told(rehearsals.cells[Condition.TOM]) == {"begun": 1, "unlisted": 1}
+    assert people.visits == {NotRecordedReason.DECLINED: 1, NotRecordedReason.UNDER_AGE: 0, NotRecordedReason.LEFT: 0}
+    assert rehearsals.visits == {
+        NotRecordedReason.DECLINED: 0,
+        NotRecordedReason.UNDER_AGE: 0,
+        NotRecordedReason.LEFT: 1,
+    }
+
+
+def test_raised_quotas_are_counted_once(folder: Path) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        recorder.create_allocation_list({Condition.TOM: 6}, 1, 1, simulated=True)
+    with Recorder(folder, "MI") as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+    assert counted(folder).cells[Condition.TOM].quota == 8
+
+
+@pytest.mark.parametrize(
+    ("events", "fate"),
+    [(COMPLETED, Disposition.CONSUMED), (FINISHED, Disposition.CONSUMED), (LEFT, Disposition.DROPPED_OUT)],
+)
+def test_counts_add_up_after_somebody_withdrew(
+    folder: Path, provenance: Provenance, events: tuple[object, ...], fate: Disposition
+) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        placed = replace(provenance, slot=recorder.next_slot(simulated=True), allocation_source=AllocationSource.LIST)
+        code = recorder.begin(placed, events).code  # type: ignore[arg-type]  # events they are
+        seated(recorder, provenance)
+    before = counted(folder).cells[Condition.TOM]
+    withdraw(folder, code)
+    after = counted(folder).cells[Condition.TOM]
+    assert after == replace(before, withdrawn=1)
+    assert after.fates[fate] >= 1
+    assert after.begun == 2

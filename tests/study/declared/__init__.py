@@ -1,1 +1,0 @@
-"""What a study declares, and how it is checked."""

@@ -1,0 +1,114 @@
+"""What is shipped for visitors to read is whole in every language, and short enough to be read."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from kiosk.config import ASSETS
+from kiosk.experiment.information import Information, check_alike
+from kiosk.experiment.questionnaire import ItemOrder, Likert, Questionnaire, Rating
+
+LANGUAGES = ("en", "it", "es")
+QUESTIONNAIRES = sorted((ASSETS / "questionnaires").glob("*.toml"))
+SHEETS = sorted(folder for folder in (ASSETS / "consent").iterdir() if folder.is_dir())
+LONGEST_ITEM = 16
+"""Words that are read in five seconds, at some 200 a minute."""
+
+
+def shipped(name: str) -> Questionnaire:
+    """A questionnaire by its name."""
+    return Questionnaire.read(ASSETS / "questionnaires" / f"{name}.toml")
+
+
+@pytest.mark.parametrize("file", QUESTIONNAIRES, ids=lambda file: str(file.stem))
+def test_every_questionnaire_is_worded_in_every_language(file: Path) -> None:
+    questionnaire = Questionnaire.read(file)
+    assert questionnaire.id == file.stem
+    assert [questionnaire.unworded(language) for language in LANGUAGES] == [(), (), ()]
+
+
+@pytest.mark.parametrize("file", QUESTIONNAIRES, ids=lambda file: str(file.stem))
+def test_every_item_is_read_in_five_seconds(file: Path) -> None:
+    texts = [words for item in Questionnaire.read(file).items for words in item.text.values()]
+    assert [text for text in texts if len(text.split()) > LONGEST_ITEM] == []
+
+
+@pytest.mark.parametrize("file", QUESTIONNAIRES, ids=lambda file: str(file.stem))
+def test_every_questionnaire_says_whose_wording_it_is(file: Path) -> None:
+    assert "our own" in Questionnaire.read(file).note.lower()
+
+
+def test_the_scales_of_the_study_are_its_four_with_its_two_reversed_items() -> None:
+    questionnaire = shipped("social-intelligence")
+    assert questionnaire.order is ItemOrder.SHUFFLED
+    assert questionnaire.per_page == 4
+    names = {scale: [item.id for item in items] for scale, items in questionnaire.scales.items()}
+    assert names == {scale: [f"{scale}{number}" for number in range(1, 5)] for scale in ("SOC", "AC", "PC", "RC")}
+    ratings = [item for item in questionnaire.items if isinstance(item, Rating)]
+    assert [item.id for item in ratings if item.reverse] == ["SOC3", "AC2"]
+    assert {item.ends for item in ratings} == {(1, 5)}
+    assert "not the published items" in questionnaire.note
+
+
+def test_the_answers_about_robots_are_the_five_of_the_study() -> None:
+    questionnaire = shipped("about-you")
+    assert [item.id for item in questionnaire.items] == ["age", "gender", "robots"]
+    robots = questionnaire.items[2]
+    assert robots.kind == "single"
+    assert robots.ids == ("none", "stories", "fairs", "owns", "works")
+    assert [question.id for question in questionnaire.questions if question.required] == []
+
+
+def test_the_form_about_trust_has_a_slider_beside_its_scale() -> None:
+    questionnaire = shipped("trust")
+    assert [item.kind for item in questionnaire.items].count("slider") == 1
+    assert all(isinstance(item, Likert) for items in questionnaire.scales.values() for item in items)
+
+
+# Information sheets
+
+
+@pytest.mark.parametrize("folder", SHEETS, ids=lambda folder: str(folder.name))
+def test_information_sheets_ask_for_the_same_in_every_language(folder: Path) -> None:
+    sheets = {language: Information.of(folder, language) for language in LANGUAGES}
+    check_alike(sheets, folder)
+    for sheet in sheets.values():
+        assert sheet.consent.required == {"take_part", "store"}
+        assert [purpose.id for purpose in sheet.consent.purposes] == ["take_part", "store", "share"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_visitor_has_time_to_read_the_information_sheet(language: str) -> None:
+    sheet = Information.of(ASSETS / "consent" / "study", language)
+    for page, most in ((sheet.about, 60), (sheet.consent, 120), (sheet.debrief, 110)):
+        assert sum(len(paragraph.split()) for paragraph in page.paragraphs) <= most
+    assert len({sheet.sha256, *(Information.of(ASSETS / "consent" / "study", each).sha256 for each in LANGUAGES)}) == 3
+
+
+def test_no_text_for_visitors_names_a_condition_or_says_who_is_a_woman_or_a_man() -> None:
+    files = [*QUESTIONNAIRES, *(file for folder in SHEETS for file in folder.glob("*.toml"))]
+    words = re.compile(r"\b(tom|notom|theory of mind|benvenuto|benvenuta|bienvenido|bienvenida|sicuro|segura)\b", re.I)
+    assert [(file.name, found[0]) for file in files if (found := words.search(file.read_text("utf-8")))] == []
+
+
+# Pictures
+
+
+@pytest.mark.parametrize("folder", sorted((ASSETS / "scales").iterdir()), ids=lambda folder: str(folder.name))
+def test_the_pictures_of_a_scale_are_plain_and_of_one_size(folder: Path) -> None:
+    pictures = sorted(folder.glob("*.svg"))
+    assert [picture.stem for picture in pictures] == [str(number + 1) for number in range(len(pictures))]
+    for picture in pictures:
+        text = picture.read_text("utf-8")
+        assert 'viewBox="0 0 240 240"' in text
+        assert re.search(r"<(filter|mask|text|style|image|linearGradient|radialGradient)\b", text) is None
+
+
+def test_faces_are_told_apart_without_their_colours() -> None:
+    faces = [file.read_text("utf-8") for file in sorted((ASSETS / "scales" / "faces").glob("*.svg"))]
+    shapes = {re.sub(r'<title>.*?</title>|(fill|stroke)="#\w+"', "", face) for face in faces}
+    colours = {tuple(sorted(set(re.findall(r"#\w{6}", face)) - {"#FFFBF2"})) for face in faces}
+    assert (len(shapes), len(colours)) == (5, 1)

@@ -1,0 +1,119 @@
+"""A process that stands still, swells or does not end when asked is ended from outside, and the reason is said."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from kiosk.supervisor import Limits, _Watch, guarded
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it cannot fork")
+
+KILLED = -9
+BEAT = b"\0"
+TERM = bytes([signal.SIGTERM])
+
+
+def guarded_process(act: str, memory_mib: int = 4096) -> subprocess.Popen[str]:
+    """A guarded process that does this."""
+    environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
+    return subprocess.Popen(
+        [sys.executable, "-m", "tests.supervisor.guarded", act, str(memory_mib)],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_a_process_that_holds_pythons_lock_and_stands_still_is_ended_in_words() -> None:
+    with guarded_process("burn") as process:
+        _, said = process.communicate()
+    assert process.returncode == KILLED
+    assert said == "recollect: the interface stood still for 1 s, so it was ended\n"
+
+
+def test_a_process_that_never_begins_is_ended_as_well() -> None:
+    with guarded_process("begin never") as process:
+        _, said = process.communicate()
+    assert process.returncode == KILLED
+    assert "stood still" in said
+
+
+def test_a_process_that_takes_too_much_memory_is_ended_in_words() -> None:
+    with guarded_process("swell", memory_mib=200) as process:
+        _, said = process.communicate()
+    assert process.returncode == KILLED
+    assert "MiB of memory and may take 200, so it was ended" in said
+
+
+def test_a_process_that_is_asked_to_end_ends_although_it_stands_still() -> None:
+    with guarded_process("be asked while burning") as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        process.terminate()
+        _, said = process.communicate()
+    assert process.returncode == KILLED
+    assert said == "recollect: it was asked to end and did not, so it was ended\n"
+
+
+def test_a_process_that_takes_notice_may_take_longer_to_close() -> None:
+    with guarded_process("be asked") as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        process.terminate()
+        told, said = process.communicate()
+    assert (process.returncode, told, said) == (0, "left\n", "")
+
+
+@pytest.mark.parametrize(("act", "code"), [("live", 0), ("kill itself", KILLED)])
+def test_the_guard_ends_with_the_process_and_says_nothing(act: str, code: int) -> None:
+    with guarded_process(act) as process:
+        # The guard holds the other end of the errors: they end when it has ended too.
+        _, said = process.communicate()
+    assert (process.returncode, said) == (code, "")
+
+
+def test_what_a_supervisor_guards_has_no_other_guard(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "fork", lambda: pytest.fail("it has"))
+    with guarded(environment={"NOTIFY_SOCKET": "somewhere", "WATCHDOG_USEC": "5000000"}) as beat:
+        beat()
+
+
+# What the guard makes of what it hears
+
+LIMITS = Limits(start=30, silence=10, end=10, stuck=3, memory_mib=100)
+
+
+def looks(*told: bytes, every_s: float = 1.0, taken_mib: int = 50) -> list[str]:
+    """What is found wrong at each look."""
+    watch = _Watch(LIMITS)
+    return [watch.look(every_s, each, taken_mib) for each in told]
+
+
+def test_silence_counts_from_the_last_beat() -> None:
+    found = looks(BEAT, *[b""] * 9, BEAT, *[b""] * 10)
+    assert found == [*[""] * 20, "the interface stood still for 10 s"]
+
+
+def test_there_is_long_patience_before_the_first_beat() -> None:
+    assert looks(*[b""] * 30) == [*[""] * 29, "the interface stood still for 30 s"]
+
+
+def test_whoever_answers_the_request_to_end_has_longer() -> None:
+    assert looks(BEAT, TERM, *[b""] * 3)[-1] == "it was asked to end and did not"
+    answered = looks(BEAT, TERM + BEAT, *[b""] * 9, BEAT)
+    assert answered == [*[""] * 11, "it was asked to end and did not"]
+
+
+def test_a_second_request_does_not_begin_the_time_anew() -> None:
+    assert looks(BEAT, TERM, TERM, TERM, TERM)[-1] == "it was asked to end and did not"
+
+
+def test_other_signals_ask_for_nothing() -> None:
+    assert looks(BEAT, *[bytes([signal.SIGCHLD]) + BEAT] * 50)[-1] == ""

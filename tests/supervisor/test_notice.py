@@ -1,0 +1,86 @@
+"""What is told arrives, through a socket with a name or without one, or through a pipe; and telling never hurts."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from kiosk.sd_notify import Notifier, NotifyListener, NotifyPipeListener, NotifySocketListener, parse_notification
+
+LONG = 10.0
+"""Seconds; nothing here takes as long unless it fails."""
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
+
+
+@pytest.fixture(params=["socket", "pipe"])
+def listener(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[NotifyListener]:
+    """Each hearing end."""
+    made = NotifySocketListener(tmp_path) if request.param == "socket" else NotifyPipeListener()
+    yield made
+    made.close()
+
+
+def test_what_another_process_tells_is_heard_in_order(listener: NotifyListener) -> None:
+    program = (
+        "import os; from kiosk.sd_notify import Notifier; n = Notifier(os.environ)\n"
+        "n.tell(READY=1, STATUS='two\\nlines'); n.tell(WATCHDOG=1)"
+    )
+    subprocess.run(
+        [sys.executable, "-c", program],
+        env=os.environ | listener.environment,
+        pass_fds=listener.inherited,
+        check=True,
+        timeout=LONG,
+    )
+    told: list[tuple[str, str]] = []
+    while ("WATCHDOG", "1") not in told:
+        told += listener.hear(LONG).items()
+    assert told == [("READY", "1"), ("STATUS", "two lines"), ("WATCHDOG", "1")]
+
+
+def test_silence_is_an_empty_notice(listener: NotifyListener) -> None:
+    assert listener.hear(0) == {}
+    assert listener.hear(0.01) == {}
+
+
+def test_a_socket_without_a_file_is_told_as_well() -> None:
+    """An abstract socket, as systemd gives to services: its name begins with a 0, which the environment shows as @."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
+        systemd.bind(f"\0recollect-test-{os.getpid()}")
+        notifier = Notifier({"NOTIFY_SOCKET": f"@recollect-test-{os.getpid()}"})
+        assert notifier.tell(READY=1)
+        assert systemd.recv(100) == b"READY=1"
+        notifier.close()
+
+
+def test_where_nobody_listens_nothing_is_told() -> None:
+    assert not Notifier({}).tell(READY=1)
+
+
+def test_telling_somebody_who_is_gone_does_not_hurt(tmp_path: Path) -> None:
+    listener = NotifySocketListener(tmp_path)
+    notifier = Notifier(listener.environment)
+    assert notifier.tell(WATCHDOG=1)
+    listener.close()
+    assert not notifier.tell(WATCHDOG=1)
+    notifier.close()
+    assert not notifier.tell(WATCHDOG=1)
+
+
+def test_telling_somebody_who_does_not_listen_never_waits(tmp_path: Path) -> None:
+    listener = NotifySocketListener(tmp_path)
+    notifier = Notifier(listener.environment)
+    assert all(notifier.tell(WATCHDOG=1) for _ in range(1_000))
+    notifier.close()
+    listener.close()
+
+
+def test_what_is_no_notice_is_left_out() -> None:
+    assert parse_notification(b"READY=1\nnonsense\n\xff=\xff=1\n") == {"READY": "1", "\ufffd": "\ufffd=1"}

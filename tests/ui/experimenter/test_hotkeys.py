@@ -1,0 +1,230 @@
+"""Every shortcut in every stage does, puts off or refuses what the table says, and asks for what the table says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtGui import QGuiApplication, QKeyEvent
+
+from kiosk.config import Keys
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import EmbodimentName, Stage
+from kiosk.experiment.experimenter import Action, ActionEffect, Authorisation, permission
+from kiosk.ui.experimenter.view_model import AuthorisationStep
+from tests.robots.recording import RobotFake
+from tests.ui.experimenter.conftest import TINY, Desk, MakeDesk, Witness
+
+HOTKEYS = tuple(Action(name) for name in Keys.model_fields)
+EMPTY = (Stage.ATTRACT, Stage.OVER)
+
+
+def say_something(assigner: Desk) -> None:
+    """Let a sentence be said to its end, if one is said in this stage."""
+    if assigner.stage is Stage.GAME:
+        # A hint comes only to somebody who finds nothing.
+        board = assigner.app.screens.board
+        while not assigner.app.runner.accepts(happened.RepeatRequested):
+            for place in board.closed[:1]:
+                assigner.app.runner.tell(happened.CardSelected, position=place)
+            assigner.jump()
+    elif permission(Action.AGAIN, assigner.stage).effect is ActionEffect.NOW:
+        assigner.wait_until(lambda: assigner.app.runner.accepts(happened.RepeatRequested))
+
+
+def done(assigner: Desk, action: Action, witness: Witness) -> bool:
+    """Whether what a action does at once, or puts off, is to be seen."""
+    app, visited = assigner.app, witness.stage not in EMPTY
+    seen: dict[Action, Callable[[], bool]] = {
+        Action.PANEL: lambda: assigner.panel.is_open and witness.saw(happened.PauseRequested) is visited,
+        Action.CONDITION: lambda: app.assigner.chosen is Condition.TOM,
+        Action.BODY: lambda: app.embodiments.prefers_avatar,
+        Action.AGAIN: lambda: witness.saw(happened.RepeatRequested),
+        Action.QUIET: lambda: app.embodiments.is_muted and witness.saw(happened.MuteChanged) is visited,
+        Action.PAUSE: lambda: bool(app.screens.kiosk.property("paused")),
+        Action.END: lambda: assigner.stage is Stage.ATTRACT and witness.saw(happened.AbortRequested),
+        Action.NEXT: lambda: assigner.stage is Stage.ATTRACT is not witness.stage,
+        Action.LEAVE: lambda: assigner.notes[-1][0] == "KioskLeft",
+    }
+    return seen[action]()
+
+
+def undo(assigner: Desk) -> None:
+    """Have everything as it was before a action, apart from the stage."""
+    app = assigner.app
+    app.experimenter.panel.close()
+    app.runner.tell(happened.PauseEnded)
+    app.embodiments.unmute()
+    app.embodiments.prefer(EmbodimentName.FURHAT)
+    app.assigner.choose(None, "a test")
+    assigner.wait_for_note_to_go()
+
+
+@pytest.mark.parametrize("stage", Stage, ids=lambda stage: stage.value)
+def test_every_shortcut_in_this_stage_does_what_the_table_says(stage: Stage, make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(RobotFake(), game={} if stage is Stage.GAME else TINY["game"])
+    assigner.wait_until(lambda: assigner.app.embodiments.settled)
+    for action in HOTKEYS:
+        undo(assigner)
+        assigner.go_to(stage)
+        check(assigner, action, stage)
+
+
+def check(assigner: Desk, action: Action, stage: Stage) -> None:
+    """Press the shortcut, answer what it asks, and see that what comes of it is what the table says."""
+    if action is Action.AGAIN:
+        say_something(assigner)
+    witness, held, where = Witness(assigner.app), permission(action, stage), f"{action.value} in {stage.value}"
+    refused = held.effect is ActionEffect.REFUSED
+
+    assigner.shortcut(action)
+    assert (assigner.card.asks_for is AuthorisationStep.PIN) is (
+        not refused and held.asks is not Authorisation.NOTHING
+    ), where
+    assigner.unlock()
+    assert (assigner.card.asks_for is AuthorisationStep.REASON) is (held.asks is Authorisation.PIN_AND_REASON), where
+    if assigner.card.asks_for is AuthorisationStep.REASON:
+        assigner.type("3")
+
+    assert done(assigner, action, witness) is not refused, where
+    if refused:
+        assert assigner.noted == "Not now", where
+        assert assigner.stage is stage, where
+        assert not witness.saw(happened.WorldEvent), where
+    if held.asks is Authorisation.PIN_AND_REASON:
+        assert assigner.notes[-1][1]["reason"] == "disturbed", where
+    if held.effect is ActionEffect.NEXT_SESSION and stage not in EMPTY:
+        assert assigner.app.embodiments.current is not None
+        assert assigner.app.embodiments.current.name is EmbodimentName.FURHAT, where
+        assert assigner.stage is stage, where
+
+
+def test_what_was_put_off_holds_for_the_next_visitor(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(RobotFake())
+    assigner.wait_until(lambda: assigner.app.embodiments.settled)
+    assigner.go_to(Stage.INTRODUCTION)
+    assigner.do(Action.BODY)
+    assigner.do(Action.END)
+    assert assigner.app.embodiments.current is not None
+    assert assigner.app.embodiments.current.name is EmbodimentName.AVATAR
+    assigner.do(Action.CONDITION)
+    assert assigner.app.assigner.next_session("en").plan.condition is Condition.TOM
+
+
+def test_a_condition_chosen_before_the_visitor_has_decided_holds_for_the_one_after(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner.app.assigner.choose(Condition.NO_ASSISTANCE, "for this visitor")
+    assigner.go_to(Stage.CONSENT)
+    assigner.app.assigner.choose(Condition.RANDOM_EXPLAINED, "for the one after")
+    assigner.go_to(Stage.INTRODUCTION)
+    assigner.do(Action.END)
+    assert assigner.app.assigner.next_session("en").plan.condition is Condition.RANDOM_EXPLAINED
+
+
+def test_a_chosen_condition_holds_until_a_session_in_it_is_on_record(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner.app.assigner.choose(Condition.NO_ASSISTANCE, "a test")
+    assigner.go_to(Stage.CONSENT)
+    assigner.app.runner.tell(happened.ConsentDeclined)
+    assigner.do(Action.END)
+    assert assigner.app.assigner.chosen is Condition.NO_ASSISTANCE
+    assigner.go_to(Stage.INTRODUCTION)
+    assert assigner.app.assigner.chosen is None
+
+
+def test_the_condition_goes_round_while_its_dots_are_shown_and_never_tells_its_name(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner.go_to(Stage.ABOUT)
+    assigner.do(Action.CONDITION, reason="4")
+    seen = [assigner.app.assigner.chosen]
+    for _ in range(5):
+        assigner.shortcut(Action.CONDITION)
+        assert assigner.card.asks_for is AuthorisationStep.NOTHING
+        seen.append(assigner.app.assigner.chosen)
+        assert assigner.noted == ""
+        assert assigner.note.property("dots") == 6
+    assert seen[:3] == [Condition.TOM, Condition.NOTOM, Condition.MENTALISED_UNEXPLAINED]
+    assert seen[-1] is None
+    assert [body["reason"] for kind, body in assigner.notes if kind == "ConditionChosen"] == ["test run"] * 6
+    assigner.wait_for_note_to_go()
+    assigner.shortcut(Action.CONDITION)
+    assert assigner.card.asks_for is AuthorisationStep.PIN
+
+
+def test_a_shortcut_works_while_a_text_field_has_the_keyboard_and_a_pin_never_gets_into_it(assigner: Desk) -> None:
+    assigner.go_to(Stage.ABOUT_YOU)
+    typed: list[tuple[str, object]] = []
+    assigner.app.screens.form.answered.connect(lambda item, value: typed.append((item, value)))
+    assigner.click("number-age")
+    assigner.type("4")
+    field = assigner.app.window.activeFocusItem()
+    assigner.shortcut(Action.PANEL)
+    assigner.type("25")
+    assert assigner.card.property("text") == "●●"
+    assigner.press(Qt.Key.Key_Escape)
+    assert assigner.card.asks_for is AuthorisationStep.NOTHING
+    assert assigner.app.window.activeFocusItem() is field
+    assert field.property("text") == "4"
+    assigner.type("2")
+    assert field.property("text") == "42"
+    assert not [value for _, value in typed if value not in (None, 4, 42)]
+
+
+def test_a_shortcut_that_is_held_down_is_pressed_once(assigner: Desk) -> None:
+    assigner.shortcut(Action.QUIET)
+    modifiers = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    for _ in range(3):
+        held = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_M, modifiers, "M", True)  # noqa: FBT003 - Qt's signature
+        QGuiApplication.sendEvent(assigner.app.window, held)
+    assert assigner.app.embodiments.is_muted
+
+
+def test_shortcuts_work_while_the_session_is_paused(assigner: Desk) -> None:
+    assigner.go_to(Stage.INTRODUCTION)
+    assigner.do(Action.PAUSE)
+    assert assigner.app.screens.kiosk.property("paused")
+    assigner.do(Action.QUIET)
+    assert assigner.app.embodiments.is_muted
+    assigner.do(Action.PAUSE)
+    assert not assigner.app.screens.kiosk.property("paused")
+    assigner.do(Action.END)
+    assert assigner.stage is Stage.ATTRACT
+
+
+def test_a_shortcut_of_the_study_file_takes_the_place_of_the_usual_one(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(keys={"quiet": "F8", "leave": ""})
+    assigner.press(Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert not assigner.app.embodiments.is_muted
+    assigner.press(Qt.Key.Key_F8)
+    assert assigner.app.embodiments.is_muted
+    assigner.press(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert assigner.card.asks_for is AuthorisationStep.NOTHING
+
+
+def test_a_session_that_begins_in_silence_says_so_and_is_only_read(assigner: Desk) -> None:
+    assigner.do(Action.QUIET)
+    witness = Witness(assigner.app)
+    assigner.go_to(Stage.INTRODUCTION)
+    assert [event.quiet for event in witness.events if isinstance(event, happened.MuteChanged)] == [True]
+    assert witness.saw(happened.SpeechFailed)
+    assert not witness.saw(happened.SpeechStarted)
+
+
+def test_with_thanks_the_next_visitor_needs_no_pin_and_the_session_is_complete(assigner: Desk) -> None:
+    assigner.go_to(Stage.THANKS)
+    witness = Witness(assigner.app)
+    assigner.shortcut(Action.NEXT)
+    assert assigner.stage is Stage.ATTRACT
+    assert witness.saw(happened.NextParticipantRequested)
+    assert not witness.saw(happened.AbortRequested)
+
+
+def test_leaving_ends_the_kiosk(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(experimenter={"pin": ""})
+    QTimer.singleShot(0, assigner.app.window, lambda: assigner.shortcut(Action.LEAVE))
+    # If it does not end, the test does not hang.
+    QTimer.singleShot(10_000, assigner.app.window, assigner.app.quit)
+    assigner.app.run()
+    assert assigner.notes == [("KioskLeft", {"stage": "attract", "reason": ""})]

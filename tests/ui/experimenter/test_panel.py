@@ -1,0 +1,323 @@
+"""The panel: one glance tells how everything is, keys alone do everything, and a session waits while it is open."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtQuick import QQuickItem
+
+from kiosk import StoreFailed, UserInputError
+from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Stage, Status
+from kiosk.experiment.experimenter import Action
+from kiosk.store.maintenance import FreeSpace
+from kiosk.store.queries import open_repository
+from kiosk.store.recorder import Recorder
+from kiosk.ui.event_loop import VirtualClock
+from kiosk.ui.experimenter.console import CLOSE_MS, WORDS
+from kiosk.ui.experimenter.view_model import AuthorisationStep
+from kiosk.ui.simulated_visitor import find_item
+from tests.samples import CATALOGUES
+from tests.ui.conftest import Booth
+from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
+
+LISTED = {"allocation": {"quotas": {"tom": 2, "notom": 2}, "block": 4}}
+
+
+def records(assigner: Desk) -> dict[str, Any]:
+    """What the panel tells of the records."""
+    shown: dict[str, Any] = assigner.panel.property("records")
+    return shown
+
+
+def choices(assigner: Desk) -> dict[str, Any]:
+    """What the panel lets one choose."""
+    shown: dict[str, Any] = assigner.panel.property("choices")
+    return shown
+
+
+def held(booth: Booth) -> str:
+    """The name of what has the keyboard."""
+    item: QQuickItem | None = booth.app.window.activeFocusItem()
+    return item.objectName() if item is not None else ""
+
+
+def tab_to(assigner: Desk, name: str) -> None:
+    """Go around with Tab until this has the keyboard."""
+    for _ in range(60):
+        if held(assigner) == name:
+            return
+        assigner.press(Qt.Key.Key_Tab)
+    pytest.fail(f"Tab never came to {name}")
+
+
+def test_every_language_says_everything_of_the_panel() -> None:
+    for catalogue in CATALOGUES.values():
+        assert [word for word in WORDS if word not in catalogue] == []
+
+
+def test_a_session_waits_while_the_panel_is_open_and_goes_on_when_it_is_closed(assigner: Desk) -> None:
+    assigner.go_to(Stage.PRACTICE)
+    witness = Witness(assigner.app)
+    assigner.open_panel()
+    assert choices(assigner)["underWay"]
+    assigner.press(Qt.Key.Key_Escape)
+    assert not assigner.panel.is_open
+    assert [type(event) for event in witness.events] == [happened.PauseRequested, happened.PauseEnded]
+    assert assigner.stage is Stage.PRACTICE
+
+
+def test_a_session_that_was_paused_before_stays_so(assigner: Desk) -> None:
+    assigner.go_to(Stage.PRACTICE)
+    assigner.do(Action.PAUSE)
+    assigner.open_panel()
+    assigner.shortcut(Action.PANEL)
+    assert assigner.app.screens.kiosk.property("paused")
+
+
+def test_a_session_can_be_left_paused_from_within_the_panel(assigner: Desk) -> None:
+    assigner.go_to(Stage.PRACTICE)
+    assigner.open_panel()
+    assigner.click("action-pause")
+    assert choices(assigner)["staysPaused"]
+    assigner.shortcut(Action.PANEL)
+    assert assigner.app.screens.kiosk.property("paused")
+
+
+def test_nothing_behind_the_panel_can_be_reached(assigner: Desk) -> None:
+    assigner.open_panel()
+    assigner.settle()
+    reached = set()
+    for _ in range(40):
+        reached.add(held(assigner))
+        assigner.press(Qt.Key.Key_Tab)
+    assert not [name for name in reached if name.startswith("start")]
+    assert {"panel-close", "action-leave", "condition-tom", "volume-0.8"} <= reached
+
+
+def test_keys_alone_choose_the_next_condition_with_a_reason(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(**LISTED)
+    assigner.open_panel()
+    tab_to(assigner, "condition-notom")
+    assigner.press(Qt.Key.Key_Return)
+    assert assigner.card.asks_for is AuthorisationStep.REASON
+    assigner.type("4")
+    assert assigner.app.assigner.chosen is Condition.NOTOM
+    assigner.wait_until(lambda: choices(assigner)["condition"] == "notom")
+    assert held(assigner) == "condition-notom"
+    assigner.wait_until(lambda: bool(records(assigner)["deviations"]))
+    first = records(assigner)["deviations"][0]
+    assert (first["words"], first["reason"]) == ("next condition: no ToM", "test run")
+
+
+def test_arrows_go_around_as_tab_does(assigner: Desk) -> None:
+    assigner.open_panel()
+    assigner.settle()
+    assert held(assigner) == "panel-close"
+    assigner.press(Qt.Key.Key_Down)
+    after = held(assigner)
+    assigner.press(Qt.Key.Key_Up)
+    assert held(assigner) == "panel-close" != after
+
+
+def test_the_keyboard_is_the_visitors_again_when_the_panel_is_closed(assigner: Desk) -> None:
+    assigner.go_to(Stage.INTRODUCTION)
+    assigner.settle()
+    before = assigner.app.window.activeFocusItem()
+    assigner.open_panel()
+    assigner.press(Qt.Key.Key_Escape)
+    assigner.settle()
+    assert assigner.app.window.activeFocusItem() is before
+
+
+def test_it_closes_by_itself_when_nobody_is_at_it_and_asks_for_the_pin_again(assigner: Desk) -> None:
+    assert isinstance(assigner.app.clock, VirtualClock)
+    assigner.open_panel()
+    opened = assigner.app.clock.now_ms()
+    assigner.wait_until(lambda: assigner.app.clock.now_ms() - opened > CLOSE_MS / 2)
+    assigner.press(Qt.Key.Key_Tab)
+    stirred = assigner.app.clock.now_ms()
+    assigner.wait_until(lambda: not assigner.panel.is_open)
+    assert CLOSE_MS <= assigner.app.clock.now_ms() - stirred < CLOSE_MS + 2000
+    assigner.shortcut(Action.PANEL)
+    assert assigner.card.asks_for is AuthorisationStep.PIN
+
+
+def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_ended(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(**LISTED, stages=["game", "result"])
+    assigner.go_to(Stage.RESULT)
+    assigner.app.runner.tell(happened.ContinuePressed)
+    assigner.go_to(Stage.GAME)
+    assigner.do(Action.END, reason="2")
+    assigner.open_panel()
+    assigner.wait_until(lambda: len(records(assigner)["sessions"]) == 2)
+    stopped, completed = records(assigner)["sessions"]
+    assert (stopped["participant"], stopped["stage"], stopped["status"], stopped["odd"]) == (
+        "2",
+        "game",
+        "stopped",
+        True,
+    )
+    assert (completed["participant"], completed["status"], completed["odd"]) == ("1", "completed", False)
+    assert sorted(cell["done"] for cell in records(assigner)["cells"]) == ["0 / 2", "1 / 2"]
+    assert sum(int(cell["counts"][0] or 0) for cell in records(assigner)["cells"]) == 1
+    assert records(assigner)["deviations"][0]["words"] == "session stopped in: game"
+
+
+def test_the_condition_of_the_session_under_way_is_not_told(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(**LISTED)
+    assigner.go_to(Stage.GAME)
+    assigner.open_panel()
+    assigner.wait_until(lambda: bool(records(assigner)["sessions"]))
+    (under_way,) = records(assigner)["sessions"]
+    assert under_way["condition"] == "hidden"
+    assert under_way["status"] == "under way"
+
+
+@pytest.mark.parametrize("stage", [Stage.CONSENT, Stage.GAME])
+def test_while_somebody_plays_no_condition_is_told_of_anybody(make_assigner: MakeDesk, stage: Stage) -> None:
+    assigner = make_assigner(**LISTED)
+    assigner.app.assigner.choose(Condition.NOTOM, "test run")
+    assigner.go_to(stage)
+    assigner.open_panel()
+    assigner.wait_until(lambda: bool(records(assigner)["deviations"]))
+    assert choices(assigner)["condition"] == "automatic"
+    assert records(assigner)["cells"] == []
+    assert "ToM" not in json.dumps(records(assigner))
+    assert any(noted["words"] == "next condition: hidden" for noted in records(assigner)["deviations"])
+
+
+def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk) -> None:
+    assigner.app.experimenter.upkeep.free_space = FreeSpace(4000)
+    assigner.open_panel()
+    assert assigner.panel.property("health")["summary"] == "All is well"
+    assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
+    assigner.wait_until(lambda: not assigner.panel.property("health")["well"])
+    assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
+
+
+def test_a_session_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner()
+    assigner.go_to(Stage.QUESTIONS)
+    assigner.close()
+    again = make_assigner(data=assigner.data)
+    again.open_panel()
+    again.wait_until(lambda: bool(records(again)["resumable"]))
+    (cut_off,) = records(again)["resumable"]
+    assert "questions" in cut_off["label"]
+    again.click(f"resume-{cut_off['number']}")
+    assert again.card.asks_for is AuthorisationStep.REASON
+    again.type("1")
+    again.wait_until(lambda: again.stage is Stage.QUESTIONS)
+    assert again.notes[-1] == ("SessionResumed", {"session": 1, "reason": "technical problem"})
+    again.shortcut(Action.PANEL)
+    assert not again.app.screens.kiosk.property("paused")
+    assert again.screen == "form"
+
+
+def cut_off(make_assigner: MakeDesk) -> Desk:
+    """A booth whose panel offers to go on with a session."""
+    assigner = make_assigner()
+    assigner.go_to(Stage.QUESTIONS)
+    assigner.close()
+    again = make_assigner(data=assigner.data)
+    again.open_panel()
+    again.wait_until(lambda: bool(records(again)["resumable"]))
+    return again
+
+
+def ask_to_go_on(assigner: Desk) -> None:
+    """Choose that session, and give a reason."""
+    assigner.click("resume-1")
+    assigner.type("1")
+    assigner.wait_until(lambda: bool(assigner.noted))
+
+
+def refuse_to_resume(*_: object) -> None:
+    """Stand in for a store that knows why a session cannot go on."""
+    raise UserInputError("its participant has come back since")
+
+
+def test_a_session_that_cannot_go_on_after_all_is_no_deviation(
+    make_assigner: MakeDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assigner = cut_off(make_assigner)
+    monkeypatch.setattr(Recorder, "resume", refuse_to_resume)
+    ask_to_go_on(assigner)
+    assert "its participant has come back since" in assigner.noted
+    assert assigner.stage is Stage.ATTRACT
+    assert "SessionResumed" not in dict(assigner.notes)
+
+
+def test_a_session_does_not_go_on_where_that_cannot_be_noted_and_can_once_it_can(
+    make_assigner: MakeDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assigner = cut_off(make_assigner)
+    with monkeypatch.context() as patch:
+        patch.setattr(Recorder, "note", refuse_to_write)
+        ask_to_go_on(assigner)
+        assert assigner.noted == "It could not be written down, so nothing was changed"
+        assert assigner.stage is Stage.ATTRACT
+    with open_repository(assigner.data) as stored:
+        assert not any(isinstance(event, happened.SessionResumed) for event in stored.events(1))
+    assigner.wait_for_note_to_go()
+    assigner.click("resume-1")
+    assigner.type("1")
+    assigner.wait_until(lambda: assigner.stage is Stage.QUESTIONS)
+    assert dict(assigner.notes)["SessionResumed"] == {"session": 1, "reason": "technical problem"}
+
+
+def test_a_session_that_was_cut_off_in_the_game_cannot_go_on(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner()
+    assigner.go_to(Stage.GAME)
+    assigner.close()
+    again = make_assigner(data=assigner.data)
+    again.open_panel()
+    again.wait_until(lambda: bool(records(again)["sessions"]))
+    assert records(again)["sessions"][0]["status"] == Status.INTERRUPTED.value
+    assert records(again)["resumable"] == []
+
+
+def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
+    assigner: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turned: list[float] = []
+    monkeypatch.setattr(assigner.app.voice, "turn", turned.append)
+    assigner.go_to(Stage.ABOUT)
+    assigner.open_panel()
+    assigner.click("volume-0.4")
+    assigner.click("language-it")
+    assigner.type("1")
+    assert turned == []
+    assert assigner.app.screens.attract.property("title") == CATALOGUES["en"].text("attract-title")
+    assigner.do(Action.END)
+    assert turned == [0.4]
+    assert assigner.app.screens.attract.property("title") == CATALOGUES["it"].text("attract-title")
+    assert ("VolumeChanged", {"volume": 0.4}) in assigner.notes
+
+
+def test_what_the_disk_does_not_take_is_not_done_and_said(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    assigner.open_panel()
+    monkeypatch.setattr(Recorder, "note", refuse_to_write)
+    assigner.click("condition-notom")
+    assigner.type("1")
+    assert assigner.app.assigner.chosen is None
+    assert assigner.noted == "It could not be written down, so nothing was changed"
+    assigner.wait_until(lambda: not assigner.panel.property("health")["well"])
+    assert "could not be written" in assigner.panel.property("health")["summary"]
+
+
+def refuse_to_write(*_: object) -> None:
+    """A disk that takes nothing."""
+    raise StoreFailed("what happened could not be written: disk I/O error")
+
+
+def test_visitors_see_neither_panel_nor_card_while_nobody_asks_for_them(assigner: Desk) -> None:
+    assigner.go_to(Stage.ABOUT)
+    for name in ("panel", "pin-card", "experimenter-note"):
+        item = find_item(assigner.app.window.contentItem(), name)
+        assert item is None or not item.isVisible()

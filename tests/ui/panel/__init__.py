@@ -1,1 +1,0 @@
-"""The experimenter at the booth, by chord and by panel, in the real kiosk."""

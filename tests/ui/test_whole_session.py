@@ -1,0 +1,142 @@
+"""A visitor clicks through the real window, and everything that happened is in the database."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+
+import pytest
+
+from kiosk.config import STAGES, Settings
+from kiosk.experiment import effects as do
+from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.events import NotRecordedReason, Stage, Status, WorldEvent
+from kiosk.experiment.session import Session
+from kiosk.store.queries import open_repository
+from kiosk.ui.rehearsal import Rehearsal
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
+from tests.ui.conftest import Booth, MakeBooth
+from tests.ui.headless import SMALL
+
+
+def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_its_consent(
+    make_booth: MakeBooth,
+) -> None:
+    booth = make_booth(settings=Settings())
+    booth.rehearse(seed=1)
+    with open_repository(booth.data) as stored:
+        (session,) = stored.sessions()
+        events, plan = stored.events(session.id), stored.plan(session.id)
+    assert session.status is Status.COMPLETED
+    assert session.measures.pairs == 12
+    assert session.measures.flips == 2 * session.measures.moves
+    hints = [event for event in events if isinstance(event, happened.HintGiven)]
+    assert len(hints) == session.measures.hints > 0
+    assert all(hint.sentence for hint in hints)
+    stages = [event.stage.value for event in events if isinstance(event, happened.StageEntered)]
+    assert stages == [*STAGES, "over"]
+    (consent,) = (event for event in events if isinstance(event, happened.ConsentGiven))
+    assert {"take_part", "store"} <= set(consent.purposes)
+    answered = {event.item for event in events if isinstance(event, happened.ResponseGiven)}
+    assert answered == {item.id for asked in (plan.about_you, *plan.questionnaires) for item in asked.questions}
+    assert isinstance(events[-1], happened.SessionEnded)
+
+
+@pytest.mark.parametrize(
+    ("manner", "why"),
+    [(BehaviourKind.DECLINES, NotRecordedReason.DECLINED), (BehaviourKind.UNDER_AGE, NotRecordedReason.UNDER_AGE)],
+)
+def test_who_declines_or_is_too_young_plays_to_the_end_and_nothing_is_stored_of_it(
+    make_booth: MakeBooth, manner: BehaviourKind, why: NotRecordedReason
+) -> None:
+    booth = make_booth(settings=SMALL)
+    why_not: list[NotRecordedReason] = []
+    rehearsal = Rehearsal(booth.app, 1, visitor=BehaviourProfile(manner))
+    watch = booth.app.runner.on_event
+    assert watch is not None
+
+    def look(event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
+        why_not.extend(command.why for command in commands if isinstance(command, do.DiscardRecording))
+        watch(event, commands, stage)
+
+    booth.app.runner.on_event = look
+    rehearsal.run()
+    assert why_not == [why]
+    assert booth.screen == "attract"
+    with open_repository(booth.data) as stored:
+        assert list(stored.sessions()) == []
+
+
+@pytest.mark.parametrize("stage", ["consent", "about_you", "practice", "game", "result", "questions", "debrief"])
+def test_whoever_walks_away_is_asked_and_then_the_kiosk_is_free_again(make_booth: MakeBooth, stage: str) -> None:
+    booth = make_booth(settings=SMALL)
+    asked: list[bool] = []
+    kiosk = booth.app.screens.kiosk
+    kiosk.changed.connect(lambda: asked.append(bool(kiosk.property("asksStillThere"))))
+    booth.rehearse(1, BehaviourProfile(BehaviourKind.LEAVES, Stage(stage)))
+    assert True in asked
+    assert booth.screen == "attract"
+    with open_repository(booth.data) as stored:
+        endings = [session.status for session in stored.sessions()]
+    assert endings == ([] if stage == "consent" else [Status.ABANDONED])
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_whoever_clicks_twice_and_taps_everywhere_comes_to_the_end_too(make_booth: MakeBooth, seed: int) -> None:
+    booth = make_booth(settings=SMALL)
+    booth.rehearse(seed, BehaviourProfile(BehaviourKind.HASTY))
+    with open_repository(booth.data) as stored:
+        assert [session.status for session in stored.sessions()] == [Status.COMPLETED]
+
+
+def test_every_flip_in_the_database_is_a_card_that_was_clicked_just_before(booth: Booth) -> None:
+    booth.rehearse(seed=2)
+    with open_repository(booth.data) as stored:
+        events = stored.events(1)
+    flips = 0
+    for before, event in pairwise(events):
+        if isinstance(event, happened.CardFlipped):
+            assert isinstance(before, happened.CardSelected)
+            assert before.position == event.position
+            assert before.at_ms == event.at_ms
+            flips += 1
+    assert flips >= 24
+
+
+def test_a_stored_session_handled_again_gives_the_same_records(booth: Booth) -> None:
+    booth.rehearse(seed=3)
+    with open_repository(booth.data) as stored:
+        events = stored.events(1)
+        again = Session(stored.plan(1), stored.seed(1))
+    replayed: list[happened.Event] = []
+    for event in events:
+        if isinstance(event, WorldEvent):
+            commands = again.handle(event)
+            replayed += [event, *(command.event for command in commands if isinstance(command, do.EmitEvent))]
+    assert replayed == events
+
+
+def test_the_same_seed_plays_the_same_session_to_the_millisecond(make_booth: MakeBooth) -> None:
+    stories = []
+    for _ in range(2):
+        booth = make_booth(seed=5)
+        booth.rehearse(seed=5)
+        with open_repository(booth.data) as stored:
+            stories.append(json.dumps(stored.records(1)))
+    assert stories[0] == stories[1]
+
+
+def test_without_help_a_visitor_plays_alone(make_booth: MakeBooth) -> None:
+    booth = make_booth(condition="no_assistance")
+    booth.rehearse(seed=1)
+    with open_repository(booth.data) as stored:
+        assert stored.sessions()[0].measures.hints == 0
+
+
+def test_one_session_after_another_is_played_in_the_same_window(booth: Booth) -> None:
+    for seed in (1, 2, 3):
+        booth.rehearse(seed=seed)
+        assert booth.screen == "attract"
+    with open_repository(booth.data) as stored:
+        assert [session.status for session in stored.sessions()] == [Status.COMPLETED] * 3
