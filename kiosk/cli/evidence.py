@@ -199,7 +199,12 @@ def _lottery(games: int, seeds: int, seed: int) -> list[Claim]:
     nearest = 1 + min(range(seeds), key=lambda n: abs(rising[n] - PAPER_ASSISTED[0]))
     text = f"{_range(rising)} moves; nearest to {PAPER_ASSISTED[0]}: seed {nearest}"
     spread = max(rising) - min(rising)
-    lottery = Claim("reward released, released alpha: a lottery", "25.8 to 42.5 moves", text, spread > LOTTERY)
+    lottery = Claim(
+        "reward released, released alpha: a lottery",
+        f"seeds differ by more than {LOTTERY:g} moves",
+        text,
+        spread > LOTTERY,
+    )
     settled = replace(recipe, alpha=LearningRate.VISITS, averaging=Averaging.LAST_HALF)
     return [lottery, *(_settled(replace(settled, decisions=kind), games, seeds, seed) for kind in Decisions)]
 

@@ -245,14 +245,21 @@ def _told(measures: dict[str, Any]) -> str:
         low, high = spread["ci95"]
         text = f"mean {spread['mean']:.3f}  sd {spread['sd']:.3f}  95 % interval {low:.3f} to {high:.3f}"
         lines.append(f"{name.replace('_', ' '):<28}{text}")
-    rates = {
-        "hint rate, first card": measures["hint_rate"]["first"],
-        "hint rate, second card": measures["hint_rate"]["second"],
+    lines += [f"{f'hint rate, {card} card':<28}{rate:.3f}" for card, rate in measures["hint_rate"].items()]
+    shares = {
+        "followed_first_card": "followed, first card",
+        "followed": "followed, all",
+        "led_to_match": "led to match",
     }
-    rates |= {"followed, first card": measures["followed_first_card"], "followed, all": measures["followed"]}
-    rates |= {"led to match": measures["led_to_match"]}
-    lines += [f"{name:<28}{'no hints' if rate is None else f'{rate:.3f}'}" for name, rate in rates.items()]
+    lines += [f"{name:<28}{_share_told(measures, share)}" for share, name in shares.items()]
     return "\n".join(lines)
+
+
+def _share_told(measures: dict[str, Any], share: str) -> str:
+    if measures[share] is None:
+        return "no hints"
+    games, pooled = measures["games_with"][share], measures["pooled"][share]
+    return f"mean {measures[share]:.3f} over {games:,} games with such hints; pooled over all hints {pooled:.3f}"
 
 
 @click.group()

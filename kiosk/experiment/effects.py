@@ -191,7 +191,7 @@ class SetExpression(Effect):
 
 @dataclass(frozen=True)
 class ShowResult(Effect):
-    """Show what the visitor achieved."""
+    """Show what the visitor achieved; the time is their own, without speech, as they rate the robot after this."""
 
     pairs: int
     moves: int

@@ -180,8 +180,10 @@ class Measures:
     """Times in ms, shares from 0 to 1; None where there is nothing to divide by.
 
     ``flips`` and ``moves`` (two flips) are both kept and never compared with each other: the paper's simulations
-    count moves, its results with people count flips. ``completion_ms`` runs from the first flip to the last match, but
-    for pauses; the clock without speech stands still from a hint until the board opens again. ``followed``: the flip
+    count moves, its results with people count flips. ``completion_ms`` is the player's own time from the first flip to
+    the last match: it leaves out pauses, and the time from each hint until the board opens again. An explained hint
+    takes about three times as long to say, so ``completion_with_speech_ms``, which leaves out pauses only, compares
+    sentences rather than players. ``followed``: the flip
     after the hint is the hinted card, or lies in the hinted row or column, per hint. ``first_led_to_match``: first-card
     hints that were followed and whose move matched, per first-card hint.
     """
@@ -191,7 +193,7 @@ class Measures:
     pairs: int = 0
     hints: int = 0
     completion_ms: int = 0
-    completion_without_speech_ms: int = 0
+    completion_with_speech_ms: int = 0
     assistance_per_flip: float | None = None
     followed: float | None = None
     first_followed: float | None = None
@@ -199,8 +201,13 @@ class Measures:
 
     @property
     def per_match_ms(self) -> float | None:
-        """Completion time per pair found."""
+        """Completion time per pair found, without speech."""
         return self.completion_ms / self.pairs if self.pairs else None
+
+    @property
+    def per_match_with_speech_ms(self) -> float | None:
+        """Completion time per pair found, with speech."""
+        return self.completion_with_speech_ms / self.pairs if self.pairs else None
 
 
 def of_the_game(events: Iterable[Event]) -> Iterator[Event]:
@@ -229,8 +236,8 @@ def measure(events: Iterable[Event]) -> Measures:
         moves=len(flips) // CARDS_IN_A_MOVE,
         pairs=len(matches),
         hints=len(hints),
-        completion_ms=end - begin - _length(paused, begin, end),
-        completion_without_speech_ms=end - begin - _length((*paused, *held), begin, end),
+        completion_ms=end - begin - _length((*paused, *held), begin, end),
+        completion_with_speech_ms=end - begin - _length(paused, begin, end),
         assistance_per_flip=_share(sum(hint.given.action.level for hint in hints), len(flips)),
         followed=_share(sum(hint.followed for hint in hints), len(hints)),
         first_followed=_share(sum(hint.followed for hint in firsts), len(firsts)),

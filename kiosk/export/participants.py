@@ -221,12 +221,14 @@ MEASURED = {
         _measured("hints", "How many hints were given in the game."),
         _measured(
             "completion_ms",
-            "From the first flip of the game to its last match, less pauses; 0 without a match.",
+            "The player's own time from the first flip of the game to its last match: less pauses, and less the time "
+            "from each hint until the board opened again; 0 without a match. Compare conditions by this one.",
             unit="ms",
         ),
         _measured(
-            "completion_without_speech_ms",
-            "The same on the clock that stands still from a hint until the board opens again.",
+            "completion_with_speech_ms",
+            "The same, with the time from each hint until the board opened again. It grows with the length of the "
+            "sentences, so it does not compare conditions that say different ones.",
             unit="ms",
         ),
         _measured(
@@ -275,6 +277,16 @@ MEASURES: tuple[Column[Person], ...] = (
             "per_match_ms", "completion_ms by the number of pairs.", ColumnKind.NUMBER, "ms", empty="no pair was found"
         ),
         lambda row: row.measures.per_match_ms,
+    ),
+    Column(
+        Variable(
+            "per_match_with_speech_ms",
+            "completion_with_speech_ms by the number of pairs.",
+            ColumnKind.NUMBER,
+            "ms",
+            empty="no pair was found",
+        ),
+        lambda row: row.measures.per_match_with_speech_ms,
     ),
 )
 

@@ -40,8 +40,8 @@ class Reward(Enum):
 RETRIEVAL, PAPER, RELEASED = range(3)
 REWARDS = (Reward.RETRIEVAL, Reward.PAPER, Reward.RELEASED)
 
-WEIGHTS = (10.0, 0.1, 0.2, 0.025)
-"""The paper's a, by action: no help, column, row, card."""
+WEIGHTS = (10.0, 0.2, 0.1, 0.025)
+"""The paper's a, by action: no help, column, row, card; less help, a higher reward on a first card."""
 RISES = (0.4, 0.2, 0.1, 0.3)
 """What a first-card decision adds to the released program's purse, by action."""
 PURSE = 0.4

@@ -199,26 +199,43 @@ class GameResults:
         """First-card hints a game."""
         return Spread.of(self.each(T_FIRST))
 
+    def _shares(self, part: tuple[int, ...], whole: tuple[int, ...]) -> list[float]:
+        """A share in each game in which there is something to share."""
+        counted = ((sum(tally[n] for n in part), sum(tally[n] for n in whole)) for tally in self.tallies)
+        return [some / all_ for some, all_ in counted if all_]
+
     def measures(self) -> dict[str, Any]:
-        """All measures as ``recollect simulate --json`` names them; rates are over all games, None without hints."""
+        """All measures as ``recollect simulate --json`` names them.
+
+        Shares of hints are means over the games that had such hints, as a study takes them over people; ``pooled``
+        takes them over the hints of all games. They differ, as games with many hints are those of weak players. None
+        without hints; ``games_with`` counts the games that a mean is over.
+        """
         moves = self.total(T_FLIPS) / 2
-        first, both = self.total(T_FIRST), self.total(T_FIRST, T_SECOND)
-        followed = self.total(T_FOLLOWED_FIRST), self.total(T_FOLLOWED_FIRST, T_FOLLOWED_SECOND)
+        shares = {name: self._shares(part, whole) for name, (part, whole) in _SHARES.items()}
         return {
             "games": len(self.tallies),
             "moves": _plain(self.moves),
             "flips": _plain(self.flips),
             "assistance_per_flip": self.assistance.mean,
             "first_card_hints_per_game": self.first_card_hints.mean,
-            "hint_rate": {"first": first / moves, "second": self.total(T_SECOND) / moves},
-            "followed": _share(followed[1], both),
-            "followed_first_card": _share(followed[0], first),
-            "led_to_match": _share(self.total(T_LED), first),
+            "hint_rate": {"first": self.total(T_FIRST) / moves, "second": self.total(T_SECOND) / moves},
+            **{name: math.fsum(each) / len(each) if each else None for name, each in shares.items()},
+            "pooled": {name: _share(self.total(*part), self.total(*whole)) for name, (part, whole) in _SHARES.items()},
+            "games_with": {name: len(each) for name, each in shares.items()},
             "spreads": {
                 "assistance_per_flip": _plain(self.assistance),
                 "first_card_hints_per_game": _plain(self.first_card_hints),
             },
         }
+
+
+_SHARES = {
+    "followed": ((T_FOLLOWED_FIRST, T_FOLLOWED_SECOND), (T_FIRST, T_SECOND)),
+    "followed_first_card": ((T_FOLLOWED_FIRST,), (T_FIRST,)),
+    "led_to_match": ((T_LED,), (T_FIRST,)),
+}
+"""Shares of hints by name: what is counted, and out of what."""
 
 
 def _levels(tally: tuple[int, ...]) -> float:

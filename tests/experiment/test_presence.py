@@ -259,7 +259,7 @@ def test_a_pause_lasts_across_a_change_of_the_stage() -> None:
     assert driver.running[Timer.IDLE] == driver.now + LONG_ENOUGH[Stage.GAME]
     driver.play(with_memory(1))
     first, *_, last = driver.noted(happened.CardFlipped)
-    assert driver.session.measures.completion_ms == last.at_ms - first.at_ms
+    assert driver.session.measures.completion_with_speech_ms == last.at_ms - first.at_ms
 
 
 def test_thanks_that_end_in_a_pause_end_the_session_and_leave_no_cover_behind() -> None:
@@ -284,6 +284,6 @@ def test_both_clocks_of_the_game_leave_a_pause_out(wait: int) -> None:
         driver.play(with_memory(3))
     one, other = paused.session.measures, straight.session.measures
     assert one.flips == other.flips
-    assert one.completion_without_speech_ms == other.completion_without_speech_ms
+    assert one.completion_ms == other.completion_ms
     # A hint that is heard within the pause holds the board no longer after it.
-    assert other.completion_ms - one.completion_ms == (SPEECH_TIME - wait if held else 0)
+    assert other.completion_with_speech_ms - one.completion_with_speech_ms == (SPEECH_TIME - wait if held else 0)

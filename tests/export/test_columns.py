@@ -71,8 +71,8 @@ def test_no_name_stands_twice_in_a_table() -> None:
 
 
 def test_every_measure_has_a_column() -> None:
-    assert len(MEASURES) == len(fields(Measures)) + 1
-    assert set(MEASURED) | {"per_match_ms"} == {column.variable.name for column in MEASURES}
+    assert len(MEASURES) == len(fields(Measures)) + 2
+    assert set(MEASURED) | {"per_match_ms", "per_match_with_speech_ms"} == {column.variable.name for column in MEASURES}
 
 
 def test_levels_are_those_of_the_closed_set_and_no_others() -> None:

@@ -75,8 +75,10 @@ def test_retrieval_pays_what_the_player_retrieves(flip: RewardFlip, worth: float
         (first(NO, 5), 10 / 5),
         (first(CARD, 5), 0.025 / 5),
         (second(NO, NO, 4, 2), 10 / 8),
-        (second(NO, ROW, 4, 2), 0.2 * 8),
-        (second(ROW, COLUMN, 3, 1), 0.1 * 3),
+        (second(NO, ROW, 4, 2), 0.1 * 8),
+        (second(ROW, COLUMN, 3, 1), 0.2 * 3),
+        (first(COLUMN, 5), 0.2 / 5),
+        (first(ROW, 5), 0.1 / 5),
     ],
 )
 def test_paper_is_the_paper_s_formula_whether_or_not_there_is_a_match(flip: RewardFlip, worth: float) -> None:
@@ -106,7 +108,8 @@ def test_released_sets_the_purse_back_after_a_match_and_after_a_hint_in_vain(
 
 
 def test_released_pays_a_second_card_only_for_a_match_with_one_hint_at_most() -> None:
-    assert paid(RELEASED, second(NO, ROW, 4, 2), matched=True) == pytest.approx(1.6)
+    assert paid(RELEASED, second(NO, ROW, 4, 2), matched=True) == pytest.approx(0.8)
+    assert paid(RELEASED, second(NO, COLUMN, 4, 2), matched=True) == pytest.approx(1.6)
     assert paid(RELEASED, second(NO, ROW, 4, 2), matched=False) == 0
     assert paid(RELEASED, second(COLUMN, ROW, 4, 2), matched=True) == 0
 
@@ -246,7 +249,7 @@ def test_the_table_without_help_comes_out_again() -> None:
 
 @pytest.mark.skipif(not COMPILED, reason="100,000 episodes are for compiled rules")
 def test_the_study_like_table_comes_out_again() -> None:
-    again(QTable.named("study-like"), replace(RECIPES[Reward.RELEASED], seed=4))
+    again(QTable.named("study-like"), replace(RECIPES[Reward.RELEASED], seed=16))
 
 
 def test_trained_with_random_targets_the_table_never_names_a_first_card() -> None:

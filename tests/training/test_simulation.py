@@ -123,6 +123,21 @@ def test_led_to_match_counts_first_card_hints_that_were_followed_into_a_match() 
     assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None
 
 
+def test_shares_of_hints_are_means_over_games_as_over_people_with_the_pooled_ones_beside_them() -> None:
+    # flips, first, second, column, row, card, followed first, followed second, led to a match
+    one = (40, 1, 1, 2, 0, 0, 1, 1, 1)
+    other = (80, 10, 0, 10, 0, 0, 2, 0, 1)
+    without = (40, 0, 0, 0, 0, 0, 0, 0, 0)
+    measures = GameResults((one, other, without)).measures()
+    assert measures["followed"] == pytest.approx((2 / 2 + 2 / 10) / 2)
+    assert measures["followed_first_card"] == pytest.approx((1 / 1 + 2 / 10) / 2)
+    assert measures["led_to_match"] == pytest.approx((1 / 1 + 1 / 10) / 2)
+    assert measures["pooled"] == pytest.approx(
+        {"followed": 4 / 12, "followed_first_card": 3 / 11, "led_to_match": 2 / 11}
+    )
+    assert measures["games_with"] == {"followed": 2, "followed_first_card": 2, "led_to_match": 2}
+
+
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40))
 def test_a_spread_is_the_mean_the_sample_sd_and_a_normal_interval(values: list[float]) -> None:
     spread = Spread.of(values)
