@@ -1,4 +1,4 @@
-// The game: the cards with their rows and columns numbered, the mark of a hint, and why a tap would not count.
+// The game: the cards with their rows and columns numbered, the mark of a hint, and the tray of the pairs found so far.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -12,48 +12,122 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
-    readonly property real header: (84 + (board.practice ? 64 * Math.max(1, Theme.textSize) : 0)) * Theme.unit
+    // Where there is far more room beside the cards than above them, the tray stands there.
+    readonly property bool broad: width > 1.6 * height
+    readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
+    readonly property real title: board.practice ? 72 * Math.max(1, Theme.textSize) * Theme.unit : 0
+    readonly property real strip: broad ? 0 : 84 * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real header: 12 * Theme.unit + title + strip
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
-    readonly property real footer: 64 * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)
+    readonly property real footer: (broad && !board.practice ? 40 : 64) * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
-    readonly property real cell: Math.floor(Math.min((width - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
+    readonly property real cell: Math.floor(Math.min((width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
                                                      (height - header - numbers - footer) / Math.max(1, board.rows)))
+    // What was last touched or turned, in this item; the assistant looks at it.
+    property point touched: Qt.point(width / 2, height / 2)
+    signal touchedSomething()
+    // The middle of what a hint marks, in this item.
+    readonly property bool marks: board.markRow >= 0 || board.markColumn >= 0
+    readonly property point marked: Qt.point(
+        table.x + (board.markColumn < 0 ? table.width * 0.75 : (board.markColumn + 0.5) * cell),
+        table.y + (board.markRow < 0 ? 0 : (board.markRow + 0.5) * cell))
+    // Every pair was found, and is in the tray.
+    signal won()
+
+    function centre(location: int): point {
+        return Qt.point(table.x + (location % board.columns + 0.5) * cell,
+                        table.y + (Math.floor(location / board.columns) + 0.5) * cell)
+    }
+
+    // Loads the pictures when the cards are dealt, not when the first one is turned.
+    Repeater {
+        model: view.board.pictures
+        Image {
+            required property string modelData
+            visible: false
+            width: Math.floor(view.cell * 0.86)
+            height: width
+            source: modelData
+            sourceSize: Qt.size(width, height)
+        }
+    }
 
     PlainText {
-        anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: Theme.gap }
+        anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: 10 * Theme.unit }
         visible: view.board.practice
         text: view.words["practice-title"]
         font { pixelSize: Theme.heading; bold: true }
         color: Theme.sea
     }
-    Item {
-        id: status
-        anchors { left: cards.left; right: cards.right; bottom: table.top; bottomMargin: view.numbers }
-        height: 60 * Theme.unit
-        PlainText {
-            anchors { left: parent.left; verticalCenter: parent.verticalCenter }
-            text: view.board.progress
-            font { pixelSize: Theme.body; bold: true }
-            color: Theme.ink
-        }
-        PlainText {
-            anchors { right: parent.right; verticalCenter: parent.verticalCenter }
-            text: view.board.moves
-            font.pixelSize: Theme.body
-            color: Theme.faintInk
-        }
+    PlainText {
+        id: progress
+        x: view.broad ? Theme.gap : table.x
+        y: view.broad ? table.y : tray.y
+        width: view.broad ? view.side - Theme.gap : implicitWidth
+        height: view.broad ? implicitHeight : tray.height
+        verticalAlignment: Text.AlignVCenter
+        wrapMode: view.broad ? Text.Wrap : Text.NoWrap
+        text: view.board.progress
+        font { pixelSize: Theme.body; bold: true }
+        color: Theme.ink
+    }
+    PlainText {
+        id: moves
+        x: view.broad ? Theme.gap : table.x + table.width - width
+        y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : tray.y
+        width: view.broad ? view.side - Theme.gap : implicitWidth
+        height: view.broad ? implicitHeight : tray.height
+        verticalAlignment: Text.AlignVCenter
+        wrapMode: view.broad ? Text.Wrap : Text.NoWrap
+        text: view.board.moves
+        font.pixelSize: Theme.body
+        color: Theme.faintInk
+    }
+    Tray {
+        id: tray
+        x: view.broad ? view.width - view.side : progress.x + progress.width + Theme.gap
+        y: view.broad ? table.y : 12 * Theme.unit + view.title
+        width: view.broad ? view.side - Theme.gap : Math.max(0, moves.x - x - Theme.gap)
+        height: view.broad ? table.height : view.strip - 8 * Theme.unit
+        places: view.board.pairs
+        lines: view.broad ? Math.ceil(places / 2) : 1
+        pictures: view.board.tray
+        landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
+        back: view.cardBack
+        shadow: view.cardShadow
     }
 
-    PlainText {
-        anchors { top: cards.bottom; horizontalCenter: cards.horizontalCenter }
-        height: 64 * Theme.unit
-        verticalAlignment: Text.AlignVCenter
-        text: view.board.wait
-        font.pixelSize: Theme.small
-        color: Theme.deepAmber
-        Accessible.role: Accessible.AlertMessage
-        Accessible.name: text
+    Rectangle {
+        anchors { top: cards.bottom; topMargin: 8 * Theme.unit; horizontalCenter: cards.horizontalCenter }
+        visible: view.board.wait !== ""
+        width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
+        height: Math.max(waiting.height + 6 * Theme.unit, 46 * Theme.unit)
+        radius: height / 2
+        color: Theme.sand
+        Row {
+            id: dots
+            anchors { left: parent.left; leftMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            spacing: 6 * Theme.unit
+            Repeater {
+                model: 3
+                Rectangle {
+                    width: 9 * Theme.unit
+                    height: width
+                    radius: width / 2
+                    color: Theme.ink
+                }
+            }
+        }
+        PlainText {
+            id: waiting
+            anchors { left: dots.right; leftMargin: 0.6 * Theme.gap; verticalCenter: parent.verticalCenter }
+            text: view.board.wait
+            font.pixelSize: Theme.small
+            color: Theme.ink
+            Accessible.role: Accessible.AlertMessage
+            Accessible.name: text
+        }
     }
 
     BigButton {
@@ -70,8 +144,8 @@ FocusScope {
 
     Item {
         id: table
-        x: (view.width - width - view.numbers) / 2 + view.numbers
-        y: view.header + view.numbers
+        x: Math.round((view.width - width - view.numbers) / 2 + view.numbers)
+        y: Math.round(view.header + view.numbers)
         width: view.cell * view.board.columns
         height: view.cell * view.board.rows
 
@@ -131,11 +205,18 @@ FocusScope {
         Accessible.role: Accessible.Table
         Accessible.name: view.board.progress
         // A key that is held down is one tap.
-        Keys.onReturnPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
-        Keys.onEnterPressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
-        Keys.onSpacePressed: event => { if (!event.isAutoRepeat) view.board.tap(currentIndex) }
+        Keys.onReturnPressed: event => { if (!event.isAutoRepeat) tapCurrent() }
+        Keys.onEnterPressed: event => { if (!event.isAutoRepeat) tapCurrent() }
+        Keys.onSpacePressed: event => { if (!event.isAutoRepeat) tapCurrent() }
 
-        delegate: Item {
+        function tapCurrent() {
+            const place = currentItem as Place
+            if (place !== null)
+                place.answer()
+            view.board.tap(currentIndex)
+        }
+
+        component Place: Item {
             id: place
             required property int index
             required property url picture
@@ -147,25 +228,98 @@ FocusScope {
             readonly property bool marked: (view.board.markRow === row || view.board.markRow < 0)
                                            && (view.board.markColumn === column || view.board.markColumn < 0)
                                            && view.board.markRow + view.board.markColumn > -2
+            // A tap would change nothing: two cards are open, somebody speaks, or this one is up.
+            readonly property bool refuses: !view.board.open || up
+            readonly property bool missed: up && !found && view.board.missed
+            // How far a found card has come forward, and how far it has come to rest for good.
+            property real forward: 0
+            property real rest: found && !coming.running ? 1 : 0
+            Behavior on rest { NumberAnimation { duration: Theme.motion } }
+
+            readonly property real turning: face.turn
+
             objectName: "card-" + index
-            width: cards.cellWidth
-            height: cards.cellHeight
+            width: GridView.view.cellWidth
+            height: GridView.view.cellHeight
+            z: coming.running ? 2 : up ? 1 : 0
             Accessible.role: Accessible.Button
             Accessible.name: label
             Accessible.onPressAction: view.board.tap(index)
 
+            // Answers at once that it was touched: what does not count makes the card shake its head.
+            function answer() {
+                view.touched = view.centre(index)
+                view.touchedSomething()
+                if (refuses && Theme.motion > 0)
+                    refusal.restart()
+            }
+            onFoundChanged: if (found && Theme.motion > 0) coming.restart()
+            onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
+
+            Rectangle {
+                visible: place.rest > 0
+                anchors { fill: parent; margins: parent.width * 0.05 }
+                opacity: place.rest
+                radius: width * 0.12
+                color: Theme.sand
+            }
+            Rectangle {
+                visible: place.forward > 0
+                anchors.centerIn: face
+                width: face.width * face.scale * 1.04
+                height: width
+                radius: width * 0.13
+                color: Theme.amber
+                opacity: place.forward
+            }
             CardFace {
-                anchors.centerIn: parent
-                width: parent.width * 0.86
+                id: face
+                property real shift: 0
+                anchors { centerIn: parent; horizontalCenterOffset: shift }
+                width: Math.floor(parent.width * 0.86)
                 height: width
                 back: view.cardBack
                 shadow: view.cardShadow
                 picture: place.picture
                 up: place.up
-                // Closed cards step back while a tap would not count, unless they are meant; found ones for good.
-                opacity: place.found ? Theme.done : view.board.speaking && !place.up && !place.marked ? Theme.held : 1
+                shade: 1 - place.rest
+                // Closed cards step back while a tap would not count, unless they are meant.
+                opacity: view.board.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: tap.pressed && view.board.open && !place.up ? 0.95 : 1
+                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward)
+            }
+            SequentialAnimation {
+                id: coming
+                PauseAnimation { duration: Theme.motion * 1.5 }
+                NumberAnimation { target: place; property: "forward"; to: 1; duration: Theme.motion; easing.type: Easing.OutBack }
+                PauseAnimation { duration: Theme.motion }
+                NumberAnimation { target: place; property: "forward"; to: 0; duration: Theme.motion; easing.type: Easing.InOutQuad }
+            }
+            SequentialAnimation {
+                id: sigh
+                PauseAnimation { duration: Theme.motion * 1.6 }
+                NumberAnimation { target: face; property: "rotation"; to: -3; duration: Theme.motion; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "rotation"; to: 3; duration: Theme.motion; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "rotation"; to: 0; duration: Theme.motion; easing.type: Easing.InOutSine }
+            }
+            SequentialAnimation {
+                id: refusal
+                // Seen in the very next frame.
+                PropertyAction { target: face; property: "shift"; value: place.width * 0.05 }
+                NumberAnimation { target: face; property: "shift"; to: -place.width * 0.04; duration: 90; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "shift"; to: place.width * 0.02; duration: 80; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "shift"; to: 0; duration: 70; easing.type: Easing.InOutSine }
+            }
+            // Where nothing moves, this alone answers a tap that does not count.
+            Rectangle {
+                objectName: "refusal-" + place.index
+                visible: tap.pressed && place.refuses
+                anchors.centerIn: face
+                width: face.width * face.scale + 10 * Theme.unit
+                height: width
+                radius: width * 0.13
+                color: "transparent"
+                border { color: Theme.deepAmber; width: 5 * Theme.unit }
             }
             Rectangle {
                 anchors.fill: parent
@@ -180,21 +334,34 @@ FocusScope {
                 gesturePolicy: TapHandler.ReleaseWithinBounds
                 // However long somebody presses, it is a tap: in seconds, longer than any visitor has.
                 longPressThreshold: 3600
+                onPressedChanged: if (pressed) place.answer()
                 onTapped: view.board.tap(place.index)
             }
             HoverHandler {
                 cursorShape: !view.board.open ? Qt.WaitCursor : place.up ? Qt.ArrowCursor : Qt.PointingHandCursor
             }
         }
+        delegate: Place {}
         Keys.onPressed: Theme.byKeyboard = true
 
-        // A new board begins at its first card for those who play by keyboard.
         Connections {
             target: view.board
+            // A new board begins at its first card for those who play by keyboard.
             function onModelReset() {
                 cards.currentIndex = 0
                 cards.focus = true
+                joy.cancel()
+            }
+            function onPairFound(first, second, picture) {
+                const goal = tray.middle(view.board.tray.length - 1)
+                joy.celebrate([view.centre(first), view.centre(second)], Qt.point(tray.x + goal.x, tray.y + goal.y),
+                              view.cell * 0.86, tray.slot, picture)
             }
         }
+    }
+    Joy {
+        id: joy
+        anchors.fill: parent
+        onLanded: if (view.board.tray.length === view.board.pairs) view.won()
     }
 }

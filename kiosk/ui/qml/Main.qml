@@ -115,6 +115,7 @@ Window {
             words: root.kiosk.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
+            onWon: if (!root.board.practice) feast.begin()
         }
         ResultView {
             anchors.fill: parent
@@ -144,6 +145,11 @@ Window {
         width: root.wide ? root.width - stage.width - Theme.gap : root.width * 0.76
         height: root.wide ? root.room : root.room - stage.height
         avatar: root.avatar
+    }
+    Feast {
+        id: feast
+        anchors { left: parent.left; right: parent.right; top: parent.top }
+        height: root.room
     }
     CalmCard {
         anchors.fill: parent

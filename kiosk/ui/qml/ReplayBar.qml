@@ -32,7 +32,7 @@ Rectangle {
         spacing: Theme.gap
         Words { text: bar.replay.runs ? "▶" : "❚❚"; width: 28 }
         Words { text: bar.replay.title; font.bold: true }
-        Words { text: bar.replay.place; color: bar.replay.differs ? Theme.amber : Theme.paper }
+        Words { text: bar.replay.position; color: bar.replay.differs ? Theme.amber : Theme.paper }
         Words { visible: bar.replay.differs; text: bar.words["replay-differs"]; color: Theme.amber; font.bold: true }
     }
     Words {
@@ -53,7 +53,7 @@ Rectangle {
             // Not a stop of Tab's: its keys are the arrows, wherever the keyboard is.
             Accessible.role: Accessible.Slider
             Accessible.name: bar.words["replay-line"]
-            Accessible.description: bar.replay.place
+            Accessible.description: bar.replay.position
             Accessible.onIncreaseAction: bar.replay.step()
             Accessible.onDecreaseAction: bar.replay.back()
             anchors { fill: parent; bottomMargin: -10 * Theme.unit }

@@ -62,6 +62,10 @@ class BoardScreen(QAbstractListModel):
     """A card was tapped."""
     skipped = Signal()
     """The visitor leaves the practice."""
+    dealt = Signal()
+    """Other cards are on the table."""
+    pair_found = Signal(int, int, str, name="pairFound")
+    """These two cards are a pair, with this picture."""
 
     def __init__(self, catalogue: Catalogue, folder_of: Callable[[str], Path], parent: QObject | None = None) -> None:
         """``folder_of`` tells where the pictures of a deck are, as ``<card>.svg``."""
@@ -74,6 +78,8 @@ class BoardScreen(QAbstractListModel):
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
+        self._tray: list[str] = []
+        self._deck: list[str] = []
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Name the cards, and tell the progress, in this language, from the next board on."""
@@ -95,7 +101,10 @@ class BoardScreen(QAbstractListModel):
         self._rows, self._columns, self._pairs = rows, columns, pairs
         self._practice = practice
         self._faces = [_Face() for _ in range(rows * columns)]
+        self._tray = []
+        self._deck = [self._picture(file.stem) for file in sorted(self._pictures.glob("*.svg"))] if self._faces else []
         self.endResetModel()
+        self.dealt.emit()
         self._pairs_found = self._moves = 0
         self._wait = None
         self.clear_highlight()
@@ -117,6 +126,11 @@ class BoardScreen(QAbstractListModel):
         for position in positions:
             self._face(position).found = True
             self._tell(position)
+        first, second = positions
+        picture = self._picture(self._face(first).card)
+        self._tray.append(picture)
+        self.changed.emit()
+        self.pair_found.emit(self.location(first), self.location(second), picture)
 
     def show_progress(self, pairs_found: int, moves: int) -> None:
         """Show how far the game is."""
@@ -192,7 +206,7 @@ class BoardScreen(QAbstractListModel):
         face = self._faces[index.row()]
         match role:
             case Role.PICTURE:
-                return QUrl.fromLocalFile(str(self._pictures / f"{face.card}.svg")) if face.card else QUrl()
+                return QUrl(self._picture(face.card)) if face.card else QUrl()
             case Role.UP:
                 return face.up
             case Role.FOUND:
@@ -200,6 +214,10 @@ class BoardScreen(QAbstractListModel):
             case Role.LABEL:
                 return self._label(index.row(), face)
         return None
+
+    def _picture(self, card: str) -> str:
+        """The address of a card's picture."""
+        return QUrl.fromLocalFile(str(self._pictures / f"{card}.svg")).toString()
 
     def _label(self, location: int, face: _Face) -> str:
         position = self._position(location)
@@ -217,6 +235,21 @@ class BoardScreen(QAbstractListModel):
     def columns(self) -> int:
         """Columns of the board."""
         return self._columns
+
+    @Property(int, notify=changed)
+    def pairs(self) -> int:
+        """Pairs of the board."""
+        return self._pairs
+
+    @Property(list, notify=changed)
+    def tray(self) -> list[str]:
+        """The pictures of the pairs that are found, as addresses, in the order in which they were found."""
+        return list(self._tray)
+
+    @Property(list, notify=dealt)
+    def pictures(self) -> list[str]:
+        """Every picture of the deck, as addresses, so that none has to be loaded when its card is turned."""
+        return list(self._deck)
 
     @Property(str, notify=changed)
     def progress(self) -> str:
@@ -242,6 +275,11 @@ class BoardScreen(QAbstractListModel):
     def speaking(self) -> bool:
         """Whether taps do not count because the assistant speaks."""
         return self._wait is BoardWait.SPEAKING
+
+    @Property(bool, notify=changed)
+    def missed(self) -> bool:
+        """Whether two cards that are no pair wait to turn back."""
+        return self._wait is BoardWait.TURNING_BACK
 
     @Property(str, notify=changed)
     def wait(self) -> str:

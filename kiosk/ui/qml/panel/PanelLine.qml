@@ -9,7 +9,7 @@ Row {
     required property var line
 
     spacing: 10 * Theme.unit
-    PanelMark { id: mark; well: row.line.well }
+    PanelMark { id: mark; well: row.line.is_ok }
     PlainText {
         id: name
         width: row.width * 0.29
@@ -20,9 +20,9 @@ Row {
     }
     PlainText {
         width: row.width - mark.width - name.width - 2 * row.spacing
-        text: row.line.words
+        text: row.line.message
         font.pixelSize: Theme.dense
-        color: row.line.well ? Theme.faintInk : Theme.deepAmber
+        color: row.line.is_ok ? Theme.faintInk : Theme.deepAmber
         wrapMode: Text.Wrap
     }
 }

@@ -1,0 +1,67 @@
+// The pairs that were found, in their order: places that fill up, so that one sees how far the game is.
+pragma ComponentBehavior: Bound
+import QtQuick
+import "."
+
+Item {
+    id: tray
+
+    required property int places
+    required property list<string> pictures
+    required property int lines
+    // How many of the pictures have arrived.
+    required property int landed
+    required property url back
+    required property url shadow
+
+    readonly property int columns: Math.ceil(places / Math.max(1, lines))
+    readonly property real slot: Math.floor(Math.min(width / Math.max(1, columns), height / Math.max(1, lines)))
+    readonly property bool full: places > 0 && landed >= places
+
+    // Where the picture with this number lies, in the tray.
+    function middle(number: int): point {
+        return Qt.point((width - slot * columns) / 2 + (number % columns + 0.5) * slot,
+                        (height - slot * lines) / 2 + (Math.floor(number / columns) + 0.5) * slot)
+    }
+
+    Repeater {
+        model: tray.places
+        Item {
+            id: place
+            required property int index
+            readonly property bool filled: index < tray.landed
+            readonly property point centre: tray.middle(index)
+            x: centre.x - tray.slot / 2
+            y: centre.y - tray.slot / 2
+            width: tray.slot
+            height: tray.slot
+
+            Rectangle {
+                anchors { fill: parent; margins: parent.width * 0.06 }
+                radius: width * 0.18
+                color: place.filled ? Theme.sand : Theme.white
+                border { color: tray.full ? Theme.amber : Theme.edge; width: Math.max(1, (tray.full ? 4 : 3) * Theme.unit) }
+            }
+            // Two cards, one on the other.
+            Repeater {
+                model: place.filled ? 2 : 0
+                Image {
+                    required property int index
+                    readonly property real away: place.width * (index === 0 ? -0.05 : 0.05)
+                    anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
+                    width: place.width * 0.74
+                    height: width
+                    source: Qt.resolvedUrl(tray.pictures[place.index] ?? "")
+                    sourceSize: Qt.size(width, height)
+                }
+            }
+            scale: 1
+            onFilledChanged: if (filled && Theme.motion > 0) arrive.restart()
+            SequentialAnimation {
+                id: arrive
+                NumberAnimation { target: place; property: "scale"; to: 1.25; duration: Theme.motion / 2; easing.type: Easing.OutQuad }
+                NumberAnimation { target: place; property: "scale"; to: 1; duration: Theme.motion; easing.type: Easing.OutBack }
+            }
+        }
+    }
+}

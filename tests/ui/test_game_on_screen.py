@@ -1,0 +1,164 @@
+"""What a visitor sees of a game: cards that turn, pairs that go to the tray, and an answer to every tap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QObject, QPoint, Qt
+from PySide6.QtGui import QImage
+from PySide6.QtQuick import QQuickItem
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from kiosk.config import Settings
+from kiosk.experiment.effects import BoardWait
+from kiosk.game import Position
+from kiosk.ui.app import App
+from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from tests.ui.headless import headless
+from tests.ui.looking import items, lies_in
+
+MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
+QUIET = Settings.model_validate({"voice": {"enabled": False}})
+LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+CAT = (Position(1, 1), Position(2, 3))
+
+
+@pytest.fixture(params=[True, False], ids=["with motion", "without motion"])
+def moves(request: pytest.FixtureRequest) -> bool:
+    """Whether things move."""
+    return bool(request.param)
+
+
+@pytest.fixture
+def app(qapp: object, tmp_path: Path, moves: bool) -> Iterator[App]:  # noqa: ARG001, FBT001 - fixtures
+    """A kiosk in the middle of a game, which moves or stands still."""
+    settings = QUIET.model_copy(update={"screen": QUIET.screen.model_copy(update={"motion": moves})})
+    with headless(settings, tmp_path, mode=MOVING) as opened:
+        opened.screens.board.deal(4, 6, 12, "animals")
+        opened.screens.kiosk.show("game")
+        opened.screens.kiosk.end_input_guard()
+        lay_out(opened.window)
+        yield opened
+
+
+def find(app: App, name: str) -> QQuickItem:
+    """The visible item of this name."""
+    item = find_item(app.window.contentItem(), name)
+    assert item is not None, name
+    return item
+
+
+def press(app: App, name: str) -> QPoint:
+    """Put a finger on an item, and leave it there."""
+    place = item_centre(find(app, name))
+    QTest.mousePress(app.window, LEFT, NO_KEY, place)
+    return place
+
+
+def looks(app: App, name: str) -> QImage:
+    """How an item looks in the next frame."""
+    item = find(app, name)
+    at = item.mapToScene(item.boundingRect().topLeft()).toPoint()
+    return app.window.grabWindow().copy(at.x(), at.y(), int(item.width()), int(item.height()))
+
+
+def in_tray(app: App) -> list[str]:
+    """The pictures that lie in the tray, each of them once."""
+    shown = [item for item in items(app.window.contentItem()) if lies_in(item, "Tray")]
+    return list(dict.fromkeys(Path(i.property("source").path()).stem for i in shown if i.inherits("QQuickImage")))
+
+
+def test_a_pair_comes_to_the_tray_and_stays_on_the_board(app: App, qtbot: QtBot) -> None:
+    board = app.screens.board
+    assert in_tray(app) == []
+    for position in CAT:
+        board.reveal(position, "cat")
+    board.mark_matched(CAT)
+    qtbot.waitUntil(lambda: in_tray(app) == ["cat"])
+    assert set(CAT).isdisjoint(board.closed)
+    for position in (Position(0, 0), Position(3, 5)):
+        board.reveal(position, "owl")
+    board.mark_matched((Position(0, 0), Position(3, 5)))
+    qtbot.waitUntil(lambda: in_tray(app) == ["cat", "owl"])
+
+
+def test_two_pairs_in_haste_both_arrive(app: App, qtbot: QtBot) -> None:
+    board = app.screens.board
+    for number, card in enumerate(("cat", "owl", "bear")):
+        places = (Position(0, number), Position(1, number))
+        for position in places:
+            board.reveal(position, card)
+        board.mark_matched(places)
+    qtbot.waitUntil(lambda: in_tray(app) == ["cat", "owl", "bear"])
+
+
+def test_a_new_board_has_an_empty_tray(app: App, qtbot: QtBot) -> None:
+    board = app.screens.board
+    for position in CAT:
+        board.reveal(position, "cat")
+    board.mark_matched(CAT)
+    board.deal(4, 6, 12, "animals")
+    lay_out(app.window)
+    assert in_tray(app) == []
+    qtbot.waitUntil(lambda: find(app, "card-0").property("up") is False)
+    assert in_tray(app) == []
+
+
+def come_to_rest(app: App, name: str) -> None:
+    """Wait until an item looks the same in two frames, well apart."""
+    last = looks(app, name)
+    for _ in range(100):
+        QTest.qWait(50)
+        now = looks(app, name)
+        if now == last:
+            return
+        last = now
+    raise AssertionError(f"{name} never comes to rest")
+
+
+@pytest.mark.parametrize("why", [*BoardWait, None])
+def test_a_tap_that_does_not_count_is_answered_in_the_next_frame(app: App, why: BoardWait | None) -> None:
+    board = app.screens.board
+    board.reveal(Position(0, 2), "owl")
+    board.lock(why)
+    come_to_rest(app, "card-2")
+    before = looks(app, "card-2")
+    place = press(app, "card-2")
+    assert looks(app, "card-2") != before
+    QTest.mouseRelease(app.window, LEFT, NO_KEY, place)
+
+
+def test_a_turning_card_is_as_wide_as_its_shadow(app: App, moves: bool) -> None:  # noqa: FBT001 - a fixture
+    """No slab of shadow stands where a narrow card is: half way, left and right of its edge there is only paper."""
+    if moves:
+        pytest.skip("a card that moves cannot be held half way")
+    face = next(i for i in items(find(app, "card-8")) if i.metaObject().className().startswith("CardFace"))
+    paper = app.window.grabWindow().pixelColor(3, 3)
+    face.setProperty("turn", 0.5)
+    picture = looks(app, "card-8")
+    middle = picture.height() // 2
+    for across in (0.2, 0.35, 0.65, 0.8):
+        assert picture.pixelColor(int(picture.width() * across), middle) == paper, across
+
+
+def test_the_last_pair_is_a_feast_only_where_things_may_move(app: App, qtbot: QtBot, moves: bool) -> None:  # noqa: FBT001 - a fixture
+    board = app.screens.board
+    board.deal(1, 2, 1, "animals")
+    lay_out(app.window)
+    for column in (0, 1):
+        board.reveal(Position(0, column), "cat")
+    won: list[bool] = []
+    view = next(i for i in items(app.window.contentItem()) if i.metaObject().className().startswith("BoardView"))
+    _when_won(view, won)
+    board.mark_matched((Position(0, 0), Position(0, 1)))
+    qtbot.waitUntil(lambda: bool(won))
+    snippets = [i for i in items(app.window.contentItem()) if lies_in(i, "Feast")]
+    assert (len(snippets) > 10) is moves
+
+
+def _when_won(view: QObject, won: list[bool]) -> None:
+    view.won.connect(lambda: won.append(True))  # type: ignore[attr-defined] # a signal of QML
