@@ -260,6 +260,14 @@ class VoiceConfig(ConfigModel):
     sounds: Annotated[
         bool, Field(description="Whether cards are heard: quiet sounds, never while somebody speaks.")
     ] = True
+    device: Annotated[
+        str,
+        Field(
+            max_length=MOST_CHARACTERS,
+            description="The sound device, by its name or a part of it; empty: the system's own. 'null' is heard by "
+            "no one.",
+        ),
+    ] = ""
 
 
 Side = Literal["left", "right"]

@@ -42,6 +42,7 @@ WINDOW = (
 )
 VOICE = "espeak-ng alsa-utils"
 VIRTUAL_SCREEN = "xvfb xauth xdotool openbox"
+VIRTUAL_SOUND = "pulseaudio pulseaudio-utils"
 BUILD = "binutils" + (f" libpython{VERSION}" if sys.base_prefix == "/usr" else "")
 
 # A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
@@ -94,7 +95,7 @@ def start(arguments: Sequence[str]) -> int:
 
 def test(arguments: Sequence[str]) -> int:
     """Run all checks and then the tests; further arguments go to pytest, whose summary is the last line."""
-    install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN, BUILD)
+    install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN, VIRTUAL_SOUND, BUILD)
     install_python_packages(extras=set(project()["optional-dependencies"]))
     headless = {"QT_QPA_PLATFORM": "offscreen"} | os.environ | {"QT_QUICK_BACKEND": "software"}
     with runtime_folder(headless) as environment:

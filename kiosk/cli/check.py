@@ -37,7 +37,7 @@ from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.robots import checks as robots_checks
-from kiosk.robots.tts_worker import player_command
+from kiosk.robots import voice_program
 from kiosk.store import checks as store_checks
 from kiosk.store.database import in_use
 from kiosk.store.maintenance import FOLDER
@@ -235,14 +235,16 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
     settings = booth.settings
     if settings is None:
         return
-    yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, player_command(), busy=booth.busy))
+    probe = voice_program(settings.voice, settings.language_codes[0], probe=True)
+    within_s = robots_checks.WITHIN_S + _MARGIN_S
+    yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, probe, busy=booth.busy), within_s)
     if not settings.voice.enabled:
         yield Check("voice", lambda: [CheckResult.good("voice", "switched off in the study file")])
     elif booth.study is not None:
         for plan in booth.study.plans:
-            command = program("voice", plan.language, str(settings.voice.rate), str(settings.voice.volume))
+            command = voice_program(settings.voice, plan.language)
             say = partial(robots_checks.voice_check, command, plan.language, plan.catalogue.text(SENTENCE))
-            yield Check(f"voice: {plan.language}", say, robots_checks.WITHIN_S + _MARGIN_S)
+            yield Check(f"voice: {plan.language}", say, within_s)
     ask_robot = partial(robots_checks.robot_check, settings.robot, settings.language_codes, busy=booth.busy)
     yield Check(robots_checks.ROBOT, ask_robot, robots_checks.within_s(settings.robot))
 

@@ -44,7 +44,7 @@ _COMMANDS = {
 _WORKERS = {
     "display": "kiosk.cli.run:display_command",
     "meanwhile": "kiosk.cli.run:splash_command",
-    "voice": "kiosk.cli.run:voice_command",
+    "voice-worker": "kiosk.cli.run:voice_command",
 }
 """Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
 

@@ -150,12 +150,10 @@ def _print(what: str, look: Callable[[], Iterable[CheckResult]]) -> None:
 
 
 @click.command(hidden=True)
-@click.argument("language")
-@click.argument("rate", type=int)
-@click.argument("volume", type=float)
-def voice_command(language: str, rate: int, volume: float) -> None:
+@click.argument("options")
+def voice_command(options: str) -> None:
     """Be the voice, in a process of its own; the kiosk starts it."""
-    run_tts_worker(language, rate, volume)
+    run_tts_worker(json.loads(options))
 
 
 _TROUBLE = {

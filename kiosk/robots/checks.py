@@ -6,9 +6,7 @@ import json
 import os
 import subprocess
 import tempfile
-import wave
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from kiosk import UserInputError
@@ -20,53 +18,26 @@ from kiosk.units import MS_PER_SECOND
 
 SOUND = "sound"
 
-_RATE, _SILENCE_S = 22_050, 0.1
-_WITHIN_S = 3.0
 _UNHEARD = "sentences are shown, and nothing is heard"
 
 
-def sound_check(command: tuple[str, ...] | None, *, busy: bool) -> Iterator[CheckResult]:
-    """Play silence with a player's command; not while a kiosk is ``busy``, which may need the card itself."""
-    if command is None:
-        yield CheckResult.warning(
-            SOUND, f"{_UNHEARD}: there is no program that plays sound", "install alsa-utils (Debian), for aplay"
-        )
-    elif busy:
-        yield CheckResult.good(SOUND, f"{Path(command[0]).name} plays; not tried while a kiosk is open here")
+def sound_check(command: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
+    """Have the voice's process play silence; not while a kiosk is ``busy``, which may need the card itself."""
+    if busy:
+        yield CheckResult.good(SOUND, "not tried while a kiosk is open here; its panel tells whether it is heard")
+        return
+    try:
+        probed = dict(_events(_run(command))).get("probed", {"why": "the sound's process died"})
+    except subprocess.TimeoutExpired:
+        probed = {"why": "the sound device hangs"}
+    except OSError as error:
+        probed = {"why": f"the sound's process cannot be started: {error.strerror}"}
+    device, why = probed.get("device"), probed.get("why")
+    if device:
+        yield CheckResult.good(SOUND, f"{device} plays")
     else:
-        yield _played(command)
-
-
-def _played(command: tuple[str, ...]) -> CheckResult:
-    with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:
-        file = Path(folder) / "silence.wav"
-        _write_silence(file)
-        try:
-            done = subprocess.run(  # noqa: S603 - the player's own command
-                (*command, str(file)), stdin=subprocess.DEVNULL, capture_output=True, timeout=_WITHIN_S, check=False
-            )
-        except subprocess.TimeoutExpired:
-            return _fails(f"{Path(command[0]).name} does not come to an end")
-        except OSError as error:
-            return _fails(f"{command[0]} cannot be started: {error.strerror}")
-    if done.returncode == 0:
-        return CheckResult.good(SOUND, f"{Path(command[0]).name} plays on the sound card")
-    said = done.stderr.decode(errors="replace").strip().splitlines()
-    return _fails(said[-1] if said else f"the player ended with {done.returncode}")
-
-
-def _fails(why: str) -> CheckResult:
-    return CheckResult.warning(
-        SOUND, f"{_UNHEARD}: {why}", "plug in a loudspeaker, choose it in the system's settings, and play it any sound"
-    )
-
-
-def _write_silence(file: Path) -> None:
-    with wave.open(str(file), "wb") as silence:
-        silence.setnchannels(1)
-        silence.setsampwidth(2)
-        silence.setframerate(_RATE)
-        silence.writeframes(bytes(2 * int(_RATE * _SILENCE_S)))
+        remedy = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play it any sound"
+        yield CheckResult.warning(SOUND, f"{_UNHEARD}: {why}", remedy)
 
 
 WITHIN_S = 12.0

@@ -1,19 +1,17 @@
-"""The text-to-speech worker: a process that renders and plays sentences."""
+"""The text-to-speech worker: a process that renders sentences and plays them on the sound device."""
 
 from __future__ import annotations
 
 import json
 import os
 import queue
-import shutil
-import subprocess
 import sys
 import tempfile
 import threading
 import time
 import wave
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -21,59 +19,31 @@ import numpy as np
 import pyttsx3
 
 from kiosk.language_codes import distance
-from kiosk.robots import LOUDNESS_MS
+from kiosk.robots.audio import Clip, Player, create_player, loudness_steps
 
-_QUIET = {"aplay": ("-q",), "afplay": ()}
-"""The programs that are looked for, in this order, and what keeps them from talking."""
-
-
-def player_command() -> tuple[str, ...] | None:
-    """The command that plays the file that is added to it; None if there is no such program."""
-    path = next((path for name in _QUIET if (path := shutil.which(name))), None)
-    return (path, *_QUIET[Path(path).name]) if path else None
-
-
-_POLL_S = 0.01
+_TEND_S = 0.25
+"""How often the sound device is looked at."""
 _RENDER_S = 3.0
 """Rendering takes 10 to 60 ms; an engine that takes this long will never be done."""
+_PROBE_S = 3.0
 
 _NO_SOUND = (OSError, RuntimeError, EOFError, wave.Error)
 """What rendering raises when no sound came of it."""
-
-_FULL_LOUDNESS = 0.25
-"""The root mean square, of full scale, at which the mouth is wide open: loud vowels of espeak-ng reach about this."""
-
-
-@dataclass(frozen=True)
-class RenderedSpeech:
-    """A rendered sentence: its file, its length, and how loud it is from step to step."""
-
-    file: Path
-    duration_ms: int
-    loudness: tuple[float, ...]
-
-    @classmethod
-    def of(cls, file: Path) -> RenderedSpeech:
-        """Measure a WAV file of 16 bit; raises wave.Error or EOFError if it is none."""
-        with wave.open(str(file)) as audio:
-            rate, channels = audio.getframerate(), audio.getnchannels()
-            samples = np.frombuffer(audio.readframes(audio.getnframes()), dtype="<i2") / 2**15
-        step = rate * channels * LOUDNESS_MS // 1000
-        padded = np.pad(samples, (0, -len(samples) % step)).reshape(-1, step)
-        opening = np.clip(np.sqrt((padded**2).mean(axis=1)) / _FULL_LOUDNESS, 0, 1)
-        return cls(file, len(samples) * 1000 // (rate * channels), tuple(round(float(value), 2) for value in opening))
 
 
 class SpeechEngine:
     """The speech engine: renders a sentence to a file. pyttsx3 plays unreliably, but it renders well."""
 
-    def __init__(self, language: str, rate: int, volume: float) -> None:
+    rate = 22_050
+    """Samples a second of most voices."""
+
+    def __init__(self, language: str, rate: int) -> None:
         """Take the nearest voice of the language; raises whatever the engine raises when it is missing."""
         self._engine = pyttsx3.init()
         self._done = threading.Event()
         self._engine.connect("finished-utterance", lambda **_: self._done.set())
         self._engine.setProperty("rate", rate)
-        self._engine.setProperty("volume", volume)
+        self._engine.setProperty("volume", 1.0)
         found = self._engine.getProperty("voices")
         chosen = voice_of(language, found)
         self.voice = None if chosen is None else str(chosen.id)
@@ -82,7 +52,7 @@ class SpeechEngine:
         if self.voice is not None:
             self._engine.setProperty("voice", self.voice)
 
-    def render(self, text: str, file: Path) -> RenderedSpeech:
+    def render(self, text: str, file: Path) -> Clip:
         """Render a sentence; raises OSError, wave.Error or EOFError if no sound came of it.
 
         Raises RuntimeError if no voice speaks the language: another one would make nonsense of it.
@@ -97,7 +67,7 @@ class SpeechEngine:
         # On Windows it renders at once, and reports nothing.
         if sys.platform != "win32" and not self._done.wait(_RENDER_S):
             raise RuntimeError("the engine did not render the sentence in time")
-        return RenderedSpeech.of(file)
+        return Clip.read(file)
 
 
 def voice_of(language: str, voices: Iterable[Any]) -> Any | None:
@@ -122,43 +92,7 @@ def _codes(voice: Any) -> list[str]:
     return [code.strip("\x05\x02") for code in codes]
 
 
-class AudioPlayer:
-    """Plays a file with a child process that can be ended at once; silence, of the same length, without one."""
-
-    def __init__(self) -> None:
-        """Look for a program that plays."""
-        self._command = player_command()
-        self._child: subprocess.Popen[bytes] | None = None
-        self._silent_until = 0.0
-        self.audible = self._command is not None
-
-    def play(self, sound: RenderedSpeech) -> None:
-        """Begin to play."""
-        self._silent_until = time.monotonic() + sound.duration_ms / 1000
-        if self._command is not None:
-            command = (*self._command, str(sound.file))
-            self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: S603
-
-    def playing(self) -> bool:
-        """Whether the sentence is still under way."""
-        if self._child is not None:
-            code = self._child.poll()
-            if code is None:
-                return True
-            # A player that fails has no sound card: the rest of the sentence's time passes in silence.
-            self.audible = code == 0
-            self._child = None
-            if code == 0:
-                return False
-        return not self.audible and time.monotonic() < self._silent_until
-
-    def stop(self) -> None:
-        """Be silent at once."""
-        if self._child is not None:
-            self._child.kill()
-            self._child.wait()
-            self._child = None
-        self._silent_until = 0.0
+Commands = queue.Queue[dict[str, Any] | None]
 
 
 class TtsWorker:
@@ -167,25 +101,30 @@ class TtsWorker:
     def __init__(
         self,
         engine: SpeechEngine,
-        player: AudioPlayer,
+        player: Player,
         report: WorkerReport,
         file: Path,
-        commands: queue.Queue[dict[str, Any] | None],
+        commands: Commands,
     ) -> None:
-        """Render into ``file``; ``None`` among the commands ends the work."""
+        """Render into ``file``; what the player posts is among the commands, and ``None`` ends the work."""
         self._engine = engine
         self._player = player
-        self._sounds = AudioPlayer()
         self._report = report
         self._file = file
         self._commands = commands
         self._saying: int | None = None
+        self._told: dict[str, object] = {}
+        self._sounds: dict[str, Clip] = {}
 
     def run(self) -> None:
         """Work until the commands end."""
         for command in self._next_commands():
-            if "play" in command:
-                self._play(Path(command["play"]))
+            if "event" in command:
+                self._hear(command)
+            elif "play" in command:
+                self._play(str(command["play"]))
+            elif "volume" in command:
+                self._player.set_volume(float(command["volume"]))
             elif "voices" in command:
                 self._report("voices", voices=self._engine.voices)
             elif "render" in command:
@@ -196,22 +135,22 @@ class TtsWorker:
                     self._say(int(command["say"]), str(command["text"]))
 
     def _stop(self) -> None:
-        """Be silent: a sound card may take only one at a time, and a sentence never waits for a sound."""
-        self._sounds.stop()
+        """Be silent: a sentence never waits for a sound."""
         self._player.stop()
         self._saying = None
 
-    def _play(self, file: Path) -> None:
+    def _play(self, file: str) -> None:
         """Play a short sound in place of any other, but not while a sentence is under way."""
         if self._saying is None:
-            self._sounds.stop()
-            self._sounds.play(RenderedSpeech(file, 0, ()))
+            if file not in self._sounds:
+                self._sounds[file] = Clip.read(Path(file))
+            self._player.play(None, self._sounds[file])
 
     def _render(self, text: str) -> None:
         """Render a text that nobody is to hear."""
         begun = time.monotonic()
         try:
-            sound = self._engine.render(text, self._file.with_name("unheard.wav"))
+            sound = self._engine.render(text, self._file)
         except _NO_SOUND as error:
             self._report("failed", why=str(error) or type(error).__name__)
             return
@@ -219,33 +158,47 @@ class TtsWorker:
         self._report("rendered", duration_ms=sound.duration_ms, took_ms=took_ms)
 
     def _next_commands(self) -> Iterator[dict[str, Any]]:
-        """Every command in turn; while a sentence is under way, look after it as well."""
+        """Every command in turn; look after the sound device between them."""
         while True:
             try:
-                busy = self._saying is not None or self._sounds.playing()
-                command = self._commands.get(timeout=_POLL_S if busy else None)
+                command = self._commands.get(timeout=_TEND_S)
             except queue.Empty:
-                self._look_after_sentence()
+                self._player.tend()
                 continue
             if command is None:
                 self._stop()
                 return
             yield command
+            self._player.tend()
 
-    def _look_after_sentence(self) -> None:
-        if self._saying is not None and not self._player.playing():
-            self._report("finished", id=self._saying, audible=self._player.audible)
-            self._saying = None
+    def _hear(self, event: dict[str, Any]) -> None:
+        """Pass on what the player posted; what comes late of a sentence before is left out."""
+        if event["event"] == "device":
+            self._report("device", device=event["device"], why=event.get("why", ""))
+            return
+        if event["id"] != self._saying:
+            return
+        if event["event"] == "started":
+            self._report("started", id=self._saying, **self._told)
+            return
+        self._saying = None
+        if event["event"] == "finished":
+            self._report("finished", id=event["id"])
+        else:
+            self._report("failed", id=event["id"], why=event["why"])
 
     def _say(self, number: int, text: str) -> None:
+        if not self._player.device:
+            self._report("failed", id=number, why=self._player.why)
+            return
         try:
             sound = self._engine.render(text, self._file)
         except _NO_SOUND as error:
             self._report("failed", id=number, why=str(error) or type(error).__name__)
             return
-        self._player.play(sound)
         self._saying = number
-        self._report("started", id=number, duration_ms=sound.duration_ms, loudness=sound.loudness)
+        self._told = {"duration_ms": sound.duration_ms, "loudness": loudness_steps(sound)}
+        self._player.play(number, sound)
 
 
 class WorkerReport:
@@ -262,7 +215,7 @@ class WorkerReport:
         self._lines.flush()
 
 
-def _read_into(commands: queue.Queue[dict[str, Any] | None]) -> None:
+def _read_into(commands: Commands) -> None:
     try:
         for line in sys.stdin:
             command = json.loads(line)
@@ -274,21 +227,50 @@ def _read_into(commands: queue.Queue[dict[str, Any] | None]) -> None:
         commands.put(None)
 
 
-def run_tts_worker(language: str, rate: int, volume: float) -> None:
-    """Find the engine, say what was found, and work."""
+def run_tts_worker(options: Mapping[str, Any]) -> None:
+    """Find the engine and the sound device, say what was found, and work.
+
+    ``options`` are ``language``, ``rate`` (words a minute), ``volume`` (0 to 1) and ``device``; with ``probe`` the
+    device is tried with a moment of silence, and no engine is looked for.
+    """
     report = WorkerReport()
-    commands: queue.Queue[dict[str, Any] | None] = queue.Queue()
+    commands: Commands = queue.Queue()
+    device, volume = str(options.get("device", "")), float(options["volume"])
+    if options.get("probe"):
+        with closing(create_player(commands.put, SpeechEngine.rate, device, volume)) as player:
+            report("probed", **_probed(player, commands))
+        return
     threading.Thread(target=_read_into, args=(commands,), daemon=True).start()
     try:
-        engine = SpeechEngine(language, rate, volume)
+        engine = SpeechEngine(str(options["language"]), int(options["rate"]))
     except Exception as error:  # noqa: BLE001 - engines raise whatever they like when a library is missing
         report("unavailable", why=f"no speech engine: {error}")
         return
-    plays = AudioPlayer()
-    report("ready", voice=engine.voice, spoken=engine.spoken, player=plays.audible)
-    with tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder:
-        TtsWorker(engine, plays, report, Path(folder) / "sentence.wav", commands).run()
+    with (
+        closing(create_player(commands.put, engine.rate, device, volume)) as player,
+        tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder,
+    ):
+        report("ready", voice=engine.voice, spoken=engine.spoken, device=player.device, why=player.why)
+        TtsWorker(engine, player, report, Path(folder) / "sentence.wav", commands).run()
+
+
+def _probed(player: Player, events: Commands) -> dict[str, object]:
+    """Play a tenth of a second of silence; returns the ``device`` that took it, and ``why`` if none did."""
+    deadline = time.monotonic() + _PROBE_S
+    player.play(0, Clip(np.zeros(SpeechEngine.rate // 10, np.int16), SpeechEngine.rate))
+    device, why = player.device, player.why
+    while time.monotonic() < deadline:
+        try:
+            event = events.get(timeout=_TEND_S / 10)
+        except queue.Empty:
+            player.tend()
+            continue
+        if event is not None and event["event"] == "finished":
+            return {"device": device, "why": ""}
+        if event is not None and event["event"] == "broken":
+            return {"device": "", "why": event["why"]}
+    return {"device": "", "why": f"{device or 'the sound device'} takes no sound" if device else why}
 
 
 if __name__ == "__main__":
-    run_tts_worker(sys.argv[1], int(sys.argv[2]), float(sys.argv[3]))
+    run_tts_worker(json.loads(sys.argv[1]))

@@ -16,6 +16,7 @@ from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
 from kiosk import program
 from kiosk.config import VoiceConfig as VoiceSettings
+from kiosk.robots import voice_options
 from kiosk.robots.embodiment import Health
 from kiosk.ui.event_loop import Clock, TimerWait
 
@@ -32,8 +33,6 @@ MAX_FAILURES = 3
 """After so many failures in a row the voice is not tried again until ``restore``."""
 
 QUIT_MS = 500
-
-NOT_HEARD = Health(is_ok=False, message="sentences are only shown: the sound cannot be played")
 
 _log = logging.getLogger(__name__)
 
@@ -132,7 +131,6 @@ class EngineVoice(Voice):
         self._health = Health(is_ok=True, message="the voice is starting")
         self._ready = False
         self._name: object = None
-        self._audible = True
         self._saying: int | None = None
         # Every session counts its sentences from 1; what comes late of the last one must not be taken for this one's.
         self._requests = count(1)
@@ -151,10 +149,9 @@ class EngineVoice(Voice):
             self._start_anew()
 
     def set_volume(self, volume: float) -> None:
-        """End the process that speaks louder or softer, and start one that speaks so loud."""
-        if volume != self._settings.volume:
-            self._settings = self._settings.model_copy(update={"volume": volume})
-            self._start_anew()
+        """Speak and sound so loud at once; a process that is started later begins with it."""
+        self._settings = self._settings.model_copy(update={"volume": volume})
+        self._send({"volume": volume})
 
     def _start_anew(self) -> None:
         self._failures = 0
@@ -219,8 +216,8 @@ class EngineVoice(Voice):
         process.finished.connect(self._lost)
         process.errorOccurred.connect(self._lost)
         self._process = process
-        manner = (self._language, str(self._settings.rate), str(self._settings.volume))
-        command = (*self._other, *manner) if self._other else program("voice", *manner)
+        manner = voice_options(self._settings, self._language)
+        command = (*self._other, manner) if self._other else program("voice-worker", manner)
         process.start(command[0], list(command[1:]))
 
     def _send(self, command: dict[str, Any]) -> None:
@@ -242,9 +239,9 @@ class EngineVoice(Voice):
         if kind == "ready":
             self._ready = True
             self._name = event.get("voice")
-            self._health = _found(self._language, self._name, plays=event.get("player") is True)
-            if not self._health.is_ok:
-                _log.warning("%s", self._health.message)
+            self._notice_device(event)
+        if kind == "device":
+            self._notice_device(event)
         if kind == "unavailable":
             _log.warning("there is no voice: %s", event.get("why"))
             self._failures = MAX_FAILURES
@@ -258,19 +255,15 @@ class EngineVoice(Voice):
                 self.started.emit(self._saying, event["loudness"])
             case "finished":
                 self._failures = 0
-                self._notice_sound(audible=event.get("audible") is not False)
                 self._done()
             case "failed":
                 self._give_up(str(event.get("why")))
 
-    def _notice_sound(self, *, audible: bool) -> None:
-        """Whether the player could play shows only when it does: there may be a program, and no sound card."""
-        if audible == self._audible:
-            return
-        self._audible = audible
-        self._health = _found(self._language, self._name, plays=True) if audible else NOT_HEARD
-        if not audible:
-            _log.warning("%s", NOT_HEARD.message)
+    def _notice_device(self, event: dict[str, Any]) -> None:
+        """The sound device was found, lost or found again."""
+        self._health = _found(self._language, self._name, str(event.get("device", "")), str(event.get("why", "")))
+        if not self._health.is_ok:
+            _log.warning("%s", self._health.message)
 
     def _done(self) -> None:
         number, self._saying = self._saying, None
@@ -317,10 +310,10 @@ class EngineVoice(Voice):
             self.failed.emit(number, why)
 
 
-def _found(language: str, voice: object, *, plays: bool) -> Health:
+def _found(language: str, voice: object, device: str, why: str) -> Health:
     """What an engine that is ready can do."""
     if voice is None:
         return Health(is_ok=False, message=f"sentences are only shown: no installed voice speaks {language!r}")
-    if not plays:
-        return Health(is_ok=False, message="sentences are only shown: there is no program that plays sound")
+    if not device:
+        return Health(is_ok=False, message=f"sentences are only shown: {why}")
     return Health(is_ok=True, message=f"the voice {voice} speaks")

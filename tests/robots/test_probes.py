@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-from kiosk.config import RobotConfig
+from kiosk.config import RobotConfig, VoiceConfig
 from kiosk.preflight import CheckResult, Severity
+from kiosk.robots import audio, voice_program
 from kiosk.robots import checks as robots_checks
 from kiosk.robots.checks import SLOW_MS, robot_check, sound_check, voice_check, within_s
 from tests.robots.furhat_fake import FurhatFake, Mode
@@ -43,27 +43,31 @@ def alone(findings: object) -> CheckResult:
 # Sound
 
 
-def test_a_player_that_plays_silence_is_well(tmp_path: Path) -> None:
-    heard = tmp_path / "heard.wav"
-    found = alone(sound_check(python(f"import sys, shutil; shutil.copy(sys.argv[1], {str(heard)!r})"), busy=False))
-    assert found.state is Severity.GOOD
-    assert set(heard.read_bytes()[44:]) == {0}
+def test_a_device_that_plays_silence_is_well() -> None:
+    found = alone(sound_check(saying({"event": "probed", "device": "Loudspeaker", "why": ""}), busy=False))
+    assert found == CheckResult("sound", Severity.GOOD, "Loudspeaker plays")
 
 
-def test_a_machine_without_a_player_is_told_to_get_one() -> None:
-    found = alone(sound_check(None, busy=False))
-    assert (found.state, "alsa-utils" in found.remedy) == (Severity.WARNING, True)
+@pytest.mark.skipif(not audio.HAS_STREAM, reason="miniaudio has no build for this machine")
+def test_the_voices_own_process_tries_the_device_of_the_study() -> None:
+    settings = VoiceConfig(device=audio.NOWHERE)
+    assert alone(sound_check(voice_program(settings, "en", probe=True), busy=False)).words == f"{audio.NOWHERE} plays"
 
 
-def test_without_a_sound_card_the_players_own_words_are_told() -> None:
-    found = alone(sound_check(python("import sys; sys.exit('aplay: no such card')"), busy=False))
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        (saying({"event": "probed", "device": "", "why": "there is no sound device"}), "there is no sound device"),
+        (python("import sys; sys.exit(3)"), "the sound's process died"),
+        (("/nowhere/python",), "cannot be started"),
+    ],
+    ids=["no device", "dies", "is missing"],
+)
+def test_a_sound_device_that_fails_is_told_of_with_a_remedy(command: tuple[str, ...], words: str) -> None:
+    found = alone(sound_check(command, busy=False))
     assert found.state is Severity.WARNING
-    assert "aplay: no such card" in found.words
-
-
-def test_a_player_that_is_gone_is_told_of() -> None:
-    found = alone(sound_check(("/nowhere/aplay",), busy=False))
-    assert (found.state, "/nowhere/aplay" in found.words) == (Severity.WARNING, True)
+    assert words in found.words
+    assert "loudspeaker" in found.remedy
 
 
 def test_the_sound_card_of_a_kiosk_at_work_is_left_alone(tmp_path: Path) -> None:
@@ -116,23 +120,23 @@ def test_a_voice_that_cannot_be_started_is_told_of() -> None:
 
 
 def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> None:
-    """With a fake engine: it writes a file of the sentence's length, and a player would be noted."""
-    player = tmp_path / "aplay"
-    player.write_text(f"#!/bin/sh\ntouch {tmp_path}/played\n")
-    player.chmod(0o700)
+    """With a fake engine, and a player that would leave a note."""
     engine = (
-        "import wave, kiosk.robots.tts_worker as s\n"
+        "import numpy, pathlib, kiosk.robots.tts_worker as s\n"
         "class E:\n"
-        " voice, spoken, voices = 'fake', 'Fake (en)', []\n"
+        " voice, spoken, voices, rate = 'fake', 'Fake (en)', [], 8000\n"
         " def __init__(self, *a): pass\n"
-        " def render(self, text, file):\n"
-        "  w = wave.open(str(file), 'wb'); w.setnchannels(1); w.setsampwidth(2); w.setframerate(8000)\n"
-        "  w.writeframes(bytes(1600)); w.close(); return s.RenderedSpeech.of(file)\n"
+        " def render(self, text, file): return s.Clip(numpy.zeros(1600, numpy.int16), 8000)\n"
+        "class P:\n"
+        " device, why = 'Loudspeaker', ''\n"
+        f" def play(self, *a): pathlib.Path({str(tmp_path / 'played')!r}).touch()\n"
+        " def stop(self): pass\n"
+        " tend = close = stop\n"
         "s.SpeechEngine = E\n"
-        "s.run_tts_worker('en', 150, 1.0)\n"
+        "s.create_player = lambda *a: P()\n"
+        "s.run_tts_worker({'language': 'en', 'rate': 150, 'volume': 1.0})\n"
     )
-    command = ("env", f"PATH={tmp_path}:{os.environ['PATH']}", *python(engine))
-    found = alone(voice_check(command, "en", "Hello."))
+    found = alone(voice_check(python(engine), "en", "Hello."))
     assert found.state is Severity.GOOD
     assert found.words.startswith("Fake (en) has a sentence ready in ")
     assert not (tmp_path / "played").exists()

@@ -13,67 +13,57 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from kiosk.robots import LOUDNESS_MS
-from kiosk.robots.tts_worker import AudioPlayer, RenderedSpeech, described, voice_of
+from kiosk.config import VoiceConfig
+from kiosk.robots import LOUDNESS_MS, voice_options
+from kiosk.robots.audio import NOWHERE, Clip, loudness_steps
+from kiosk.robots.tts_worker import described, voice_of
 
 RATE = 8000
+FAST = VoiceConfig(rate=300, device=NOWHERE)
 
 
 def wav(file: Path, samples: np.ndarray[Any, np.dtype[np.float64]]) -> Path:
     """A mono file of 16 bit with these samples, from -1 to 1."""
-    with wave.open(str(file), "wb") as audio:
-        audio.setnchannels(1)
-        audio.setsampwidth(2)
-        audio.setframerate(RATE)
-        audio.writeframes((samples * (2**15 - 1)).astype("<i2").tobytes())
+    Clip.of(samples, RATE).write(file)
     return file
 
 
 def test_a_sound_tells_its_length_and_is_louder_where_it_is_louder(tmp_path: Path) -> None:
     silence, tone = np.zeros(RATE // 2), 0.2 * np.sin(np.arange(RATE // 2))
-    sound = RenderedSpeech.of(wav(tmp_path / "a.wav", np.concatenate([silence, tone])))
+    sound = Clip.read(wav(tmp_path / "a.wav", np.concatenate([silence, tone])))
+    loudness = loudness_steps(sound)
     assert sound.duration_ms == 1000
-    assert len(sound.loudness) == 1000 // LOUDNESS_MS
-    assert set(sound.loudness[:12]) == {0.0}
-    assert min(sound.loudness[13:]) > 0.4
+    assert len(loudness) == 1000 // LOUDNESS_MS
+    assert set(loudness[:12]) == {0.0}
+    assert min(loudness[13:]) > 0.4
 
 
-def test_loudness_never_leaves_its_range(tmp_path: Path) -> None:
-    sound = RenderedSpeech.of(wav(tmp_path / "a.wav", np.ones(RATE)))
-    assert set(sound.loudness) == {1.0}
+def test_loudness_never_leaves_its_range() -> None:
+    assert set(loudness_steps(Clip.of(np.ones(RATE), RATE))) == {1.0}
 
 
 def test_what_is_no_sound_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "a.wav"
     file.write_bytes(b"RIFF")
     with pytest.raises((wave.Error, EOFError)):
-        RenderedSpeech.of(file)
+        Clip.read(file)
 
 
-def test_a_player_without_a_program_keeps_the_time_in_silence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    player = AudioPlayer()
-    assert not player.audible
-    player.play(RenderedSpeech(tmp_path / "a.wav", 60_000, ()))
-    assert player.playing()
-    player.stop()
-    assert not player.playing()
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a program that fails is a shell script here")
-def test_a_player_whose_program_fails_keeps_the_time_in_silence(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    program = tmp_path / "aplay"
-    program.write_text("#!/bin/sh\nexit 1\n")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    player = AudioPlayer()
-    player.play(RenderedSpeech(tmp_path / "a.wav", 60_000, ()))
-    while player.audible:
-        assert player.playing()
-    assert player.playing()
-    player.stop()
+@pytest.mark.parametrize("width", [1, 2, 3, 4])
+@pytest.mark.parametrize("channels", [1, 2])
+def test_sounds_of_any_width_and_number_of_channels_become_the_same(tmp_path: Path, width: int, channels: int) -> None:
+    levels = [0.0, 0.5, -0.5, 0.25]
+    whole = b"".join(
+        (round(level * 2 ** (8 * width - 1)) + (128 if width == 1 else 0)).to_bytes(width, "little", signed=width > 1)
+        for level in levels
+        for _ in range(channels)
+    )
+    with wave.open(str(tmp_path / "a.wav"), "wb") as audio:
+        audio.setnchannels(channels)
+        audio.setsampwidth(width)
+        audio.setframerate(RATE)
+        audio.writeframes(whole)
+    assert Clip.read(tmp_path / "a.wav").values.tolist() == pytest.approx(levels, abs=0.01)
 
 
 class Process:
@@ -98,7 +88,7 @@ class Process:
 @pytest.fixture
 def process() -> Iterator[Process]:
     """The real thing, with whatever engine this machine has."""
-    command = [sys.executable, "-m", "kiosk.robots.tts_worker", "en", "300", "0.5"]
+    command = [sys.executable, "-m", "kiosk.robots.tts_worker", voice_options(FAST, "en")]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     with subprocess.Popen(command, text=True, **pipes) as child:  # type: ignore[call-overload]
         yield Process(child)
@@ -132,9 +122,10 @@ def test_a_sentence_that_is_stopped_is_not_reported_and_the_next_one_is(process:
 def test_the_installed_voices_are_told_while_a_sentence_goes_on(process: Process) -> None:
     if process.hear()["event"] == "unavailable":
         pytest.skip("there is no speech engine")
-    process.send({"say": 1, "text": "Hi."})
+    process.send({"say": 1, "text": "This sentence is long enough for a question."})
+    started = process.hear()
     process.send({"voices": True})
-    started, told, finished = process.hear(), process.hear(), process.hear()
+    told, finished = process.hear(), process.hear()
     assert [started["event"], told["event"], finished["event"]] == ["started", "voices", "finished"]
     assert any(code.startswith("en") for voice in told["voices"] for code in voice["languages"])
 

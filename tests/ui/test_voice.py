@@ -20,7 +20,7 @@ for line in sys.stdin:
     if "say" in command:
         n = command["say"]
         print(json.dumps({"event": "started", "id": n, "duration_ms": 10, "loudness": [0.5]}), flush=True)
-        print(json.dumps({"event": "finished", "id": n, "audible": True}), flush=True)
+        print(json.dumps({"event": "finished", "id": n}), flush=True)
 """
 SPEAKS_NONSENSE_FIRST = "print('Audio saved!', flush=True); print('[1, 2]', flush=True)" + SPEAKS
 HANGS = "import sys\nfor line in sys.stdin: pass"
@@ -161,7 +161,7 @@ def test_a_voice_that_is_switched_off_leaves_every_sentence_to_be_read(qtbot: Qt
 
 IS_READY_THEN_HANGS_ONCE = """
 import json, pathlib, sys
-print(json.dumps({"event": "ready", "voice": "en", "player": True}), flush=True)
+print(json.dumps({"event": "ready", "voice": "en", "device": "null"}), flush=True)
 marker = pathlib.Path(sys.argv[1])
 if not marker.exists():
     marker.touch()
@@ -184,9 +184,9 @@ def test_a_hung_engine_is_ended_and_started_again_within_a_second(
 @pytest.mark.parametrize(
     ("ready", "words"),
     [
-        ({"voice": "gmw/en", "player": True}, "the voice gmw/en speaks"),
-        ({"voice": None, "player": True}, "sentences are only shown: no installed voice speaks 'en'"),
-        ({"voice": "en", "player": False}, "sentences are only shown: there is no program that plays sound"),
+        ({"voice": "gmw/en", "device": "Speaker"}, "the voice gmw/en speaks"),
+        ({"voice": None, "device": "Speaker"}, "sentences are only shown: no installed voice speaks 'en'"),
+        ({"voice": "en", "device": "", "why": "no card"}, "sentences are only shown: no card"),
     ],
 )
 def test_the_experimenter_is_told_what_the_voice_can_do(
@@ -209,13 +209,19 @@ def test_a_missing_engine_is_told_in_words(
 
 TELLS_ITS_MANNER = """
 import json, sys
-language, rate, volume = sys.argv[-3:]
-print(json.dumps({"event": "ready", "voice": f"of {language} at {volume}", "player": True}), flush=True)
-sys.stdin.read()
+given = json.loads(sys.argv[-1])
+volume = given["volume"]
+def tell():
+    voice = f"of {given['language']} at {volume}"
+    print(json.dumps({"event": "ready", "voice": voice, "device": "Speaker"}), flush=True)
+tell()
+for line in sys.stdin:
+    volume = json.loads(line).get("volume", volume)
+    tell()
 """
 
 
-def test_another_volume_and_another_language_are_spoken_by_a_new_process(
+def test_another_volume_holds_at_once_and_another_language_is_spoken_by_a_new_process(
     qtbot: QtBot, voices: list[EngineVoice]
 ) -> None:
     voice = engine(voices, TELLS_ITS_MANNER)
@@ -226,6 +232,32 @@ def test_another_volume_and_another_language_are_spoken_by_a_new_process(
     qtbot.waitUntil(lambda: voice.health.message == "the voice of it at 0.4 speaks")
 
 
+LOSES_ITS_DEVICE = """
+import json, sys
+print(json.dumps({"event": "ready", "voice": "en", "device": "Speaker"}), flush=True)
+n = json.loads(sys.stdin.readline())["say"]
+print(json.dumps({"event": "started", "id": n, "duration_ms": 9000, "loudness": []}), flush=True)
+print(json.dumps({"event": "failed", "id": n, "why": "the sound device is gone"}), flush=True)
+print(json.dumps({"event": "device", "device": "", "why": "the sound device is gone"}), flush=True)
+sys.stdin.readline()
+print(json.dumps({"event": "device", "device": "Speaker", "why": ""}), flush=True)
+sys.stdin.read()
+"""
+
+
+def test_a_sentence_whose_device_goes_away_fails_and_the_experimenter_is_told_until_it_is_back(
+    qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = engine(voices, LOSES_ITS_DEVICE)
+    with qtbot.waitSignal(voice.failed) as failed:
+        voice.say(1, "Hello")
+    assert failed.args == [1, "the sound device is gone"]
+    qtbot.waitUntil(lambda: voice.health.message == "sentences are only shown: the sound device is gone")
+    voice.set_volume(0.5)
+    qtbot.waitUntil(lambda: voice.health.is_ok)
+    caplog.clear()
+
+
 SPEAKS_LATE = """
 import json, sys
 late = None
@@ -234,7 +266,7 @@ for line in sys.stdin:
     if "say" in command:
         if late is not None:
             print(json.dumps({"event": "started", "id": late, "duration_ms": 10, "loudness": [0.1]}), flush=True)
-            print(json.dumps({"event": "finished", "id": late, "audible": True}), flush=True)
+            print(json.dumps({"event": "finished", "id": late}), flush=True)
         late = command["say"]
         print(json.dumps({"event": "started", "id": late, "duration_ms": 10, "loudness": [0.9]}), flush=True)
 """

@@ -1,0 +1,445 @@
+"""Clips of sound in memory, and the player that puts them on the sound device from one process that stays up."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import subprocess
+import tempfile
+import threading
+import time
+import wave
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kiosk.robots import LOUDNESS_MS
+
+try:
+    import miniaudio
+except ImportError:  # no wheel for this machine
+    miniaudio = None
+
+HAS_STREAM = miniaudio is not None
+"""Whether sounds are played through one stream; else a program plays each of them."""
+
+Samples = NDArray[np.int16]
+
+PERIOD_MS = 5
+PERIODS = 2
+"""The device asks for this much at a time, and holds this many: a sound waits 10 ms at most before it is heard."""
+
+STALLED_S = 1.5
+"""A device that asks for no samples for this long is gone, whatever else it says."""
+
+REOPEN_S = 2.0
+"""How long after a failure the device is tried again."""
+
+FADE_MS = 5
+"""A sound that is broken off fades in this time: cut at once, it would click."""
+
+NOWHERE = "null"
+"""The device that keeps the time of a real one and is heard by no one; for rehearsals and tests."""
+
+NO_DEVICE = "there is no sound device"
+
+FULL_LOUDNESS = 0.25
+"""The root mean square, of full scale, at which the mouth is wide open: loud vowels reach about this."""
+
+
+@dataclass(frozen=True)
+class Clip:
+    """A mono sound of 16 bit; ``rate`` in samples per second."""
+
+    samples: Samples
+    rate: int
+
+    @classmethod
+    def read(cls, file: Path) -> Self:
+        """Read a WAV file; raises OSError, wave.Error or EOFError if it is none of 8, 16, 24 or 32 bit."""
+        return cls.from_bytes(file.read_bytes())
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> Self:
+        """Read what a WAV file holds; several channels become one."""
+        with wave.open(io.BytesIO(content)) as audio:
+            rate, channels, width = audio.getframerate(), audio.getnchannels(), audio.getsampwidth()
+            raw = audio.readframes(audio.getnframes())
+        samples = _as_16_bit(raw[: len(raw) // (width * channels) * width * channels], width)
+        if channels > 1:
+            samples = samples.reshape(-1, channels).mean(axis=1).astype(np.int16)
+        return cls(samples, rate)
+
+    @classmethod
+    def of(cls, values: NDArray[Any], rate: int) -> Self:
+        """Make a clip of numbers from -1 to 1; what lies beyond is cut off."""
+        return cls((np.clip(values, -1, 1) * (2**15 - 1)).astype(np.int16), rate)
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """The samples from -1 to 1."""
+        return self.samples / 2**15
+
+    @property
+    def duration_ms(self) -> int:
+        """How long it lasts."""
+        return len(self.samples) * 1000 // self.rate
+
+    def write(self, file: Path) -> None:
+        """Write it as a WAV file."""
+        with wave.open(str(file), "wb") as audio:
+            audio.setnchannels(1)
+            audio.setsampwidth(2)
+            audio.setframerate(self.rate)
+            audio.writeframes(self.samples.astype("<i2").tobytes())
+
+    def at_rate(self, rate: int) -> Clip:
+        """The same sound at another rate."""
+        if rate == self.rate or not len(self.samples):
+            return Clip(self.samples, rate)
+        if miniaudio is not None:
+            kind = miniaudio.SampleFormat.SIGNED16
+            raw = miniaudio.convert_frames(kind, 1, self.rate, self.samples.tobytes(), kind, 1, rate)
+            return Clip(np.frombuffer(raw, dtype=np.int16), rate)
+        count = len(self.samples) * rate // self.rate
+        at = np.arange(count) * (self.rate / rate)
+        return Clip(np.interp(at, np.arange(len(self.samples)), self.samples).astype(np.int16), rate)
+
+
+def _as_16_bit(raw: bytes, width: int) -> Samples:
+    if width == 1:
+        return (np.frombuffer(raw, dtype=np.uint8).astype(np.int16) - 128) << 8
+    if width == 3:  # noqa: PLR2004 - bytes of a sample
+        whole = np.frombuffer(raw, dtype=np.uint8).reshape(-1, 3)
+        return np.ascontiguousarray(whole[:, 1:]).view("<i2").ravel().astype(np.int16)
+    if width == 4:  # noqa: PLR2004 - bytes of a sample
+        return (np.frombuffer(raw, dtype="<i4") >> 16).astype(np.int16)
+    return np.frombuffer(raw, dtype="<i2").astype(np.int16)
+
+
+def joined(parts: Sequence[Clip], pause_ms: int = 0) -> Clip:
+    """Put clips of one rate one after another, with silence between them."""
+    rate = parts[0].rate
+    pause = np.zeros(rate * pause_ms // 1000, np.int16)
+    pieces = [piece for part in parts for piece in (part.at_rate(rate).samples, pause)]
+    return Clip(np.concatenate(pieces[:-1]), rate)
+
+
+def loudness_steps(clip: Clip) -> tuple[float, ...]:
+    """How far the mouth opens, from 0 to 1, at each step of 40 ms."""
+    step = clip.rate * LOUDNESS_MS // 1000
+    padded = np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
+    opening = np.clip(np.sqrt((padded**2).mean(axis=1)) / FULL_LOUDNESS, 0, 1)
+    return tuple(round(float(value), 2) for value in opening)
+
+
+Post = Callable[[dict[str, Any]], None]
+"""Takes what becomes of a sound; may be called from any thread."""
+
+
+class Player(Protocol):
+    """Plays one sound at a time and posts ``started``, ``finished``, ``broken`` with its number, and ``device``."""
+
+    device: str
+    """The name of the device; empty while there is none."""
+    why: str
+    """Why there is none."""
+
+    def play(self, number: int | None, clip: Clip) -> None:
+        """Begin to play, in place of any other sound; nothing is posted of one without a number."""
+        ...
+
+    @property
+    def busy(self) -> bool:
+        """Whether a sound is under way."""
+        ...
+
+    def stop(self) -> None:
+        """Be silent; nothing more is posted."""
+        ...
+
+    def tend(self) -> None:
+        """See whether the device is still there, or back."""
+        ...
+
+    def set_volume(self, volume: float) -> None:
+        """Play so loud, 0 to 1."""
+        ...
+
+    def close(self) -> None:
+        """Let go of the device."""
+        ...
+
+
+@dataclass
+class _Sound:
+    """A sound under way; ``begins`` and ``ends`` count samples of the stream, before which it is not heard."""
+
+    number: int | None
+    samples: Samples
+    begins: int
+    at: int = 0
+    ends: int | None = None
+    is_started: bool = False
+
+
+class StreamPlayer:
+    """Plays through one stream that stays open: silence runs when nothing else does, so that a sound begins at once.
+
+    Starts and ends are posted when the samples have left the device's buffer. A device that goes away breaks off the
+    sound; it is tried again every two seconds.
+    """
+
+    def __init__(self, post: Post, rate: int, device: str = "", volume: float = 1.0) -> None:
+        """Open the device of this name, or the system's own; ``rate`` is that of most sounds."""
+        self.device = ""
+        self.why = NO_DEVICE
+        self._post = post
+        self._rate = rate
+        self._wanted = device
+        self._volume = volume
+        self._lock = threading.Lock()
+        self._sound: _Sound | None = None
+        self._tail: Samples = np.zeros(0, np.int16)
+        self._given = 0
+        self._held = rate * PERIOD_MS * PERIODS // 1000
+        self._asked_at = 0.0
+        self._tried_at = 0.0
+        self._stream: Any = None
+        self._is_open()
+
+    @property
+    def busy(self) -> bool:
+        """Whether a sound is under way."""
+        return self._sound is not None
+
+    def play(self, number: int | None, clip: Clip) -> None:
+        """Begin to play, in place of any other sound."""
+        samples = clip.at_rate(self._rate).samples
+        if self._stream is None:
+            if number is not None:
+                self._post({"event": "broken", "id": number, "why": self.why})
+            return
+        with self._lock:
+            self._fade_out()
+            self._sound = _Sound(number, samples, self._given)
+
+    def stop(self) -> None:
+        """Be silent; nothing more is posted."""
+        with self._lock:
+            self._fade_out()
+
+    def set_volume(self, volume: float) -> None:
+        """Play so loud, 0 to 1."""
+        self._volume = volume
+
+    def tend(self) -> None:
+        """Break off what a lost device played, and look for one."""
+        now = time.monotonic()
+        if self._stream is None:
+            if now - self._tried_at > REOPEN_S and self._is_open():
+                self._post({"event": "device", "device": self.device})
+        elif now - self._asked_at > STALLED_S:
+            self._lose("the sound device is gone")
+
+    def close(self) -> None:
+        """Let go of the device."""
+        stream, self._stream = self._stream, None
+        if stream is not None:
+            stream.close()
+
+    def _is_open(self) -> bool:
+        """Open the device; returns whether it could be."""
+        self._tried_at = time.monotonic()
+        try:
+            chosen = _chosen(self._wanted)
+            stream = miniaudio.PlaybackDevice(
+                miniaudio.SampleFormat.SIGNED16,
+                1,
+                self._rate,
+                PERIOD_MS,
+                callback_periods=PERIODS,
+                app_name="Recollect",
+                **chosen.options,
+            )
+            asking = self._ask()
+            next(asking)
+            self._asked_at = time.monotonic()
+            stream.start(asking)
+        except (miniaudio.MiniaudioError, LookupError) as error:
+            self.why = str(error) if isinstance(error, LookupError) else NO_DEVICE
+            return False
+        self._stream = stream
+        self.device = chosen.name or f"system default ({stream.backend})"
+        return True
+
+    def _lose(self, why: str) -> None:
+        stream, self._stream = self._stream, None
+        self.device, self.why = "", why
+        with self._lock:
+            sound, self._sound = self._sound, None
+        if sound is not None and sound.number is not None:
+            self._post({"event": "broken", "id": sound.number, "why": why})
+        self._post({"event": "device", "device": "", "why": why})
+        # A device that hangs may not come back from this.
+        threading.Thread(target=stream.close, daemon=True).start()
+        self._tried_at = time.monotonic()
+
+    def _ask(self) -> Generator[bytes, int, None]:
+        """The stream's own thread asks here for samples; it is sent how many."""
+        wanted = yield b""
+        while True:
+            wanted = yield self._next(wanted)
+
+    def _next(self, count: int) -> bytes:
+        self._asked_at = time.monotonic()
+        with self._lock:
+            chunk = np.zeros(count, np.int16)
+            faded = self._tail[:count]
+            chunk[: len(faded)] = faded
+            self._tail = self._tail[count:]
+            sound = self._sound
+            if sound is not None:
+                piece = sound.samples[sound.at : sound.at + count]
+                chunk[: len(piece)] += (piece * self._volume).astype(np.int16)
+                sound.at += len(piece)
+                if sound.at >= len(sound.samples) and sound.ends is None:
+                    sound.ends = self._given + len(piece)
+            self._given += count
+            told = self._told(sound)
+        for event in told:
+            self._post(event)
+        return chunk.tobytes()
+
+    def _told(self, sound: _Sound | None) -> list[dict[str, Any]]:
+        """What can be said of a sound now that the device has played all but what it holds."""
+        if sound is None:
+            return []
+        played = self._given - self._held
+        told = []
+        if not sound.is_started and played >= sound.begins:
+            sound.is_started = True
+            told.append({"event": "started", "id": sound.number})
+        if sound.ends is not None and played >= sound.ends:
+            self._sound = None
+            told.append({"event": "finished", "id": sound.number})
+        return told if sound.number is not None else []
+
+    def _fade_out(self) -> None:
+        """Let go of the sound under way; its next few samples fade."""
+        sound, self._sound = self._sound, None
+        if sound is not None:
+            rest = sound.samples[sound.at : sound.at + self._rate * FADE_MS // 1000]
+            self._tail = (rest * np.linspace(self._volume, 0, len(rest))).astype(np.int16)
+
+
+@dataclass(frozen=True)
+class _Chosen:
+    """A device as miniaudio takes it; without a name it is the system's own."""
+
+    name: str
+    options: dict[str, Any]
+
+
+def _chosen(wanted: str) -> _Chosen:
+    """Find a device by its name or a part of it; raises LookupError with the names that there are."""
+    if wanted == NOWHERE:
+        return _Chosen(NOWHERE, {"backends": [miniaudio.Backend.NULL]})
+    real = [backend for backend in miniaudio.Backend if backend is not miniaudio.Backend.NULL]
+    real = [backend for backend in real if miniaudio.is_backend_enabled(backend)]
+    if not wanted:
+        return _Chosen("", {"backends": real})
+    there = {str(each["name"]): each["id"] for each in miniaudio.Devices(real).get_playbacks()}
+    name = next((name for name in there if wanted.casefold() in name.casefold()), None)
+    if name is None:
+        raise LookupError(f"there is no sound device {wanted!r}, only {', '.join(there) or 'none'}")
+    return _Chosen(name, {"backends": real, "device_id": there[name]})
+
+
+_QUIET = {"aplay": ("-q",), "afplay": ()}
+"""The programs that are looked for, in this order, and what keeps them from talking."""
+
+
+def player_command() -> tuple[str, ...] | None:
+    """The command that plays the file that is added to it; None if there is no such program."""
+    path = next((path for name in _QUIET if (path := shutil.which(name))), None)
+    return (path, *_QUIET[Path(path).name]) if path else None
+
+
+class CommandPlayer:
+    """Plays with a child process for each sound, where miniaudio has no build; starts and ends are the child's."""
+
+    def __init__(self, post: Post, volume: float = 1.0) -> None:
+        """Look for a program that plays."""
+        self._post = post
+        self._command = player_command()
+        self._volume = volume
+        self._child: subprocess.Popen[bytes] | None = None
+        self._number: int | None = None
+        self._folder = tempfile.TemporaryDirectory(prefix="recollect-sound-")
+        self.device = "" if self._command is None else Path(self._command[0]).name
+        self.why = "there is no program that plays sound"
+
+    @property
+    def busy(self) -> bool:
+        """Whether a sound is under way."""
+        return self._child is not None
+
+    def play(self, number: int | None, clip: Clip) -> None:
+        """Begin to play, in place of any other sound."""
+        self.stop()
+        if self._command is None:
+            if number is not None:
+                self._post({"event": "broken", "id": number, "why": self.why})
+            return
+        file = Path(self._folder.name) / "sound.wav"
+        Clip((clip.samples * self._volume).astype(np.int16), clip.rate).write(file)
+        command = (*self._command, str(file))
+        self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: S603
+        self._number = number
+        if number is not None:
+            self._post({"event": "started", "id": number})
+
+    def stop(self) -> None:
+        """Be silent; nothing more is posted."""
+        child, self._child = self._child, None
+        if child is not None:
+            child.kill()
+            child.wait()
+
+    def tend(self) -> None:
+        """See whether the child has ended; one that fails has no sound card."""
+        code = None if self._child is None else self._child.poll()
+        if code is None:
+            return
+        self._child = None
+        if self._number is not None:
+            end = {"event": "finished"} if code == 0 else {"event": "broken", "why": NO_DEVICE}
+            self._post(end | {"id": self._number})
+        self._notice(plays=code == 0)
+
+    def set_volume(self, volume: float) -> None:
+        """Play so loud, 0 to 1, from the next sound on."""
+        self._volume = volume
+
+    def close(self) -> None:
+        """Be silent, and leave no file."""
+        self.stop()
+        self._folder.cleanup()
+
+    def _notice(self, *, plays: bool) -> None:
+        name = Path(self._command[0]).name if plays and self._command is not None else ""
+        if name != self.device:
+            self.device, self.why = name, NO_DEVICE
+            self._post({"event": "device", "device": name} | ({} if plays else {"why": NO_DEVICE}))
+
+
+def create_player(post: Post, rate: int, device: str, volume: float) -> Player:
+    """The player of this machine: one stream where miniaudio has a build, else a program for each sound."""
+    if miniaudio is None:
+        return CommandPlayer(post, volume)
+    return StreamPlayer(post, rate, device, volume)

@@ -1,0 +1,206 @@
+"""Playing: starts and ends by the samples that were played, and a device that is missing, goes away and comes back."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import time
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kiosk.robots import audio
+from kiosk.robots.audio import NOWHERE, Clip, CommandPlayer, Player, StreamPlayer, joined
+from tests.robots import pulse
+from tests.robots.pulse import PulseServer
+
+RATE = 16_000
+PATIENCE_S = 10.0
+TONE = Clip.of(0.5 * np.sin(2 * np.pi * 440 * np.arange(RATE // 5) / RATE), RATE)
+LONG = Clip.of(np.tile(TONE.values, 300), RATE)
+
+streams = pytest.mark.skipif(not audio.HAS_STREAM, reason="miniaudio has no build for this machine")
+virtual = pytest.mark.skipif(not pulse.is_installed(), reason="there is no PulseAudio")
+
+
+class Ears:
+    """What a player posts."""
+
+    def __init__(self) -> None:
+        self.posts: queue.Queue[dict[str, Any]] = queue.Queue()
+
+    def next(self, player: Player) -> dict[str, Any]:
+        """The next thing that is posted, while the player is looked after as its process does."""
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            try:
+                return self.posts.get(timeout=0.02)
+            except queue.Empty:
+                player.tend()
+                assert time.monotonic() < deadline, "nothing was posted"
+
+
+@pytest.fixture
+def ears() -> Ears:
+    """Ears."""
+    return Ears()
+
+
+@pytest.fixture
+def player(ears: Ears) -> Iterator[StreamPlayer]:
+    """A player whose device keeps the time and is heard by no one."""
+    player = StreamPlayer(ears.posts.put, RATE, NOWHERE)
+    assert player.device == NOWHERE
+    yield player
+    player.close()
+
+
+@streams
+def test_a_sound_starts_and_finishes_when_its_samples_were_played(ears: Ears, player: StreamPlayer) -> None:
+    begun = time.monotonic()
+    player.play(3, TONE)
+    assert ears.next(player) == {"event": "started", "id": 3}
+    started = time.monotonic()
+    assert ears.next(player) == {"event": "finished", "id": 3}
+    assert time.monotonic() - begun >= TONE.duration_ms / 1000 - 0.05
+    assert started < time.monotonic()
+    assert not player.busy
+
+
+@streams
+def test_nothing_is_posted_of_a_sound_that_was_stopped_or_has_no_number(ears: Ears, player: StreamPlayer) -> None:
+    player.play(1, LONG)
+    assert ears.next(player)["event"] == "started"
+    player.stop()
+    player.play(None, TONE)
+    while player.busy:
+        player.tend()
+    player.play(2, TONE)
+    assert [ears.next(player)["id"], ears.next(player)["event"]] == [2, "finished"]
+
+
+@streams
+def test_a_device_that_asks_for_nothing_any_more_breaks_the_sound_off_and_is_tried_again(
+    ears: Ears, player: StreamPlayer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(audio, "REOPEN_S", 0.1)
+    monkeypatch.setattr(audio, "STALLED_S", 0.2)
+    player.play(1, LONG)
+    assert ears.next(player)["event"] == "started"
+    player._stream.stop()
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": "the sound device is gone"}
+    assert ears.next(player)["device"] == ""
+    assert ears.next(player) == {"event": "device", "device": NOWHERE}
+    player.play(2, TONE)
+    assert ears.next(player) == {"event": "started", "id": 2}
+
+
+@streams
+def test_a_device_that_is_not_there_is_named_and_every_sentence_is_given_up(ears: Ears) -> None:
+    player = StreamPlayer(ears.posts.put, RATE, "a loudspeaker from another booth")
+    player.play(4, TONE)
+    post = ears.next(player)
+    assert (post["event"], post["id"]) == ("broken", 4)
+    assert player.device == ""
+    assert player.why in {post["why"], audio.NO_DEVICE}
+    player.close()
+
+
+@streams
+def test_a_sound_that_is_stopped_fades_and_its_volume_is_kept(ears: Ears, player: StreamPlayer) -> None:
+    player.close()
+    player.set_volume(0.5)
+    player._sound = audio._Sound(None, np.full(RATE, 10_000, np.int16), player._given)
+    before = np.frombuffer(player._next(100), np.int16)
+    player.stop()
+    after = np.frombuffer(player._next(200), np.int16).astype(int)
+    assert set(before.tolist()) == {5_000}
+    assert np.abs(np.diff(after)).max() < 100
+    assert after[0] == 5_000
+    assert after[-1] == 0
+    assert ears.posts.empty()
+
+
+def test_parts_are_joined_with_a_pause() -> None:
+    whole = joined([TONE, TONE], pause_ms=100)
+    assert whole.duration_ms == 2 * TONE.duration_ms + 100
+
+
+def test_a_player_without_a_program_gives_every_sentence_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ears: Ears
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    player = CommandPlayer(ears.posts.put)
+    player.play(1, TONE)
+    assert player.device == ""
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": "there is no program that plays sound"}
+    player.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a program that fails is a shell script here")
+def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_plays_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ears: Ears
+) -> None:
+    program = tmp_path / "aplay"
+    program.write_text("#!/bin/sh\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    player = CommandPlayer(ears.posts.put)
+    player.play(1, TONE)
+    assert ears.next(player) == {"event": "started", "id": 1}
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.NO_DEVICE}
+    assert ears.next(player) == {"event": "device", "device": "", "why": audio.NO_DEVICE}
+    program.write_text("#!/bin/sh\nexit 0\n")
+    player.play(2, TONE)
+    posts = [ears.next(player) for _ in range(3)]
+    assert [post["event"] for post in posts] == ["started", "finished", "device"]
+    assert posts[2]["device"] == "aplay"
+    player.close()
+
+
+@pytest.fixture
+def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
+    """A loudspeaker that nobody hears."""
+    server = PulseServer(tmp_path)
+    server.start()
+    for name in ("PULSE_SERVER", "PULSE_RUNTIME_PATH", "XDG_RUNTIME_DIR"):
+        monkeypatch.setenv(name, server.environment[name])
+    yield server
+    server.stop()
+
+
+@streams
+@virtual
+def test_a_virtual_loudspeaker_is_given_the_sound_and_its_loss_and_return_are_told(
+    server: PulseServer, ears: Ears, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(audio, "REOPEN_S", 0.2)
+    player = StreamPlayer(ears.posts.put, RATE)
+    assert player.device.startswith("system default")
+    with server.microphone() as recorder:
+        pulse.heard(recorder, 4_800)
+        player.play(1, TONE)
+        recording = pulse.heard(recorder, 24_000)
+    assert np.abs(recording).max() > 0.4 * 2**15
+    assert [ears.next(player)["event"], ears.next(player)["event"]] == ["started", "finished"]
+
+    player.play(2, LONG)
+    assert ears.next(player)["event"] == "started"
+    server.stop()
+    assert ears.next(player) == {"event": "broken", "id": 2, "why": "the sound device is gone"}
+    assert ears.next(player)["device"] == ""
+    player.play(3, TONE)
+    post = ears.next(player)
+    assert post["event"] == "broken"
+    server.start()
+    # A sound server that has just begun may stall once more on a busy machine.
+    numbers = count(4)
+    while not player.device or post["event"] != "started":
+        if player.device and not player.busy:
+            player.play(next(numbers), TONE)
+        post = ears.next(player)
+    player.close()
