@@ -10,16 +10,16 @@ import matplotlib as mpl
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from kiosk.assistance.policy import Action, Outcome, Phase, QTable, State
+from kiosk.assistance.policy import Action, MoveOutcome, Phase, QTable, State
 
 COLOURS = ("#f2f0eb", "#bcd4e6", "#6fa3cc", "#1f5a8c")
 """No help, column, row, card: light to dark, as the help grows."""
 SIGNS = {Action.NO_HELP: "none", Action.SUG_COL: "column", Action.SUG_ROW: "row", Action.SUG_CARD: "card"}
 HEADS = {
-    Outcome.F_CORRECT: "first card,\nafter a match",
-    Outcome.F_WRONG: "first card,\nafter a miss",
-    Outcome.S_CORRECT: "second card,\nafter a match",
-    Outcome.S_WRONG: "second card,\nafter a miss",
+    MoveOutcome.F_CORRECT: "first card,\nafter a match",
+    MoveOutcome.F_WRONG: "first card,\nafter a miss",
+    MoveOutcome.S_CORRECT: "second card,\nafter a match",
+    MoveOutcome.S_WRONG: "second card,\nafter a miss",
 }
 GAMES_COLOURS = ("#b0552f", "#1f5a8c", "#5f8f4e")
 # Text stays text, without formulas between dollar signs, and nothing in the file depends on the clock or on chance.
@@ -55,12 +55,12 @@ def heat_map(policy: QTable, visits: Mapping[State, int], ending: str) -> bytes:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 6.4), layout="constrained")
         axes = figure.subplots()
-        grid = [[int(policy.action(State(*row, outcome))) for outcome in Outcome] for row in rows]
+        grid = [[int(policy.action(State(*row, outcome))) for outcome in MoveOutcome] for row in rows]
         axes.imshow(grid, cmap=ListedColormap(COLOURS), vmin=0, vmax=len(Action) - 1, aspect="auto")
         for y, row in enumerate(rows):
-            for outcome in Outcome:
+            for outcome in MoveOutcome:
                 _cell(axes, y, State(*row, outcome), policy, visits)
-        axes.set_xticks(range(len(Outcome)), [HEADS[outcome] for outcome in Outcome])
+        axes.set_xticks(range(len(MoveOutcome)), [HEADS[outcome] for outcome in MoveOutcome])
         axes.set_yticks(range(len(rows)), [f"{phase.name.lower()}, last {SIGNS[last]}" for phase, last in rows])
         axes.tick_params(length=0, top=True, labeltop=True, bottom=False, labelbottom=False)
         for line in range(len(Action), len(rows), len(Action)):

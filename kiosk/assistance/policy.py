@@ -51,7 +51,7 @@ class Phase(IntEnum):
         return cls(min(pairs_found * len(cls) // pairs, cls.END))
 
 
-class Outcome(IntEnum):
+class MoveOutcome(IntEnum):
     """Whether the coming flip is a first or a second card, and whether the last completed move was a match."""
 
     F_CORRECT = 0
@@ -60,7 +60,7 @@ class Outcome(IntEnum):
     S_WRONG = 3
 
     @classmethod
-    def of(cls, card: FlipInMove, *, last_move_matched: bool | None) -> Outcome:
+    def of(cls, card: FlipInMove, *, last_move_matched: bool | None) -> MoveOutcome:
         """The outcome before a flip; before any move is completed nothing has gone wrong, so it counts as correct."""
         if card is FlipInMove.FIRST:
             return cls.F_WRONG if last_move_matched is False else cls.F_CORRECT
@@ -85,12 +85,12 @@ class State:
 
     game: Phase
     last: Action
-    outcome: Outcome
+    outcome: MoveOutcome
 
     @property
     def index(self) -> int:
         """The row of the Q-table, 0-47."""
-        return (self.game * len(Action) + self.last) * len(Outcome) + self.outcome
+        return (self.game * len(Action) + self.last) * len(MoveOutcome) + self.outcome
 
     @property
     def label(self) -> str:
@@ -100,18 +100,18 @@ class State:
     @classmethod
     def at(cls, index: int) -> Self:
         """The state with this index."""
-        rest, outcome = divmod(index, len(Outcome))
+        rest, outcome = divmod(index, len(MoveOutcome))
         game, last = divmod(rest, len(Action))
-        return cls(Phase(game), Action(last), Outcome(outcome))
+        return cls(Phase(game), Action(last), MoveOutcome(outcome))
 
     @classmethod
     def of(cls, game: Concentration, last: Action) -> Self:
         """The state before the next flip of ``game``, when the previous decision was ``last``."""
         phase = Phase.of(game.pairs_found, game.board.pairs)
-        return cls(phase, last, Outcome.of(FlipInMove.coming(game), last_move_matched=game.last_move_matched))
+        return cls(phase, last, MoveOutcome.of(FlipInMove.coming(game), last_move_matched=game.last_move_matched))
 
 
-STATES: tuple[State, ...] = tuple(State.at(index) for index in range(len(Phase) * len(Action) * len(Outcome)))
+STATES: tuple[State, ...] = tuple(State.at(index) for index in range(len(Phase) * len(Action) * len(MoveOutcome)))
 """All 48 states, in the order of the Q-table's rows."""
 
 

@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove, Outcome, QTable, said_once
+from kiosk.assistance.policy import Action, FlipInMove, MoveOutcome, QTable, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
 from kiosk.config import AssistanceConfig, Game
@@ -164,10 +164,10 @@ def _place(card: str) -> Position:
 
 
 _OUTCOMES = {
-    Outcome.F_CORRECT: "a first card is coming, and the last move did not fail",
-    Outcome.F_WRONG: "a first card is coming, and the last move was no match",
-    Outcome.S_CORRECT: "a second card is coming, and the last move did not fail",
-    Outcome.S_WRONG: "a second card is coming, and the last move was no match",
+    MoveOutcome.F_CORRECT: "a first card is coming, and the last move did not fail",
+    MoveOutcome.F_WRONG: "a first card is coming, and the last move was no match",
+    MoveOutcome.S_CORRECT: "a second card is coming, and the last move did not fail",
+    MoveOutcome.S_WRONG: "a second card is coming, and the last move was no match",
 }
 _LABEL = 11
 

@@ -1,6 +1,6 @@
-"""Who plays, in which condition, in what order: the middle of the house.
+"""Who plays, in which condition, in what order: the middle of the program.
 
-``Session.handle(event) -> commands`` is all of it. There is no clock, no chance, no window, no socket and no
-database here: time comes with the events, chance from one seed. So a stored list of events, handled again, gives the
-same commands again, and that one property is the test, the recovery, the replay and the audit of a study.
+``Session.handle(event) -> Outcome(events, effects)`` is all of it. There is no clock, no chance, no window, no socket
+and no database here: time comes with the events, chance from one seed. So a stored list of events, handled again, gives
+the same outcomes again, and that one property is the test, the recovery, the replay and the audit of a study.
 """

@@ -1,14 +1,11 @@
-"""What is to be done, in the imperative: the only way the study speaks to the world.
-
-Record commands come first in every list; nothing after them happens before they are on the disk.
-"""
+"""What the session asks the program to do, and the outcome of one event: new events first, then effects."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
 
-from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, Status, Timer
+from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, Timer
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.experiment.questionnaire import Answer, Item
 from kiosk.game import Position
@@ -33,66 +30,42 @@ class BoardWait(Enum):
 
 
 @dataclass(frozen=True)
-class Effect:
-    """Something to be done."""
-
-
-@dataclass(frozen=True)
-class EmitEvent(Effect):
-    """Write down what the session concluded, with the event that it came from."""
-
-    event: SessionEvent
-
-
-@dataclass(frozen=True)
-class StartRecording(Effect):
-    """Write everything from here on; what was held back so far is written first."""
-
-
-@dataclass(frozen=True)
-class DiscardRecording(Effect):
-    """Write nothing of this session, now or later, but that there was one; and why."""
-
-    why: NotRecordedReason
-
-
-@dataclass(frozen=True)
-class ShowAbout(Effect):
+class ShowAbout:
     """Show what the study is about."""
 
     page: Page
 
 
 @dataclass(frozen=True)
-class ShowConsent(Effect):
+class ShowConsent:
     """Show what can be agreed to; nothing is ticked."""
 
     page: ConsentPage
 
 
 @dataclass(frozen=True)
-class ShowTicks(Effect):
+class ShowTicks:
     """Show which purposes are ticked."""
 
     purposes: frozenset[str]
 
 
 @dataclass(frozen=True)
-class ShowAgeQuestion(Effect):
+class ShowAgeQuestion:
     """Ask whether the visitor is at least so old."""
 
     adult: int
 
 
 @dataclass(frozen=True)
-class ShowIntroduction(Effect):
+class ShowIntroduction:
     """Show what the game is about; hints are spoken of only where there are some."""
 
     helped: bool = True
 
 
 @dataclass(frozen=True)
-class ShowBoard(Effect):
+class ShowBoard:
     """Show a board of closed cards from a deck; which card lies where is not told. A practice can be left."""
 
     rows: int
@@ -103,7 +76,7 @@ class ShowBoard(Effect):
 
 
 @dataclass(frozen=True)
-class RevealCard(Effect):
+class RevealCard:
     """Show the picture of one card."""
 
     position: Position
@@ -111,21 +84,21 @@ class RevealCard(Effect):
 
 
 @dataclass(frozen=True)
-class HideCards(Effect):
+class HideCards:
     """Close these cards again."""
 
     positions: tuple[Position, ...]
 
 
 @dataclass(frozen=True)
-class MarkMatched(Effect):
+class MarkMatched:
     """Show that these two cards are found; they stay open."""
 
     positions: tuple[Position, ...]
 
 
 @dataclass(frozen=True)
-class ShowProgress(Effect):
+class ShowProgress:
     """Show how far the game is."""
 
     pairs_found: int
@@ -133,19 +106,19 @@ class ShowProgress(Effect):
 
 
 @dataclass(frozen=True)
-class LockBoard(Effect):
+class LockBoard:
     """Show that cards cannot be tapped just now, and why."""
 
     wait: BoardWait
 
 
 @dataclass(frozen=True)
-class UnlockBoard(Effect):
+class UnlockBoard:
     """Show that cards can be tapped."""
 
 
 @dataclass(frozen=True)
-class HighlightHint(Effect):
+class HighlightHint:
     """Mark a card, a row (no column) or a column (no row), counted from 0."""
 
     row: int | None
@@ -153,12 +126,12 @@ class HighlightHint(Effect):
 
 
 @dataclass(frozen=True)
-class ClearHighlight(Effect):
+class ClearHighlight:
     """Take the mark away."""
 
 
 @dataclass(frozen=True)
-class Speak(Effect):
+class Speak:
     """Show a sentence in the assistant's bubble and say it; SpeechStarted, then -Finished or -Failed come back."""
 
     utterance: int
@@ -166,31 +139,31 @@ class Speak(Effect):
 
 
 @dataclass(frozen=True)
-class StopSpeaking(Effect):
+class StopSpeaking:
     """Say no more of the sentence; it stays in the bubble."""
 
 
 @dataclass(frozen=True)
-class SwitchEmbodiment(Effect):
+class SwitchEmbodiment:
     """Have this body help from now on; the other one is not to be used again in this session."""
 
     body: EmbodimentName
 
 
 @dataclass(frozen=True)
-class ClearBubble(Effect):
+class ClearBubble:
     """Take the sentence away."""
 
 
 @dataclass(frozen=True)
-class SetExpression(Effect):
+class SetExpression:
     """Show a mood on the assistant's face."""
 
     mood: Mood
 
 
 @dataclass(frozen=True)
-class ShowResult(Effect):
+class ShowResult:
     """Show what the visitor achieved; the time is their own, without speech, as they rate the robot after this."""
 
     pairs: int
@@ -199,7 +172,7 @@ class ShowResult(Effect):
 
 
 @dataclass(frozen=True)
-class ShowItems(Effect):
+class ShowItems:
     """Show a page of items, none of them answered; ``number`` ``of`` so many pages, from 1."""
 
     items: tuple[Item, ...]
@@ -208,7 +181,7 @@ class ShowItems(Effect):
 
 
 @dataclass(frozen=True)
-class ShowAnswer(Effect):
+class ShowAnswer:
     """Show which answer is chosen for an item, None for none."""
 
     item: str
@@ -216,46 +189,46 @@ class ShowAnswer(Effect):
 
 
 @dataclass(frozen=True)
-class ShowValidationErrors(Effect):
+class ShowValidationErrors:
     """Show what has to be done before the visitor can go on: these purposes or items."""
 
     names: tuple[str, ...]
 
 
 @dataclass(frozen=True)
-class ShowDebrief(Effect):
+class ShowDebrief:
     """Show what the study was about, and the code to withdraw with."""
 
     page: Page
 
 
 @dataclass(frozen=True)
-class ShowThanks(Effect):
+class ShowThanks:
     """Thank the visitor, and see them off."""
 
 
 @dataclass(frozen=True)
-class ShowPause(Effect):
+class ShowPause:
     """Cover everything with a calm word until the experimenter lets it go on."""
 
 
 @dataclass(frozen=True)
-class HidePause(Effect):
+class HidePause:
     """Take that cover away."""
 
 
 @dataclass(frozen=True)
-class AskStillThere(Effect):
+class AskStillThere:
     """Ask whether anybody is there, over whatever is shown."""
 
 
 @dataclass(frozen=True)
-class HideStillThere(Effect):
+class HideStillThere:
     """Take that question away."""
 
 
 @dataclass(frozen=True)
-class StartTimer(Effect):
+class StartTimer:
     """Send TimerExpired in so many milliseconds; a timer that runs starts anew."""
 
     timer: Timer
@@ -263,37 +236,94 @@ class StartTimer(Effect):
 
 
 @dataclass(frozen=True)
-class StopTimer(Effect):
+class StopTimer:
     """Do not send this TimerExpired after all."""
 
     timer: Timer
 
 
+Effect = (
+    ShowAbout
+    | ShowConsent
+    | ShowTicks
+    | ShowAgeQuestion
+    | ShowIntroduction
+    | ShowBoard
+    | RevealCard
+    | HideCards
+    | MarkMatched
+    | ShowProgress
+    | LockBoard
+    | UnlockBoard
+    | HighlightHint
+    | ClearHighlight
+    | Speak
+    | StopSpeaking
+    | SwitchEmbodiment
+    | ClearBubble
+    | SetExpression
+    | ShowResult
+    | ShowItems
+    | ShowAnswer
+    | ShowValidationErrors
+    | ShowDebrief
+    | ShowThanks
+    | ShowPause
+    | HidePause
+    | AskStillThere
+    | HideStillThere
+    | StartTimer
+    | StopTimer
+)
+"""Everything that a session can ask for; the renderer carries out each of them."""
+
+
 @dataclass(frozen=True)
-class EndSession(Effect):
-    """Close the session and get ready for the next visitor."""
-
-    status: Status
+class StartRecording:
+    """Write the session to the database from here on; what was held back so far is written first."""
 
 
-class Script:
-    """The commands that one event leads to, put together in their order: what is written, then what is done."""
+@dataclass(frozen=True)
+class DiscardRecording:
+    """Write nothing of this session, now or later, except that there was one, and why it was not recorded."""
+
+    why: NotRecordedReason
+
+
+RecordingDecision = StartRecording | DiscardRecording
+"""What becomes of the record; there is one such decision in every session."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one event leads to. The events are on the disk before any of the effects is carried out."""
+
+    events: tuple[SessionEvent, ...]
+    """What the session concluded, in order; all of it at the time of the event that it follows from."""
+    effects: tuple[Effect, ...]
+    """What is shown, said and waited for, in order."""
+    recording: RecordingDecision | None = None
+    """Whether the session is recorded, if this event decides it."""
+
+
+class OutcomeBuilder:
+    """Collects the outcome of one event while the session works it out."""
 
     def __init__(self, at_ms: int) -> None:
-        """Everything in it happens at the time of the event it follows from."""
+        """Give every event in it the time of the event that it follows from."""
         self.at_ms = at_ms
-        self.notes: list[SessionEvent] = []
-        self.actions: list[Effect] = []
+        self.events: list[SessionEvent] = []
+        self.effects: list[Effect] = []
+        self.recording: RecordingDecision | None = None
 
-    def note(self, event: SessionEvent) -> None:
-        """Write this down."""
-        self.notes.append(event)
+    def emit(self, event: SessionEvent) -> None:
+        """Add an event to the record."""
+        self.events.append(event)
 
-    def do(self, *commands: Effect) -> None:
-        """Then do this."""
-        self.actions.extend(commands)
+    def effect(self, *effects: Effect) -> None:
+        """Add effects, to be carried out in this order."""
+        self.effects.extend(effects)
 
-    @property
-    def commands(self) -> tuple[Effect, ...]:
-        """All of it, the records first."""
-        return (*map(EmitEvent, self.notes), *self.actions)
+    def build(self) -> Outcome:
+        """Return the outcome as it is now."""
+        return Outcome(tuple(self.events), tuple(self.effects), self.recording)

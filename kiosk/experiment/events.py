@@ -16,7 +16,7 @@ from cattrs import BaseValidationError, Converter, transform_error
 from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, GateDecision, Outcome, Phase
+from kiosk.assistance.policy import Action, FlipInMove, GateDecision, MoveOutcome, Phase
 from kiosk.experiment.questionnaire import Answer
 from kiosk.game import FlipRejection, Position
 
@@ -344,7 +344,7 @@ class AssistanceDecided(SessionEvent):
     card: FlipInMove
     game: Phase
     last: Action
-    outcome: Outcome
+    outcome: MoveOutcome
     gate: GateDecision
     action: Action
 
@@ -464,7 +464,7 @@ def _converter() -> Converter:
     """A converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
     converter.register_structure_hook(Answer | None, _answer)
-    for closed_set in (Action, Phase, Outcome, GateDecision):
+    for closed_set in (Action, Phase, MoveOutcome, GateDecision):
         # Their values count rows and columns of a table, or explain; in the records they go by name.
         converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())
         converter.register_structure_hook(closed_set, lambda name, enum: enum[name.upper()])

@@ -16,7 +16,7 @@ from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Sentences
-from kiosk.experiment.effects import BoardWait, Mood, Script
+from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
 from kiosk.experiment.events import PracticeEnd, Timer, WorldEvent
 from kiosk.experiment.page_stages import SpeechWriter, StageHandler
 from kiosk.game import Board, Concentration, Flip, IllegalFlip, Position
@@ -41,6 +41,26 @@ class _Given:
     at_ms: int
     holds: bool = True
     marked: bool = False
+
+    @property
+    def event(self) -> happened.HintGiven:
+        """The hint as it is recorded."""
+        hint = self.hint
+        return happened.HintGiven(
+            at_ms=self.at_ms,
+            flip=self.flip,
+            card=hint.card,
+            action=hint.action,
+            target=hint.target.position,
+            name=hint.name,
+            seen=hint.target.seen,
+            mate_seen=hint.target.mate_seen,
+            reason=hint.target.reason,
+            row=hint.row,
+            column=hint.column,
+            sentence=self.sentence,
+            utterance=self.utterance,
+        )
 
 
 @dataclass(frozen=True)
@@ -69,88 +89,46 @@ class GameStage(StageHandler):
         """Whether anybody helps."""
         return self._guide is not None
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show and open the board."""
         board, table = self.game.board, self._table
-        script.note(happened.BoardDealt(at_ms=script.at_ms, rows=board.rows, columns=board.columns, cards=board.cards))
-        script.do(do.ShowBoard(board.rows, board.columns, board.pairs, table.deck, table.practice))
-        self._help_or_open(script)
+        outcome.emit(
+            happened.BoardDealt(at_ms=outcome.at_ms, rows=board.rows, columns=board.columns, cards=board.cards)
+        )
+        outcome.effect(do.ShowBoard(board.rows, board.columns, board.pairs, table.deck, table.practice))
+        self._help_or_open(outcome)
 
-    def react(self, event: WorldEvent, script: Script) -> None:
-        """What a tap, the end of a wait, or a word of the body's leads to."""
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
+        """Follow a tap, the end of a wait, or a report of the voice."""
         match event:
             case happened.CardSelected(position=position):
-                self.card_tapped(position, script)
-            case happened.TimerExpired(timer=timer):
-                self.timer_ended(timer, script)
-            case happened.SpeechStarted(utterance=utterance):
-                self.speech_started(utterance, script)
-            case happened.SpeechFinished(utterance=utterance):
-                self.speech_finished(utterance, script)
+                self._select_card(position, outcome)
+            case happened.SpeechStarted(utterance=utterance) if self._holding(utterance):
+                # The mark follows the voice.
+                outcome.effect(do.StartTimer(Timer.MARK, self._timing.mark_delay))
+            case happened.TimerExpired(timer=Timer.MARK):
+                self._mark(outcome)
+            case happened.SpeechFinished(utterance=utterance) if self._holding(utterance):
+                self._settle(outcome)
             case happened.SpeechFailed(utterance=utterance):
-                self.speech_failed(utterance, script)
+                self._let_be_read(utterance, outcome)
+            case happened.TimerExpired(timer=timer):
+                self._go_on_after(timer, outcome)
 
-    def card_tapped(self, position: Position, script: Script) -> None:
+    def _select_card(self, position: Position, outcome: OutcomeBuilder) -> None:
         """Flip the card if that is possible now; if not, say why and change nothing."""
         if self._given is not None and self._given.holds:
-            script.note(happened.CardSelectionRejected(at_ms=script.at_ms, position=position, why=None))
+            outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=None))
             return
         try:
             flip = self.game.flip(position)
         except IllegalFlip as refusal:
-            script.note(happened.CardSelectionRejected(at_ms=script.at_ms, position=position, why=refusal.refusal))
+            outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=refusal.refusal))
             return
-        self._flipped(flip, script)
-
-    def timer_ended(self, timer: Timer, script: Script) -> None:
-        """Go on after a wait."""
-        match timer:
-            case Timer.TURN_BACK:
-                script.do(do.HideCards(self.game.turning_back))
-                self.game.turn_back()
-                self._help_or_open(script)
-            case Timer.MARK:
-                self._mark(script)
-            case Timer.READING:
-                self._settle(script)
-            case Timer.SPEECH_DEADLINE:
-                script.do(do.StopSpeaking())
-                self._settle(script)
-            case Timer.MOOD:
-                script.do(do.SetExpression(Mood.IDLE))
-            case Timer.FINISH:
-                self.finish(script)
-
-    def finish(self, script: Script) -> None:
-        """Every pair was found, and has been looked at."""
-        script.note(happened.GameFinished(at_ms=script.at_ms))
-
-    def speech_started(self, utterance: int, script: Script) -> None:
-        """Let the mark follow the voice."""
-        if self._holding(utterance):
-            script.do(do.StartTimer(Timer.MARK, self._timing.mark_delay))
-
-    def speech_finished(self, utterance: int, script: Script) -> None:
-        """The hint has been heard."""
-        if self._holding(utterance):
-            self._settle(script)
-
-    def speech_failed(self, utterance: int, script: Script) -> None:
-        """The hint will not be heard: give what is left of the time to read it, counted from when it was shown."""
-        given = self._holding(utterance)
-        if given is not None:
-            shown_ms = script.at_ms - given.at_ms
-            script.do(
-                do.StopTimer(Timer.SPEECH_DEADLINE),
-                do.StartTimer(Timer.MARK, max(0, self._timing.mark_delay_silent - shown_ms)),
-                do.StartTimer(Timer.READING, max(0, self._timing.reading_time(given.sentence) - shown_ms)),
-            )
-
-    def _flipped(self, flip: Flip, script: Script) -> None:
         given, self._given = self._given, None
-        script.note(
+        outcome.emit(
             happened.CardFlipped(
-                at_ms=script.at_ms,
+                at_ms=outcome.at_ms,
                 number=flip.number,
                 move=flip.move,
                 position=flip.position,
@@ -160,46 +138,86 @@ class GameStage(StageHandler):
         )
         if given is not None:
             # Only a sentence that is said again can still be under way.
-            script.do(do.ClearHighlight(), do.StopSpeaking(), do.ClearBubble())
-        script.do(do.RevealCard(flip.position, flip.card))
+            outcome.effect(do.ClearHighlight(), do.StopSpeaking(), do.ClearBubble())
+        outcome.effect(do.RevealCard(flip.position, flip.card))
         if flip.matched is None:
-            self._help_or_open(script)
+            self._help_or_open(outcome)
         else:
-            self._move_completed(flip, given, script)
+            self._move_completed(flip, given, outcome)
 
-    def _move_completed(self, flip: Flip, given: _Given | None, script: Script) -> None:
-        script.do(do.ShowProgress(self.game.pairs_found, self.game.moves))
+    def _go_on_after(self, timer: Timer, outcome: OutcomeBuilder) -> None:
+        """Go on after a wait."""
+        match timer:
+            case Timer.TURN_BACK:
+                outcome.effect(do.HideCards(self.game.turning_back))
+                self.game.turn_back()
+                self._help_or_open(outcome)
+            case Timer.READING:
+                self._settle(outcome)
+            case Timer.SPEECH_DEADLINE:
+                outcome.effect(do.StopSpeaking())
+                self._settle(outcome)
+            case Timer.MOOD:
+                outcome.effect(do.SetExpression(Mood.IDLE))
+            case Timer.FINISH:
+                self.finish(outcome)
+
+    def finish(self, outcome: OutcomeBuilder) -> None:
+        """Every pair was found, and has been looked at."""
+        outcome.emit(happened.GameFinished(at_ms=outcome.at_ms))
+
+    def _let_be_read(self, utterance: int, outcome: OutcomeBuilder) -> None:
+        """The hint will not be heard: give what is left of the time to read it, counted from when it was shown."""
+        given = self._holding(utterance)
         if given is not None:
-            script.do(do.SetExpression(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood))
-        if not flip.matched:
-            script.do(do.LockBoard(BoardWait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.turn_back))
-            return
-        script.do(do.MarkMatched((flip.position, self.game.board.mate(flip.position))))
-        if self.game.over:
-            self._let_be_looked_at(script)
-        else:
-            self._help_or_open(script)
+            shown_ms = outcome.at_ms - given.at_ms
+            outcome.effect(
+                do.StopTimer(Timer.SPEECH_DEADLINE),
+                do.StartTimer(Timer.MARK, max(0, self._timing.mark_delay_silent - shown_ms)),
+                do.StartTimer(Timer.READING, max(0, self._timing.reading_time(given.sentence) - shown_ms)),
+            )
 
-    def _let_be_looked_at(self, script: Script) -> None:
+    def _move_completed(self, flip: Flip, given: _Given | None, outcome: OutcomeBuilder) -> None:
+        outcome.effect(do.ShowProgress(self.game.pairs_found, self.game.moves))
+        if given is not None:
+            outcome.effect(do.SetExpression(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood))
+        if not flip.matched:
+            outcome.effect(do.LockBoard(BoardWait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.turn_back))
+            return
+        outcome.effect(do.MarkMatched((flip.position, self.game.board.mate(flip.position))))
+        if self.game.over:
+            self._let_be_looked_at(outcome)
+        else:
+            self._help_or_open(outcome)
+
+    def _let_be_looked_at(self, outcome: OutcomeBuilder) -> None:
         """Let the last pair be looked at; what was learnt from this game, if anything, is put on record."""
         learnt = self._guide.assistant.finish(self.game) if self._guide else None
         if learnt is not None:
-            script.note(happened.PolicyUpdated(at_ms=script.at_ms, sha256=learnt))
-        script.do(do.StartTimer(Timer.FINISH, self._timing.finish))
+            outcome.emit(happened.PolicyUpdated(at_ms=outcome.at_ms, sha256=learnt))
+        outcome.effect(do.StartTimer(Timer.FINISH, self._timing.finish))
 
-    def _help_or_open(self, script: Script) -> None:
+    def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
-        hint = self._decide(self._guide, script) if self._guide else None
+        hint = self._decide(self._guide, outcome) if self._guide else None
         if self._guide is None or hint is None:
-            script.do(do.UnlockBoard())
-        else:
-            self._give(hint, self._guide.sentences.sentence(hint), script)
+            outcome.effect(do.UnlockBoard())
+            return
+        sentence = self._guide.sentences.sentence(hint)
+        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
+        self._given = given
+        outcome.emit(given.event)
+        outcome.effect(
+            do.LockBoard(BoardWait.SPEAKING),
+            do.Speak(given.utterance, sentence),
+            do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
+        )
 
-    def _decide(self, guide: HintGuide, script: Script) -> Hint | None:
+    def _decide(self, guide: HintGuide, outcome: OutcomeBuilder) -> Hint | None:
         decision = guide.assistant.decide(self.game)
-        script.note(
+        outcome.emit(
             happened.AssistanceDecided(
-                at_ms=script.at_ms,
+                at_ms=outcome.at_ms,
                 flip=self.game.flips + 1,
                 card=FlipInMove.coming(self.game),
                 game=decision.state.game,
@@ -211,53 +229,27 @@ class GameStage(StageHandler):
         )
         return decision.hint
 
-    def _give(self, hint: Hint, sentence: str, script: Script) -> None:
-        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, script.at_ms)
-        self._given = given
-        script.note(
-            happened.HintGiven(
-                at_ms=script.at_ms,
-                flip=given.flip,
-                card=hint.card,
-                action=hint.action,
-                target=hint.target.position,
-                name=hint.name,
-                seen=hint.target.seen,
-                mate_seen=hint.target.mate_seen,
-                reason=hint.target.reason,
-                row=hint.row,
-                column=hint.column,
-                sentence=sentence,
-                utterance=given.utterance,
-            )
-        )
-        script.do(
-            do.LockBoard(BoardWait.SPEAKING),
-            do.Speak(given.utterance, sentence),
-            do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
-        )
-
     def _holding(self, utterance: int) -> _Given | None:
         """The hint that holds the board, if this is its sentence."""
         given = self._given
         return given if given is not None and given.holds and given.utterance == utterance else None
 
-    def _settle(self, script: Script) -> None:
+    def _settle(self, outcome: OutcomeBuilder) -> None:
         """The hint has been taken in: see that it is marked, and open the board."""
         if self._given is None or not self._given.holds:
             return
         self._given.holds = False
-        self._mark(script)
-        script.note(happened.BoardUnlocked(at_ms=script.at_ms))
-        script.do(do.UnlockBoard())
-        script.do(*(do.StopTimer(timer) for timer in (Timer.MARK, Timer.READING, Timer.SPEECH_DEADLINE)))
+        self._mark(outcome)
+        outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
+        outcome.effect(do.UnlockBoard())
+        outcome.effect(*(do.StopTimer(timer) for timer in (Timer.MARK, Timer.READING, Timer.SPEECH_DEADLINE)))
 
-    def _mark(self, script: Script) -> None:
+    def _mark(self, outcome: OutcomeBuilder) -> None:
         given = self._given
         if given is not None and not given.marked:
             given.marked = True
-            script.note(happened.HintHighlighted(at_ms=script.at_ms, flip=given.flip))
-            script.do(do.HighlightHint(given.hint.row, given.hint.column))
+            outcome.emit(happened.HintHighlighted(at_ms=outcome.at_ms, flip=given.flip))
+            outcome.effect(do.HighlightHint(given.hint.row, given.hint.column))
 
 
 class PracticeStage(GameStage):
@@ -269,29 +261,29 @@ class PracticeStage(GameStage):
         self._speaker = speaker
         self._longest_ms = longest_ms
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Deal as before, also when it begins anew."""
         self.game = Concentration(self.game.board)
-        super().enter(script)
-        script.do(do.StartTimer(Timer.PRACTICE, self._longest_ms))
-        self._speaker.say("practice-speech", script)
+        super().enter(outcome)
+        outcome.effect(do.StartTimer(Timer.PRACTICE, self._longest_ms))
+        self._speaker.say("practice-speech", outcome)
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """End early, or play."""
         match event:
             case happened.PracticeSkipped():
-                self._end(PracticeEnd.LEFT, script)
+                self._end(PracticeEnd.LEFT, outcome)
             case happened.TimerExpired(timer=Timer.PRACTICE):
-                self._end(PracticeEnd.TIME, script)
+                self._end(PracticeEnd.TIME, outcome)
             case _:
-                super().react(event, script)
+                super().react(event, outcome)
 
-    def finish(self, script: Script) -> None:
+    def finish(self, outcome: OutcomeBuilder) -> None:
         """Every pair was found."""
-        self._end(PracticeEnd.FOUND, script)
+        self._end(PracticeEnd.FOUND, outcome)
 
-    def _end(self, how: PracticeEnd, script: Script) -> None:
-        script.note(happened.PracticeFinished(at_ms=script.at_ms, how=how))
+    def _end(self, how: PracticeEnd, outcome: OutcomeBuilder) -> None:
+        outcome.emit(happened.PracticeFinished(at_ms=outcome.at_ms, how=how))
 
 
 def _reaction(hint: Hint, flip: Flip) -> Mood:

@@ -10,7 +10,7 @@ from typing import ClassVar
 from kiosk.assistance.wording import Wording
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Mood, Script
+from kiosk.experiment.effects import Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
 from kiosk.experiment.information import Information, Page
 from kiosk.experiment.projections import Measures, effective_answer, measure
@@ -28,14 +28,14 @@ class StageHandler:
         """How much there is to read on its longest page, in characters."""
         return 0
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Begin, or begin anew."""
 
     def accepts(self, event: WorldEvent) -> bool:  # noqa: ARG002 - most scenes take whatever comes
         """Whether this event makes sense now."""
         return True
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """What an event leads to within the scene."""
 
 
@@ -47,17 +47,17 @@ class SpeechWriter:
         self._wording = wording
         self._numbers = numbers
 
-    def say(self, message: str, script: Script, **variables: str | int) -> None:
+    def say(self, message: str, outcome: OutcomeBuilder, **variables: str | int) -> None:
         """Have one wording of the message said."""
         sentence, number = self._wording.say(message, **variables), next(self._numbers)
-        script.note(happened.SentenceRequested(at_ms=script.at_ms, utterance=number, sentence=sentence))
-        script.do(do.Speak(number, sentence))
+        outcome.emit(happened.SentenceRequested(at_ms=outcome.at_ms, utterance=number, sentence=sentence))
+        outcome.effect(do.Speak(number, sentence))
 
-    def repeat(self, said: do.Speak, script: Script) -> None:
+    def repeat(self, said: do.Speak, outcome: OutcomeBuilder) -> None:
         """Have a sentence said once more."""
         number = next(self._numbers)
-        script.note(happened.SentenceRepeated(at_ms=script.at_ms, of=said.utterance, utterance=number))
-        script.do(do.Speak(number, said.sentence))
+        outcome.emit(happened.SentenceRepeated(at_ms=outcome.at_ms, of=said.utterance, utterance=number))
+        outcome.effect(do.Speak(number, said.sentence))
 
 
 class ConsentStage(StageHandler):
@@ -74,10 +74,10 @@ class ConsentStage(StageHandler):
         """How long the page is, boxes and all."""
         return self._information.consent.characters
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the boxes."""
         self._ticked = frozenset()
-        script.do(do.ShowConsent(self._information.consent))
+        outcome.effect(do.ShowConsent(self._information.consent))
 
     def accepts(self, event: WorldEvent) -> bool:
         """Whether the purpose is one of those that are shown."""
@@ -86,24 +86,24 @@ class ConsentStage(StageHandler):
                 return purpose in (offered.id for offered in self._information.consent.purposes)
         return True
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Keep the ticks, or conclude from them."""
         match event:
             case happened.ConsentPurposeToggled(purpose=purpose, ticked=ticked):
                 self._ticked = self._ticked | {purpose} if ticked else self._ticked - {purpose}
-                script.do(do.ShowTicks(self._ticked))
+                outcome.effect(do.ShowTicks(self._ticked))
             case happened.ConsentSubmitted():
-                self._agree(script)
+                self._agree(outcome)
 
-    def _agree(self, script: Script) -> None:
+    def _agree(self, outcome: OutcomeBuilder) -> None:
         missing = self._information.consent.required - self._ticked
         purposes = tuple(purpose.id for purpose in self._information.consent.purposes)
         if missing:
-            script.do(do.ShowValidationErrors(tuple(purpose for purpose in purposes if purpose in missing)))
+            outcome.effect(do.ShowValidationErrors(tuple(purpose for purpose in purposes if purpose in missing)))
             return
-        script.note(
+        outcome.emit(
             happened.ConsentGiven(
-                at_ms=script.at_ms,
+                at_ms=outcome.at_ms,
                 version=self._information.version,
                 sha256=self._information.sha256,
                 language=self._language,
@@ -119,9 +119,9 @@ class AgeStage(StageHandler):
         """Ask for this age in years."""
         self._adult = adult
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Ask."""
-        script.do(do.ShowAgeQuestion(self._adult))
+        outcome.effect(do.ShowAgeQuestion(self._adult))
 
 
 FEW_MOVES = 25
@@ -143,9 +143,9 @@ class AboutStage(StageHandler):
         """How long the page is."""
         return self._page.characters
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show it."""
-        script.do(do.ShowAbout(self._page))
+        outcome.effect(do.ShowAbout(self._page))
 
 
 class IntroductionStage(StageHandler):
@@ -157,11 +157,11 @@ class IntroductionStage(StageHandler):
         self._pairs = pairs
         self._helped = helped
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the rules and say them."""
-        script.do(do.ShowIntroduction(helped=self._helped))
+        outcome.effect(do.ShowIntroduction(helped=self._helped))
         speech = "introduction-speech" if self._helped else "introduction-speech-alone"
-        self._speaker.say(speech, script, cards=2 * self._pairs, pairs=self._pairs)
+        self._speaker.say(speech, outcome, cards=2 * self._pairs, pairs=self._pairs)
 
 
 class ResultStage(StageHandler):
@@ -169,16 +169,16 @@ class ResultStage(StageHandler):
 
     mood = Mood.HAPPY
 
-    def __init__(self, speaker: SpeechWriter, log: Callable[[Script], Sequence[Event]]) -> None:
-        """``log`` tells everything that was concluded, with what the script at hand adds."""
+    def __init__(self, speaker: SpeechWriter, log: Callable[[OutcomeBuilder], Sequence[Event]]) -> None:
+        """``log`` tells everything that was concluded, with what the outcome at hand adds."""
         self._speaker = speaker
         self._log = log
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the figures and remark on them."""
-        measures = measure(self._log(script))
-        script.do(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
-        self._speaker.say(_remark(measures), script, moves=measures.moves)
+        measures = measure(self._log(outcome))
+        outcome.effect(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
+        self._speaker.say(_remark(measures), outcome, moves=measures.moves)
 
 
 class DebriefStage(StageHandler):
@@ -193,9 +193,9 @@ class DebriefStage(StageHandler):
         """How long the page is."""
         return self._page.characters
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show it."""
-        script.do(do.ShowDebrief(self._page))
+        outcome.effect(do.ShowDebrief(self._page))
 
 
 class ThanksStage(StageHandler):
@@ -208,16 +208,16 @@ class ThanksStage(StageHandler):
         self._speaker = speaker
         self._stay_ms = stay_ms
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Thank the visitor."""
-        script.do(do.ShowThanks(), do.StartTimer(Timer.THANKS, self._stay_ms))
-        self._speaker.say("thanks-speech", script)
+        outcome.effect(do.ShowThanks(), do.StartTimer(Timer.THANKS, self._stay_ms))
+        self._speaker.say("thanks-speech", outcome)
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Leave when the time is over."""
         match event:
             case happened.TimerExpired(timer=Timer.THANKS):
-                script.note(happened.ThanksTimedOut(at_ms=script.at_ms))
+                outcome.emit(happened.ThanksTimedOut(at_ms=outcome.at_ms))
 
 
 def _remark(measures: Measures) -> str:
@@ -285,10 +285,10 @@ class QuestionnaireStage(StageHandler):
     def _length(self, sheet: ItemPage) -> int:
         return sum(len(in_language(words, self._language)) for item in sheet.items for words in item.texts())
 
-    def enter(self, script: Script) -> None:
+    def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the first page."""
         self._number = 0
-        self._show(script)
+        self._show(outcome)
 
     def accepts(self, event: WorldEvent) -> bool:
         """Whether an answer is one that an item of this page can have."""
@@ -298,14 +298,14 @@ class QuestionnaireStage(StageHandler):
                 return item is not None and not isinstance(item, TextPage) and (value is None or item.accepts(value))
         return True
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Keep an answer, or go on to the next page."""
         match event:
             case happened.ResponseGiven(item=item, value=value):
                 self._keep(item, value)
-                script.do(do.ShowAnswer(item, value))
+                outcome.effect(do.ShowAnswer(item, value))
             case happened.ContinuePressed():
-                self._go_on(script)
+                self._go_on(outcome)
 
     def _keep(self, item: str, value: Answer | None) -> None:
         if value is None:
@@ -313,26 +313,26 @@ class QuestionnaireStage(StageHandler):
         else:
             self._answers[item] = value
 
-    def _go_on(self, script: Script) -> None:
+    def _go_on(self, outcome: OutcomeBuilder) -> None:
         missing = tuple(item.id for item in self._sheet.items if self._lacks(item))
         if missing:
-            script.do(do.ShowValidationErrors(missing))
+            outcome.effect(do.ShowValidationErrors(missing))
         elif self._number + 1 < len(self._sheets):
             self._number += 1
-            self._show(script)
+            self._show(outcome)
         else:
-            script.note(happened.QuestionnairesCompleted(at_ms=script.at_ms))
+            outcome.emit(happened.QuestionnairesCompleted(at_ms=outcome.at_ms))
 
     def _lacks(self, item: Item) -> bool:
         return not isinstance(item, TextPage) and item.required and effective_answer(self._answers.get(item.id)) is None
 
-    def _show(self, script: Script) -> None:
+    def _show(self, outcome: OutcomeBuilder) -> None:
         self._answers.clear()
         names = tuple(item.id for item in self._sheet.items)
-        script.note(
-            happened.QuestionnairePageShown(at_ms=script.at_ms, questionnaire=self._sheet.questionnaire, items=names)
+        outcome.emit(
+            happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
         )
-        script.do(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets)))
+        outcome.effect(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets)))
 
     @property
     def _sheet(self) -> ItemPage:

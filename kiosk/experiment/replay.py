@@ -12,9 +12,8 @@ from kiosk.assistance.assistant import Decision, Explanation, Policy, decide, ex
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import Action, State
 from kiosk.assistance.wording import Catalogue, Wording
-from kiosk.experiment import effects as do
 from kiosk.experiment.condition import Condition, help_in
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
@@ -31,7 +30,7 @@ class ReplayStep:
 
     seq: int
     event: WorldEvent
-    commands: tuple[Effect, ...]
+    outcome: Outcome
     stage: Stage
     agrees: bool
 
@@ -44,12 +43,11 @@ def replay_events(plan: SessionConfig, seed: int, events: Sequence[Event]) -> tu
         if not isinstance(event, WorldEvent):
             continue
         try:
-            commands = session.handle(event)
+            outcome = session.handle(event)
         except InvalidTransition:
             break
-        concluded = [command.event for command in commands if isinstance(command, do.EmitEvent)]
-        recorded = list(events[index + 1 : index + 1 + len(concluded)])
-        steps.append(ReplayStep(index + 1, event, commands, session.stage, agrees=concluded == recorded))
+        recorded = tuple(events[index + 1 : index + 1 + len(outcome.events)])
+        steps.append(ReplayStep(index + 1, event, outcome, session.stage, agrees=outcome.events == recorded))
     return tuple(steps)
 
 

@@ -16,7 +16,7 @@ from kiosk.config import Game, Idle, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
-from kiosk.experiment.effects import Effect, Mood, Script
+from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
 from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, Timer, WorldEvent
 from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage
 from kiosk.experiment.page_stages import (
@@ -59,49 +59,49 @@ class IdleTimeout:
                 return self._paused
         return not (self._paused and event.by_visitor)
 
-    def react(self, event: WorldEvent, stage: Stage, script: Script) -> None:
+    def react(self, event: WorldEvent, stage: Stage, outcome: OutcomeBuilder) -> None:
         """Ask, give up, pause, or start the idle time anew whenever somebody shows that they are there."""
         match event:
             case happened.TimerExpired(timer=Timer.IDLE):
                 self._asked = True
-                script.do(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._idle.still_there))
+                outcome.effect(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._idle.still_there))
             case happened.TimerExpired(timer=Timer.STILL_THERE | Timer.PAUSE):
-                script.note(happened.IdleTimedOut(at_ms=script.at_ms))
+                outcome.emit(happened.IdleTimedOut(at_ms=outcome.at_ms))
             case happened.PauseRequested():
                 self._paused = True
-                self.dismiss(script)
-                script.do(do.StopTimer(Timer.IDLE), do.ShowPause())
-                self.restart(stage, script)
+                self.dismiss(outcome)
+                outcome.effect(do.StopTimer(Timer.IDLE), do.ShowPause())
+                self.restart(stage, outcome)
             case happened.PauseEnded():
                 self._paused = False
-                script.do(do.HidePause(), do.StopTimer(Timer.PAUSE))
-                self.restart(stage, script)
+                outcome.effect(do.HidePause(), do.StopTimer(Timer.PAUSE))
+                self.restart(stage, outcome)
             case happened.UserActivity(ago_ms=ago_ms):
-                self.dismiss(script)
-                self.restart(stage, script, ago_ms)
+                self.dismiss(outcome)
+                self.restart(stage, outcome, ago_ms)
             case _ if event.by_visitor and stage is not Stage.ATTRACT:
-                self.dismiss(script)
-                self.restart(stage, script)
+                self.dismiss(outcome)
+                self.restart(stage, outcome)
 
-    def restart(self, stage: Stage, script: Script, ago_ms: int = 0) -> None:
+    def restart(self, stage: Stage, outcome: OutcomeBuilder, ago_ms: int = 0) -> None:
         """Start the idle time of a stage, so long ago; in a pause its own, or anybody could park a booth."""
         if self._paused:
-            script.do(do.StartTimer(Timer.PAUSE, self._idle.pause))
+            outcome.effect(do.StartTimer(Timer.PAUSE, self._idle.pause))
         else:
             idle_ms = max(self._idle.of(stage.value), self._reading_ms(stage))
-            script.do(do.StartTimer(Timer.IDLE, max(1, idle_ms - ago_ms)))
+            outcome.effect(do.StartTimer(Timer.IDLE, max(1, idle_ms - ago_ms)))
 
-    def resume(self, script: Script) -> None:
+    def resume(self, outcome: OutcomeBuilder) -> None:
         """End a pause together with the session, or after the program that it was cut off with."""
         if self._paused:
             self._paused = False
-            script.do(do.HidePause())
+            outcome.effect(do.HidePause())
 
-    def dismiss(self, script: Script) -> None:
+    def dismiss(self, outcome: OutcomeBuilder) -> None:
         """Ask no longer whether somebody is there."""
         if self._asked:
             self._asked = False
-            script.do(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
+            outcome.effect(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
 
 
 class SpeechState:
@@ -123,43 +123,43 @@ class SpeechState:
                 return self._said is not None and self._unsaid is None
         return True
 
-    def react(self, event: WorldEvent, script: Script) -> None:
+    def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Say something again, have the avatar say what the robot did not, or note that it was said."""
         match event:
             case happened.RobotDisconnected(why=why):
-                self._go_on_without_robot(why, script)
+                self._go_on_without_robot(why, outcome)
             case happened.RepeatRequested() if self._said is not None:
-                self._speaker.repeat(self._said, script)
+                self._speaker.repeat(self._said, outcome)
             case happened.SessionResumed():
                 self._robot_lost = False
             case happened.SpeechFinished(utterance=utterance) | happened.SpeechFailed(utterance=utterance):
                 if self._unsaid is not None and self._unsaid.utterance == utterance:
                     self._unsaid = None
 
-    def track(self, commands: Iterable[Effect]) -> None:
-        """Remember what these commands have said, or silenced."""
-        for command in commands:
-            match command:
+    def track(self, effects: Iterable[Effect]) -> None:
+        """Remember what these effects say, or silence."""
+        for effect in effects:
+            match effect:
                 case do.Speak():
-                    self._said = self._unsaid = command
+                    self._said = self._unsaid = effect
                 case do.StopSpeaking():
                     self._unsaid = None
                 case do.ClearBubble():
                     self._said = None
 
-    def _go_on_without_robot(self, why: str, script: Script) -> None:
+    def _go_on_without_robot(self, why: str, outcome: OutcomeBuilder) -> None:
         """Have the avatar help; it says at once what the robot had not said to its end."""
         self._robot_lost = True
-        script.note(happened.EmbodimentChanged(at_ms=script.at_ms, body=EmbodimentName.AVATAR, why=why))
-        script.do(do.SwitchEmbodiment(EmbodimentName.AVATAR))
+        outcome.emit(happened.EmbodimentChanged(at_ms=outcome.at_ms, body=EmbodimentName.AVATAR, why=why))
+        outcome.effect(do.SwitchEmbodiment(EmbodimentName.AVATAR))
         if self._unsaid is not None:
-            script.do(self._unsaid)
+            outcome.effect(self._unsaid)
 
 
 class StageFactory:
     """The scenes of a session, all of them made before it begins, so that what cannot be made is refused at once."""
 
-    def __init__(self, plan: SessionConfig, seed: int, log: Callable[[Script], Sequence[Event]]) -> None:
+    def __init__(self, plan: SessionConfig, seed: int, log: Callable[[OutcomeBuilder], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
         self._plan, self._seed = plan, seed
         self._wording, self._numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
@@ -240,7 +240,7 @@ class Session:
     """One session, from the visitor's first tap to its end."""
 
     def __init__(self, plan: SessionConfig, seed: int) -> None:
-        """Follow ``plan``; the same seed and the same events give the same commands.
+        """Follow ``plan``; the same seed and the same events give the same outcomes.
 
         Raises BadInput if a deck has too few cards for its board, or the stages cannot come in their order.
         """
@@ -251,20 +251,23 @@ class Session:
         self._closed_in: Stage | None = None
         self._log: list[Event] = []
         self._waiting: set[Timer] = set()
-        self._scenery = StageFactory(plan, seed, lambda script: [*self._log, *script.notes])
+        self._scenery = StageFactory(plan, seed, lambda outcome: [*self._log, *outcome.events])
         self._presence = IdleTimeout(plan.settings.idle, self._reading_ms)
         self._talk = SpeechState(self._scenery.speaker)
 
-    def handle(self, event: WorldEvent) -> tuple[Effect, ...]:
-        """What one event leads to: records first; raises UnexpectedEvent, and changes nothing, if it has no place."""
+    def handle(self, event: WorldEvent) -> Outcome:
+        """Return what one event leads to; raise InvalidTransition, and change nothing, if it has no place now."""
         self.check(event)
-        script = Script(event.at_ms)
-        self._react(event, script)
-        for step in (event, *script.notes):
-            self._go_on_after(step, script)
-        self._log += [event, *script.notes]
-        self._keep_track(script)
-        return script.commands
+        outcome = OutcomeBuilder(event.at_ms)
+        self._presence.react(event, self.stage, outcome)
+        self._talk.react(event, outcome)
+        self._react(event, outcome)
+        self._scenery.of(self.stage).react(event, outcome)
+        for step in (event, *outcome.events):
+            self._go_on_after(step, outcome)
+        self._log += [event, *outcome.events]
+        self._keep_track(outcome)
+        return outcome.build()
 
     @property
     def measures(self) -> Measures:
@@ -276,7 +279,7 @@ class Session:
         return self._timing.reading * self._scenery.of(stage).characters
 
     def check(self, event: WorldEvent) -> None:
-        """Raise UnexpectedEvent if this event has no place now."""
+        """Raise InvalidTransition if this event has no place now."""
         check_expected(self.stage, event)
         keepers = (self._presence, self._talk, self._scenery.of(self.stage))
         if not self._can_come(event) or not all(supervisor.accepts(event) for supervisor in keepers):
@@ -290,90 +293,87 @@ class Session:
                 return self.keeping is RecordingState.KEPT and self._cut_off_in not in (Stage.GAME, Stage.OVER)
         return True
 
-    def _react(self, event: WorldEvent, script: Script) -> None:
-        """What the event leads to within its stage."""
-        self._presence.react(event, self.stage, script)
-        self._talk.react(event, script)
+    def _react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
+        """Take note of the few events that concern the session as a whole."""
         match event:
             case happened.TimerExpired(timer=timer):
                 self._waiting.discard(timer)
             case happened.SessionResumed():
-                self._resume(script)
+                self._resume(outcome)
             case happened.ConsentDeclined():
-                self._forget(NotRecordedReason.DECLINED, script)
+                self._forget(NotRecordedReason.DECLINED, outcome)
             case happened.AgeConfirmed(adult=False):
-                self._forget(NotRecordedReason.UNDER_AGE, script)
-        self._scenery.of(self.stage).react(event, script)
+                self._forget(NotRecordedReason.UNDER_AGE, outcome)
 
-    def _resume(self, script: Script) -> None:
+    def _resume(self, outcome: OutcomeBuilder) -> None:
         """Begin the stage anew in which the session was cut off."""
         self.stage = self._cut_off_in
         self._closed_in = None
-        self._presence.resume(script)
-        self._leave_scene(script)
-        self._enter(self.stage, script)
+        self._presence.resume(outcome)
+        self._leave_scene(outcome)
+        self._enter(self.stage, outcome)
 
     @property
     def _cut_off_in(self) -> Stage:
         """Where the session would go on if it were resumed: a crash leaves it where it was, a closed kiosk ends it."""
         return self._closed_in or self.stage
 
-    def _go_on_after(self, event: Event, script: Script) -> None:
+    def _go_on_after(self, event: Event, outcome: OutcomeBuilder) -> None:
         """Enter the next stage, if this event leads to one."""
         match transition(self.stage, event):
             case Transition.ON:
                 after = self._course.after(self.stage, kept=self.keeping is not RecordingState.FORGOTTEN)
-                self._change_stage(after, Status.COMPLETED, script)
+                self._change_stage(after, Status.COMPLETED, outcome)
             case Transition.OVER:
                 self._closed_in = self.stage if isinstance(event, happened.ApplicationClosed) else None
-                self._change_stage(Stage.OVER, _ENDINGS[type(event)], script)
+                self._change_stage(Stage.OVER, _ENDINGS[type(event)], outcome)
 
-    def _change_stage(self, stage: Stage, ending: Status, script: Script) -> None:
-        self._leave_scene(script)
+    def _change_stage(self, stage: Stage, ending: Status, outcome: OutcomeBuilder) -> None:
+        self._leave_scene(outcome)
         self.stage = stage
         if stage is Stage.OVER:
-            script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
-            self._end(ending, script)
+            outcome.emit(happened.StageEntered(at_ms=outcome.at_ms, stage=stage))
+            self._end(ending, outcome)
         else:
-            self._keep_from(stage, script)
-            self._enter(stage, script)
+            self._keep_from(stage, outcome)
+            self._enter(stage, outcome)
 
-    def _leave_scene(self, script: Script) -> None:
+    def _leave_scene(self, outcome: OutcomeBuilder) -> None:
         """Stop all that belongs to the stage: its waits, its words, and the question over it."""
-        running = {*self._waiting, *(c.timer for c in script.actions if isinstance(c, do.StartTimer))}
-        script.do(do.StopSpeaking(), do.ClearBubble())
-        script.do(*(do.StopTimer(timer) for timer in Timer if timer in running))
-        self._presence.dismiss(script)
+        running = {*self._waiting, *(c.timer for c in outcome.effects if isinstance(c, do.StartTimer))}
+        outcome.effect(do.StopSpeaking(), do.ClearBubble())
+        outcome.effect(*(do.StopTimer(timer) for timer in Timer if timer in running))
+        self._presence.dismiss(outcome)
 
-    def _enter(self, stage: Stage, script: Script) -> None:
-        script.note(happened.StageEntered(at_ms=script.at_ms, stage=stage))
-        self._presence.restart(stage, script)
-        script.do(do.SetExpression(self._scenery.of(stage).mood))
-        self._scenery.of(stage).enter(script)
+    def _enter(self, stage: Stage, outcome: OutcomeBuilder) -> None:
+        outcome.emit(happened.StageEntered(at_ms=outcome.at_ms, stage=stage))
+        self._presence.restart(stage, outcome)
+        outcome.effect(do.SetExpression(self._scenery.of(stage).mood))
+        self._scenery.of(stage).enter(outcome)
 
-    def _keep_from(self, stage: Stage, script: Script) -> None:
+    def _keep_from(self, stage: Stage, outcome: OutcomeBuilder) -> None:
         """Whoever is past all that is decided beforehand has agreed to be recorded."""
         if self.keeping is RecordingState.UNDECIDED and stage not in BEFORE_DECIDING:
             self.keeping = RecordingState.KEPT
-            script.do(do.StartRecording())
+            outcome.recording = do.StartRecording()
 
-    def _forget(self, why: NotRecordedReason, script: Script) -> None:
+    def _forget(self, why: NotRecordedReason, outcome: OutcomeBuilder) -> None:
         if self.keeping is RecordingState.UNDECIDED:
             self.keeping = RecordingState.FORGOTTEN
             self._scenery.play_by_chance()
-            script.do(do.DiscardRecording(why))
+            outcome.recording = do.DiscardRecording(why)
 
-    def _end(self, status: Status, script: Script) -> None:
-        self._forget(NotRecordedReason.LEFT, script)
-        self._presence.resume(script)
-        script.note(happened.SessionEnded(at_ms=script.at_ms, status=status))
-        script.do(do.SetExpression(Mood.IDLE), do.EndSession(status))
+    def _end(self, status: Status, outcome: OutcomeBuilder) -> None:
+        self._forget(NotRecordedReason.LEFT, outcome)
+        self._presence.resume(outcome)
+        outcome.emit(happened.SessionEnded(at_ms=outcome.at_ms, status=status))
+        outcome.effect(do.SetExpression(Mood.IDLE))
 
-    def _keep_track(self, script: Script) -> None:
+    def _keep_track(self, outcome: OutcomeBuilder) -> None:
         """Remember which waits are running, so that the end of any other can be refused, and what is being said."""
-        self._talk.track(script.actions)
-        for command in script.actions:
-            match command:
+        self._talk.track(outcome.effects)
+        for effect in outcome.effects:
+            match effect:
                 case do.StartTimer(timer=timer):
                     self._waiting.add(timer)
                 case do.StopTimer(timer=timer):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, Outcome, Phase
+from kiosk.assistance.policy import Action, FlipInMove, MoveOutcome, Phase
 from kiosk.experiment.events import AssistanceDecided
 from kiosk.export.columns import (
     ACTION,
@@ -161,7 +161,7 @@ _DECISION_COLUMNS: tuple[Column[_Decision], ...] = make_columns(
             "outcome",
             "Which card of the move was coming, and whether the last completed move had matched.",
             levels=enum_levels(
-                Outcome,
+                MoveOutcome,
                 f_correct="first card, after a match or before any move",
                 f_wrong="first card, after a miss",
                 s_correct="second card, after a match or before any move",

@@ -45,16 +45,13 @@ def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | i
     return cursor.lastrowid or 0
 
 
-def insert_events(connection: sqlite3.Connection, session: int, first_seq: int, events: Sequence[Event]) -> None:
-    """Write the next events of a session."""
+def event_rows(session: int, first_seq: int, events: Sequence[Event]) -> list[tuple[object, ...]]:
+    """Return the rows of a session's next events, in the order of the table's columns."""
     written_ms = now_ms()
-    connection.executemany(
-        _INSERT_EVENT,
-        (
-            (session, seq, event.at_ms, _origin(event), *_type_and_body(event), written_ms)
-            for seq, event in enumerate(events, first_seq)
-        ),
-    )
+    return [
+        (session, seq, event.at_ms, _origin(event), *_type_and_body(event), written_ms)
+        for seq, event in enumerate(events, first_seq)
+    ]
 
 
 def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
@@ -220,7 +217,7 @@ class Recorder:
         with self._transaction():
             mark_interrupted(self._connection)
             session = self._insert_session(provenance)
-            insert_events(self._connection, session, 1, events)
+            self._connection.executemany(_INSERT_EVENT, event_rows(session, 1, events))
             participant = enrol(self._connection, session)
         self._session = session
         self._next_seq = 1 + len(events)
@@ -248,7 +245,7 @@ class Recorder:
     def append(self, events: Sequence[Event]) -> None:
         """Write the session's next events, in one transaction; raises StoreFailed if the disk does not take them."""
         with self._transaction():
-            insert_events(self._connection, self._session, self._next_seq, events)
+            self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
         self._next_seq += len(events)
 
     # Outside sessions

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kiosk import UserInputError, unwritable
-from kiosk.assistance.policy import STATES, Action, Gate, Outcome, Phase, QTable, State
+from kiosk.assistance.policy import STATES, Action, Gate, MoveOutcome, Phase, QTable, State
 
 
 def check_writable(path: Path) -> Path:
@@ -91,8 +91,8 @@ class PolicyClaim:
 def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[PolicyClaim, ...]:
     """The paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
     levels = {phase: _level(policy, [s for s in STATES if s.game is phase and _known(policy, s)]) for phase in Phase}
-    well = _firsts(policy, Outcome.F_CORRECT)
-    wrong = _firsts(policy, Outcome.F_WRONG)
+    well = _firsts(policy, MoveOutcome.F_CORRECT)
+    wrong = _firsts(policy, MoveOutcome.F_WRONG)
     falls = levels[Phase.BEGINNING] >= levels[Phase.MIDDLE] >= levels[Phase.END]
     return (
         PolicyClaim(
@@ -108,7 +108,7 @@ def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: floa
     )
 
 
-def _firsts(policy: QTable, outcome: Outcome) -> float:
+def _firsts(policy: QTable, outcome: MoveOutcome) -> float:
     return _level(policy, [state for state in STATES if state.outcome is outcome and _known(policy, state)])
 
 

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from platformdirs import user_cache_path
 
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, Gate, Outcome, Phase
+from kiosk.assistance.policy import Action, Gate, MoveOutcome, Phase
 
 Rule = TypeVar("Rule", bound=Callable[..., Any])
 Ints = list[int]
@@ -92,9 +92,9 @@ TARGET_RULES = (TargetRule.MOST_FLIPPED, TargetRule.MOST_RECENT, TargetRule.RAND
 MOST_FLIPPED, MOST_RECENT, ANYWHERE = range(3)
 
 NO_HELP, SUG_COL, SUG_ROW, SUG_CARD = (int(action) for action in Action)
-ACTIONS, OUTCOMES, PHASES = len(Action), len(Outcome), len(Phase)
+ACTIONS, OUTCOMES, PHASES = len(Action), len(MoveOutcome), len(Phase)
 STATES = PHASES * ACTIONS * OUTCOMES
-F_CORRECT, F_WRONG, S_CORRECT, S_WRONG = (int(outcome) for outcome in Outcome)
+F_CORRECT, F_WRONG, S_CORRECT, S_WRONG = (int(outcome) for outcome in MoveOutcome)
 
 WORD = 0xFFFF_FFFF
 BITS = 32

@@ -22,7 +22,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import DISK_FULL, StoreFailed, UserInputError, is_nearly_full, unwritable
 from kiosk.config import STAGES
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Effect, Outcome
 from kiosk.experiment.events import Stage, WorldEvent
 from kiosk.experiment.questionnaire import Item
 from kiosk.ui.app import App
@@ -99,9 +99,9 @@ class Screenshots:
         self._settle_ms = settle_ms
         self._taken: list[str] = []
 
-    def watch(self, commands: tuple[Effect, ...], stage: Stage) -> None:
-        """Take a picture if these commands, which led to this stage, were the first to bring their moment."""
-        for moment in _moments(commands, stage):
+    def watch(self, effects: Iterable[Effect], stage: Stage) -> None:
+        """Take a picture if these effects, in this stage, were the first to bring their moment."""
+        for moment in _moments(effects, stage):
             if moment not in self._taken:
                 self._taken.append(moment)
                 self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
@@ -147,10 +147,10 @@ _NAMES: dict[type[Effect], str] = {
 }
 
 
-def _moments(commands: tuple[Effect, ...], stage: Stage) -> Iterable[str]:
-    """What these commands have brought, in names for files."""
-    for command in commands:
-        match command:
+def _moments(effects: Iterable[Effect], stage: Stage) -> Iterable[str]:
+    """Return what these effects have brought, in names for files."""
+    for effect in effects:
+        match effect:
             case do.ShowBoard(practice=practice):
                 yield "practice" if practice else "board"
             case do.LockBoard(wait=wait):
@@ -161,8 +161,8 @@ def _moments(commands: tuple[Effect, ...], stage: Stage) -> Iterable[str]:
                 yield mood.value
             case do.ShowItems(number=number):
                 yield f"{'about-you' if stage is Stage.ABOUT_YOU else 'items'}-{number}"
-            case _ if type(command) in _NAMES:
-                yield _NAMES[type(command)]
+            case _ if type(effect) in _NAMES:
+                yield _NAMES[type(effect)]
 
 
 def _mark(row: int | None, column: int | None) -> str:
@@ -352,15 +352,15 @@ class Rehearsal:
             position = self._visitor.choose(BoardView(board.closed, first, row, column))
             self._click(f"card-{board.location(position)}")
 
-    def _watch(self, _: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
+    def _watch(self, _: WorldEvent, outcome: Outcome, stage: Stage) -> None:
         if stage is not self._stage:
             self._stage, self._acts = stage, 0
-        if any(isinstance(command, do.ShowBoard) for command in commands):
+        if any(isinstance(effect, do.ShowBoard) for effect in outcome.effects):
             self._visitor.sit_down()
         self._visitor.see(self._app.screens.board.unmatched)
         if self._shots is not None:
             with self.pulse.aside():
-                self._shots.watch(commands, stage)
+                self._shots.watch(outcome.effects, stage)
         if stage is Stage.OVER:
             self._over = True
             self._app.quit()

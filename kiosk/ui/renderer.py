@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from enum import Enum
-from functools import partial, singledispatchmethod
+from functools import partial
 from pathlib import Path
+from typing import assert_never
 
 from kiosk.config import ASSETS
 from kiosk.experiment import effects as do
@@ -31,11 +32,11 @@ class SoundEffect(Enum):
         return ASSETS / "sounds" / f"{self.value}.wav"
 
 
-def sound_for(commands: Iterable[Effect]) -> SoundEffect | None:
-    """The sound for what these commands show; none if they begin a sentence, which is never made to wait."""
+def sound_for(effects: Iterable[Effect]) -> SoundEffect | None:
+    """Return the sound for these effects; None if they begin a sentence, which is never made to wait."""
     heard: set[SoundEffect] = set()
-    for command in commands:
-        match command:
+    for effect in effects:
+        match effect:
             case do.Speak():
                 return None
             case do.StartTimer(timer=Timer.FINISH):
@@ -54,14 +55,14 @@ SETTLE_MS = 400
 
 
 class Renderer:
-    """Shows, speaks and waits as it is told."""
+    """Carries out effects: shows them on the screens, has them said, and waits."""
 
-    def __init__(self, screens: ScreenSet, clock: Clock, wait_ended: Callable[[Timer], None]) -> None:
-        """``wait_ended`` is called when a wait is over that was not stopped."""
+    def __init__(self, screens: ScreenSet, clock: Clock, timer_expired: Callable[[Timer], None]) -> None:
+        """Call ``timer_expired`` when a timer ends that was not stopped."""
         self.embodiments: EmbodimentSelector | None = None
         self.screens = screens
         self._clock = clock
-        self._wait_ended = wait_ended
+        self._timer_expired = timer_expired
         self._waits: dict[Timer, TimerWait] = {}
         self._settling: TimerWait | None = None
         screens.kiosk.unsettled.connect(self._let_settle)
@@ -82,170 +83,94 @@ class Renderer:
         self.screens.clear()
         self.screens.kiosk.show(screen)
 
-    @singledispatchmethod
-    def perform(self, command: Effect) -> None:
-        """Carry out one command; one that nobody knows how to carry out is our mistake and raises."""
-        raise NotImplementedError(f"nobody carries out {type(command).__name__}")
-
-    @perform.register
-    def _(self, command: do.EmitEvent) -> None:
-        """It is on the disk already."""
-
-    @perform.register
-    def _(self, command: do.StartRecording) -> None:
-        """The record's matter."""
-
-    @perform.register
-    def _(self, command: do.DiscardRecording) -> None:
-        """The record's matter."""
-
-    @perform.register
-    def _(self, command: do.ShowAbout) -> None:
-        self.screens.about.show(command.page)
-        self.screens.kiosk.show("about")
-
-    @perform.register
-    def _(self, command: do.ShowConsent) -> None:
-        self.screens.consent.show(command.page)
-        self.screens.kiosk.show("consent")
-
-    @perform.register
-    def _(self, command: do.ShowTicks) -> None:
-        self.screens.consent.show_ticks(command.purposes)
-
-    @perform.register
-    def _(self, command: do.ShowAgeQuestion) -> None:
-        self.screens.age.ask(command.adult)
-        self.screens.kiosk.show("age")
-
-    @perform.register
-    def _(self, command: do.ShowIntroduction) -> None:
-        self.screens.introduction.show(helped=command.helped)
-        self.screens.kiosk.show("introduction")
-
-    @perform.register
-    def _(self, command: do.ShowBoard) -> None:
-        board, practice = self.screens.board, command.practice
-        board.deal(command.rows, command.columns, command.pairs, command.deck, practice=practice)
-        self.screens.kiosk.show("practice" if practice else "game")
-
-    @perform.register
-    def _(self, command: do.RevealCard) -> None:
-        self.screens.board.reveal(command.position, command.card)
-
-    @perform.register
-    def _(self, command: do.HideCards) -> None:
-        self.screens.board.hide(command.positions)
-
-    @perform.register
-    def _(self, command: do.MarkMatched) -> None:
-        self.screens.board.mark_matched(command.positions)
-
-    @perform.register
-    def _(self, command: do.ShowProgress) -> None:
-        self.screens.board.show_progress(command.pairs_found, command.moves)
-
-    @perform.register
-    def _(self, command: do.LockBoard) -> None:
-        self.screens.board.lock(command.wait)
-
-    @perform.register
-    def _(self, command: do.UnlockBoard) -> None:
-        self.screens.board.lock(None)
-
-    @perform.register
-    def _(self, command: do.HighlightHint) -> None:
-        self.screens.board.highlight(command.row, command.column)
-        if self._body is not None:
-            self._body.look_at(self.screens.board.place(command.row, command.column))
-
-    @perform.register
-    def _(self, command: do.ClearHighlight) -> None:
-        self.screens.board.clear_highlight()
-        if self._body is not None:
-            self._body.look_at(None)
-
-    @perform.register
-    def _(self, command: do.Speak) -> None:
-        self.screens.avatar.say(command.sentence)
-        if self._body is not None:
-            self._body.say(command.utterance, command.sentence)
-
-    @perform.register
-    def _(self, command: do.StopSpeaking) -> None:
-        if self._body is not None:
-            self._body.stop()
-
-    @perform.register
-    def _(self, command: do.SwitchEmbodiment) -> None:
-        if self.embodiments is not None:
-            self.embodiments.switch_to(command.body)
-
-    @perform.register
-    def _(self, command: do.ClearBubble) -> None:
-        self.screens.avatar.say("")
-
-    @perform.register
-    def _(self, command: do.SetExpression) -> None:
-        if self._body is not None:
-            self._body.express(command.mood)
-
-    @perform.register
-    def _(self, command: do.ShowResult) -> None:
-        self.screens.result.show(command.pairs, command.moves, command.time_ms)
-        self.screens.kiosk.show("result")
-
-    @perform.register
-    def _(self, command: do.ShowItems) -> None:
-        self.screens.form.show(command.items, command.number, command.of)
-        self.screens.kiosk.show("form")
-
-    @perform.register
-    def _(self, command: do.ShowAnswer) -> None:
-        self.screens.form.show_answer(command.item, command.value)
-
-    @perform.register
-    def _(self, command: do.ShowValidationErrors) -> None:
-        asking = self.screens.consent if self.screens.kiosk.shown == "consent" else self.screens.form
-        asking.show_missing(command.names)
-
-    @perform.register
-    def _(self, command: do.ShowDebrief) -> None:
-        self.screens.debrief.show(command.page)
-        self.screens.kiosk.show("debrief")
-
-    @perform.register
-    def _(self, command: do.ShowThanks) -> None:
-        self.screens.kiosk.show("thanks")
-
-    @perform.register
-    def _(self, command: do.ShowPause) -> None:
-        self.screens.kiosk.pause(paused=True)
-
-    @perform.register
-    def _(self, command: do.HidePause) -> None:
-        self.screens.kiosk.pause(paused=False)
-
-    @perform.register
-    def _(self, command: do.AskStillThere) -> None:
-        self.screens.kiosk.ask_still_there(asks=True)
-
-    @perform.register
-    def _(self, command: do.HideStillThere) -> None:
-        self.screens.kiosk.ask_still_there(asks=False)
-
-    @perform.register
-    def _(self, command: do.StartTimer) -> None:
-        self._stop_wait(command.timer)
-        self._waits[command.timer] = self._clock.after(command.after_ms, partial(self._end_wait, command.timer))
-
-    @perform.register
-    def _(self, command: do.StopTimer) -> None:
-        self._stop_wait(command.timer)
-
-    @perform.register
-    def _(self, command: do.EndSession) -> None:
-        """The runner gets ready for the next visitor; there is nothing to carry out before."""
+    def perform(self, effects: Iterable[Effect]) -> None:  # noqa: C901, PLR0912, PLR0915 - one case per effect
+        """Carry out these effects in their order."""
+        screens = self.screens
+        for effect in effects:
+            match effect:
+                case do.ShowAbout(page=page):
+                    screens.about.show(page)
+                    screens.kiosk.show("about")
+                case do.ShowConsent(page=sheet):
+                    screens.consent.show(sheet)
+                    screens.kiosk.show("consent")
+                case do.ShowTicks(purposes=purposes):
+                    screens.consent.show_ticks(purposes)
+                case do.ShowAgeQuestion(adult=adult):
+                    screens.age.ask(adult)
+                    screens.kiosk.show("age")
+                case do.ShowIntroduction(helped=helped):
+                    screens.introduction.show(helped=helped)
+                    screens.kiosk.show("introduction")
+                case do.ShowBoard(practice=practice):
+                    screens.board.deal(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)
+                    screens.kiosk.show("practice" if practice else "game")
+                case do.RevealCard(position=position, card=card):
+                    screens.board.reveal(position, card)
+                case do.HideCards(positions=positions):
+                    screens.board.hide(positions)
+                case do.MarkMatched(positions=positions):
+                    screens.board.mark_matched(positions)
+                case do.ShowProgress(pairs_found=pairs_found, moves=moves):
+                    screens.board.show_progress(pairs_found, moves)
+                case do.LockBoard(wait=wait):
+                    screens.board.lock(wait)
+                case do.UnlockBoard():
+                    screens.board.lock(None)
+                case do.HighlightHint(row=row, column=column):
+                    screens.board.highlight(row, column)
+                    if self._body is not None:
+                        self._body.look_at(screens.board.place(row, column))
+                case do.ClearHighlight():
+                    screens.board.clear_highlight()
+                    if self._body is not None:
+                        self._body.look_at(None)
+                case do.Speak(utterance=utterance, sentence=sentence):
+                    screens.avatar.say(sentence)
+                    if self._body is not None:
+                        self._body.say(utterance, sentence)
+                case do.StopSpeaking():
+                    if self._body is not None:
+                        self._body.stop()
+                case do.SwitchEmbodiment(body=name):
+                    if self.embodiments is not None:
+                        self.embodiments.switch_to(name)
+                case do.ClearBubble():
+                    screens.avatar.say("")
+                case do.SetExpression(mood=mood):
+                    if self._body is not None:
+                        self._body.express(mood)
+                case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms):
+                    screens.result.show(pairs, moves, time_ms)
+                    screens.kiosk.show("result")
+                case do.ShowItems(items=items, number=number, of=pages):
+                    screens.form.show(items, number, pages)
+                    screens.kiosk.show("form")
+                case do.ShowAnswer(item=item, value=value):
+                    screens.form.show_answer(item, value)
+                case do.ShowValidationErrors(names=names):
+                    (screens.consent if screens.kiosk.shown == "consent" else screens.form).show_missing(names)
+                case do.ShowDebrief(page=page):
+                    screens.debrief.show(page)
+                    screens.kiosk.show("debrief")
+                case do.ShowThanks():
+                    screens.kiosk.show("thanks")
+                case do.ShowPause():
+                    screens.kiosk.pause(paused=True)
+                case do.HidePause():
+                    screens.kiosk.pause(paused=False)
+                case do.AskStillThere():
+                    screens.kiosk.ask_still_there(asks=True)
+                case do.HideStillThere():
+                    screens.kiosk.ask_still_there(asks=False)
+                case do.StartTimer(timer=timer, after_ms=after_ms):
+                    self._stop_wait(timer)
+                    # The wait may stay here when it is over: to cancel it then changes nothing.
+                    self._waits[timer] = self._clock.after(after_ms, partial(self._timer_expired, timer))
+                case do.StopTimer(timer=timer):
+                    self._stop_wait(timer)
+                case _ as unreachable:
+                    assert_never(unreachable)
 
     @property
     def body_name(self) -> EmbodimentName | None:
@@ -267,7 +192,3 @@ class Renderer:
         wait = self._waits.pop(timer, None)
         if wait is not None:
             wait.cancel()
-
-    def _end_wait(self, timer: Timer) -> None:
-        del self._waits[timer]
-        self._wait_ended(timer)

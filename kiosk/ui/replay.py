@@ -27,8 +27,8 @@ from kiosk.ui.window import RunMode, Window
 
 _log = logging.getLogger(__name__)
 
-_UNSEEN = (do.EmitEvent, do.StartRecording, do.DiscardRecording, do.StartTimer, do.StopTimer, do.EndSession)
-"""Commands that change nothing on the screen."""
+_UNSEEN = (do.StartTimer, do.StopTimer)
+"""Effects that change nothing on the screen."""
 
 
 class MuteVoice(Voice):
@@ -126,7 +126,7 @@ class Replay:
         for index, step in enumerate(self.player.steps, 1):
             self._beat()
             self.player.step()
-            if any(not isinstance(command, _UNSEEN) for command in step.commands):
+            if any(not isinstance(effect, _UNSEEN) for effect in step.outcome.effects):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
                 if not self._window.shown.grabWindow().save(str(file)):
                     raise unwritten(file)

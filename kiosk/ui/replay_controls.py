@@ -7,7 +7,6 @@ from collections.abc import Callable
 from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtQml import QmlElement
 
-from kiosk.experiment import effects as do
 from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.ui.event_loop import Clock, TimerWait
@@ -98,10 +97,7 @@ class ReplayPlayer:
     def _play(self) -> None:
         step = self.steps[self.played]
         self.played += 1
-        for command in step.commands:
-            # No wait ends here but those that ended then; they are among the steps.
-            if not isinstance(command, do.StartTimer | do.StopTimer | do.EndSession):
-                self._renderer.perform(command)
+        self._renderer.perform(step.outcome.effects)
 
     def _wait_for_next(self) -> None:
         if self.over:

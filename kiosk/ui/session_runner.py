@@ -13,7 +13,7 @@ from kiosk import StoreFailed
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, Event, Stage, Timer, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
@@ -120,7 +120,7 @@ class SessionRecording:
     """What becomes of a session's events."""
 
     def __init__(self, recorder: Recorder, provenance: Provenance, kept: Callable[[], None] = lambda: None) -> None:
-        """Nothing is written until a command says so; ``kept`` is told when it is."""
+        """Nothing is written until an outcome says so; ``kept`` is called when it is."""
         self.code = ""
         """What the participant can withdraw with; empty while nothing is stored."""
         self._recorder = recorder
@@ -137,25 +137,23 @@ class SessionRecording:
         record._keeping = RecordingState.KEPT
         return record
 
-    def write(self, event: WorldEvent, commands: tuple[Effect, ...]) -> None:
+    def write(self, event: WorldEvent, outcome: Outcome) -> None:
         """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it.
 
         Where it raises nothing has changed, so the same event can be written again after StoreBusy.
         """
-        events = (event, *(command.event for command in commands if isinstance(command, do.EmitEvent)))
-        forgotten = next((command for command in commands if isinstance(command, do.DiscardRecording)), None)
-        if self._keeping is RecordingState.KEPT:
-            self._recorder.append(events)
-        elif forgotten is not None:
-            self._recorder.count_visit(forgotten.why, simulated=self._provenance.simulated)
-            self._keeping = RecordingState.FORGOTTEN
-            self._held.clear()
-        elif self._keeping is RecordingState.UNDECIDED:
-            held = [*self._held, *events]
-            if any(isinstance(command, do.StartRecording) for command in commands):
-                self._keep(held)
-            else:
-                self._held = held
+        events = (event, *outcome.events)
+        match outcome.recording:
+            case do.StartRecording():
+                self._keep([*self._held, *events])
+            case do.DiscardRecording(why=why):
+                self._recorder.count_visit(why, simulated=self._provenance.simulated)
+                self._keeping = RecordingState.FORGOTTEN
+                self._held.clear()
+            case None if self._keeping is RecordingState.KEPT:
+                self._recorder.append(events)
+            case None if self._keeping is RecordingState.UNDECIDED:
+                self._held += events
 
     def _keep(self, events: list[Event]) -> None:
         self.code = self._recorder.begin(self._provenance, events).code
@@ -224,17 +222,16 @@ CLOSING_WAIT_MS = 2_000
 
 _log = logging.getLogger(__name__)
 
-Witness = Callable[[WorldEvent, tuple[Effect, ...], Stage], None]
-"""Is told of every event once its commands were carried out, and of the stage that the session is in."""
+EventObserver = Callable[[WorldEvent, Outcome, Stage], None]
+"""Called after the effects of an event were carried out, with the stage that the session is in then."""
 
 
 @dataclass(frozen=True)
-class _Queued:
-    """What happened, and waits for its turn."""
+class _Handled:
+    """An event and its outcome, which the database has not taken yet."""
 
     event: WorldEvent
-    by_visitor: bool
-    """Whether it answers what was on the screen then."""
+    outcome: Outcome
 
 
 class SessionRunner:
@@ -242,7 +239,7 @@ class SessionRunner:
 
     def __init__(self, screens: ScreenSet, recorder: Recorder, clock: Clock, assigner: ConditionAssigner) -> None:
         """``assigner`` is asked once for each provenance, when it begins."""
-        self.on_event: Witness | None = None
+        self.on_event: EventObserver | None = None
         self.play_sound: Callable[[SoundEffect], None] = lambda _: None
         self.on_session_started: Callable[[], None] = lambda: None
         """Is told when a visitor has begun, or a session goes on."""
@@ -256,16 +253,15 @@ class SessionRunner:
         self._recorder = recorder
         self._clock = clock
         self._assigner = assigner
-        self._renderer = Renderer(screens, clock, self._timer_ended)
-        self._queue: deque[_Queued] = deque()
-        self._unwritten: tuple[WorldEvent, tuple[Effect, ...]] | None = None
-        """What the session has concluded, and the database has not taken yet."""
+        self._renderer = Renderer(screens, clock, self._timer_expired)
+        self._queue: deque[WorldEvent] = deque()
+        self._unwritten: _Handled | None = None
         self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
         self._working = self._screen_changed = False
         self._begun_at = 0
         self._session: Session | None = None
         self._record: SessionRecording | None = None
-        screens.listen(self.start, self._tell_of_visitor)
+        screens.connect_input(self)
         screens.kiosk.unsettled.connect(self._note_change)
         self._renderer.reset("attract")
 
@@ -279,12 +275,12 @@ class SessionRunner:
         """Whether the error screen is up, where nobody can begin."""
         return self._session is None and self._renderer.screens.kiosk.shown == "pause"
 
-    def accepts(self, kind: type[WorldEvent], **what: object) -> bool:
+    def accepts(self, event: WorldEvent) -> bool:
         """Whether this event has a place in the session now."""
         if self._session is None:
             return False
         try:
-            self._session.check(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+            self._session.check(event)
         except InvalidTransition:
             return False
         return True
@@ -310,7 +306,7 @@ class SessionRunner:
         self._busy.end()
         record = SessionRecording(self._recorder, provenance, partial(self._assigner.confirm_recorded, provenance))
         self._begin(provenance, record, tapped_at)
-        self._enqueue(happened.SessionStarted(at_ms=0))
+        self.dispatch(happened.SessionStarted(at_ms=0))
         self._tell_begun()
 
     def resume(
@@ -335,48 +331,45 @@ class SessionRunner:
         if not noted():
             return
         self._begin(provenance, record, self._clock.now_ms() - past[-1].at_ms, session)
-        self.tell(happened.SessionResumed, body=resumed.body)
+        self.dispatch(replace(resumed, at_ms=self.now_ms()))
         self._tell_begun()
 
-    def tell(self, kind: type[WorldEvent], **what: object) -> None:
-        """Something happened just now; without a session it does not matter."""
-        if self._session is not None:
-            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what))
+    def now_ms(self) -> int:
+        """Return the time of an event that happens now, in ms since the session began."""
+        return self._clock.now_ms() - self._begun_at
 
-    def _tell_of_visitor(self, kind: type[WorldEvent], **what: object) -> None:
-        """The visitor did something to what is on the screen."""
-        if self._session is not None:
-            self._enqueue(kind(at_ms=self._clock.now_ms() - self._begun_at, **what), by_visitor=True)
-
-    def _enqueue(self, event: WorldEvent, *, by_visitor: bool = False) -> None:
-        self._queue.append(_Queued(event, by_visitor))
+    def dispatch(self, event: WorldEvent) -> None:
+        """Handle an event after those that wait; without a session it does not matter."""
+        if self._session is None:
+            return
+        self._queue.append(event)
         # What happens while an event is at work, such as a voice that fails at once, waits for its turn.
         if not self._working and not self._busy.under_way:
             self._work()
 
-    def _timer_ended(self, timer: Timer) -> None:
+    def _timer_expired(self, timer: Timer) -> None:
         last = self.last_activity_ms()
         if timer is Timer.IDLE and last is not None and last > self._idle_since:
             # Whoever scrolls, or goes about by keyboard, is there: the idle time counts from the last of it.
-            self.tell(happened.UserActivity, ago_ms=self._clock.now_ms() - last)
+            self.dispatch(happened.UserActivity(at_ms=self.now_ms(), ago_ms=self._clock.now_ms() - last))
         else:
-            self.tell(happened.TimerExpired, timer=timer)
+            self.dispatch(happened.TimerExpired(at_ms=self.now_ms(), timer=timer))
 
     def speech_started(self, utterance: int) -> None:
-        """The body began to say a sentence."""
-        self.tell(happened.SpeechStarted, utterance=utterance)
+        """Have the session know that a sentence is heard."""
+        self.dispatch(happened.SpeechStarted(at_ms=self.now_ms(), utterance=utterance))
 
     def speech_finished(self, utterance: int) -> None:
-        """The body has said a sentence."""
-        self.tell(happened.SpeechFinished, utterance=utterance)
+        """Have the session know that a sentence was said to its end."""
+        self.dispatch(happened.SpeechFinished(at_ms=self.now_ms(), utterance=utterance))
 
     def speech_failed(self, utterance: int, why: str) -> None:
-        """The body will not say a sentence, or not to its end."""
-        self.tell(happened.SpeechFailed, utterance=utterance, why=why)
+        """Have the session know that a sentence will not be said, or not to its end."""
+        self.dispatch(happened.SpeechFailed(at_ms=self.now_ms(), utterance=utterance, why=why))
 
     def robot_lost(self, why: str) -> None:
-        """The robot that was helping cannot be counted on any more."""
-        self.tell(happened.RobotDisconnected, why=why)
+        """Have the session know that the robot that was helping cannot be counted on any more."""
+        self.dispatch(happened.RobotDisconnected(at_ms=self.now_ms(), why=why))
 
     def close(self) -> None:
         """End the session that is under way, if there is one, because the program is being closed.
@@ -386,7 +379,7 @@ class SessionRunner:
         """
         self._busy.end()
         with self._recorder.retrying(CLOSING_WAIT_MS):
-            self.tell(happened.ApplicationClosed)
+            self.dispatch(happened.ApplicationClosed(at_ms=self.now_ms()))
         if self._busy.under_way:
             _log.error("what happened last could not be written: another program holds the database")
             self._busy.end()
@@ -439,65 +432,63 @@ class SessionRunner:
         self.on_idle()
 
     def _work(self) -> None:
-        """Take what happened in turn, until nothing is left or the database cannot take it now."""
+        """Handle, write and show what happened, in turn, until nothing is left or the database cannot take it now."""
         self._working = True
         try:
-            while self._session is not None and self._record is not None and self._decided(self._session):
-                if not self._written(self._record):
+            while self._session is not None and self._record is not None and (self._unwritten or self._queue):
+                session = self._session
+                if self._unwritten is None:
+                    event = self._queue.popleft()
+                    try:
+                        self._unwritten = _Handled(event, session.handle(event))
+                    except InvalidTransition as refusal:
+                        _log.info("%s", refusal)
+                        continue
+                handled = self._unwritten
+                try:
+                    self._record.write(handled.event, handled.outcome)
+                except StoreBusy as busy:
+                    self._try_again(self._work, busy)
                     return
-                self._carry_out(self._session, self._record)
+                except StoreFailed as failure:
+                    self._give_way(failure)
+                    return
+                self._busy.end()
+                self._unwritten = None
+                self._before_effects(handled.outcome, self._record.code)
+                self._renderer.perform(handled.outcome.effects)
+                self._after_effects(handled, session.stage)
         finally:
             self._working = False
 
-    def _decided(self, session: Session) -> bool:
-        """Whether there is something to be written; what has no place in the session is passed over."""
-        while self._unwritten is None and self._queue:
-            event = self._queue.popleft().event
-            try:
-                self._unwritten = (event, session.handle(event))
-            except InvalidTransition as refusal:
-                _log.info("%s", refusal)
-        return self._unwritten is not None
-
-    def _written(self, record: SessionRecording) -> bool:
-        """Write what was concluded; whether the database took it. Nothing of it is shown before."""
-        if self._unwritten is None:
-            return True
-        try:
-            record.write(*self._unwritten)
-        except StoreBusy as busy:
-            self._try_again(self._work, busy)
-            return False
-        except StoreFailed as failure:
-            self._give_way(failure)
-            return False
-        self._busy.end()
-        return True
-
-    def _carry_out(self, session: Session, record: SessionRecording) -> None:
-        if self._unwritten is None:
-            return
-        (event, commands), self._unwritten = self._unwritten, None
+    def _before_effects(self, outcome: Outcome, code: str) -> None:
         self._screen_changed = False
-        self._perform(commands, record)
-        self._queue = deque(one for one in self._queue if not self._is_outrun(one, commands))
+        if _timers(outcome).get(Timer.IDLE):
+            self._idle_since = self._clock.now_ms()
+        self._renderer.screens.debrief.give_code(code)
+
+    def _after_effects(self, handled: _Handled, stage: Stage) -> None:
+        event, outcome = handled.event, handled.outcome
+        sound = sound_for(outcome.effects)
+        if sound is not None:
+            self.play_sound(sound)
+        self._queue = deque(waiting for waiting in self._queue if not self._is_outrun(waiting, outcome))
         if self.on_event is not None:
-            self.on_event(event, commands, session.stage)
-        if session.stage is Stage.OVER:
+            self.on_event(event, outcome, stage)
+        if stage is Stage.OVER:
             self._rest("attract")
 
-    def _is_outrun(self, queued: _Queued, commands: tuple[Effect, ...]) -> bool:
-        """Whether what waits belongs to what these commands have ended."""
-        timers = {command.timer for command in commands if isinstance(command, (do.StartTimer, do.StopTimer))}
-        match queued.event:
+    def _is_outrun(self, waiting: WorldEvent, outcome: Outcome) -> bool:
+        """Whether what waits belongs to what this outcome has ended."""
+        match waiting:
             case happened.TimerExpired(timer=timer):
-                # It ended while the command to stop it, or to begin it anew, waited for the database.
-                return timer in timers
+                # It ended while the effect that stops it, or starts it anew, waited for the database.
+                return timer in _timers(outcome)
             case happened.UserActivity():
                 # It was to put off an idle time that has begun anew meanwhile.
-                return Timer.IDLE in timers
+                return Timer.IDLE in _timers(outcome)
         # As with a double click: what was tapped meanwhile was meant for what was there before.
-        return queued.by_visitor and self._screen_changed
+        return waiting.by_visitor and self._screen_changed
 
     def _note_change(self) -> None:
         self._screen_changed = True
@@ -508,16 +499,15 @@ class SessionRunner:
         except StoreFailed as failure:
             self._give_way(failure)
 
-    def _perform(self, commands: tuple[Effect, ...], record: SessionRecording) -> None:
-        self._renderer.screens.debrief.give_code(record.code)
-        for command in commands:
-            if isinstance(command, do.StartTimer) and command.timer is Timer.IDLE:
-                self._idle_since = self._clock.now_ms()
-            self._renderer.perform(command)
-        sound = sound_for(commands)
-        if sound is not None:
-            self.play_sound(sound)
-
     def _give_way(self, failure: StoreFailed) -> None:
         _log.error("%s", failure)
         self.pause()
+
+
+def _timers(outcome: Outcome) -> dict[Timer, bool]:
+    """Return the timers that an outcome starts (True) or stops (False)."""
+    return {
+        effect.timer: isinstance(effect, do.StartTimer)
+        for effect in outcome.effects
+        if isinstance(effect, do.StartTimer | do.StopTimer)
+    }

@@ -6,14 +6,14 @@ from itertools import product
 
 import pytest
 
-from kiosk.assistance.policy import STATES, Action, FlipInMove, Outcome, Phase, State
+from kiosk.assistance.policy import STATES, Action, FlipInMove, MoveOutcome, Phase, State
 from kiosk.game import Concentration, Position
 from tests.samples import board_of
 
 
 def test_there_are_forty_eight_states_and_every_combination_is_one() -> None:
     assert len(STATES) == 48
-    assert set(STATES) == {State(*parts) for parts in product(Phase, Action, Outcome)}
+    assert set(STATES) == {State(*parts) for parts in product(Phase, Action, MoveOutcome)}
 
 
 def test_a_state_and_its_index_say_the_same() -> None:
@@ -23,7 +23,7 @@ def test_a_state_and_its_index_say_the_same() -> None:
 
 def test_a_state_s_label_names_phase_assistance_and_outcome() -> None:
     assert STATES[0].label == "beginning/no_help/f_correct"
-    assert State(Phase.MIDDLE, Action.SUG_ROW, Outcome.S_WRONG).label == "middle/sug_row/s_wrong"
+    assert State(Phase.MIDDLE, Action.SUG_ROW, MoveOutcome.S_WRONG).label == "middle/sug_row/s_wrong"
     assert STATES[47].label == "end/sug_card/s_wrong"
     assert len({state.label for state in STATES}) == 48
 
@@ -32,7 +32,7 @@ def test_the_order_of_states_and_actions_is_fixed_for_ever() -> None:
     """Policy files and stored events name them; a Q-table's rows and columns are counted in this order."""
     assert [action.label for action in Action] == ["no_help", "sug_col", "sug_row", "sug_card"]
     assert [phase.name for phase in Phase] == ["BEGINNING", "MIDDLE", "END"]
-    assert [outcome.name for outcome in Outcome] == ["F_CORRECT", "F_WRONG", "S_CORRECT", "S_WRONG"]
+    assert [outcome.name for outcome in MoveOutcome] == ["F_CORRECT", "F_WRONG", "S_CORRECT", "S_WRONG"]
     assert [state.label for state in STATES[:6]] == [
         "beginning/no_help/f_correct",
         "beginning/no_help/f_wrong",
@@ -73,18 +73,18 @@ def test_other_boards_are_cut_in_thirds_too(pairs: int, phases: str) -> None:
 @pytest.mark.parametrize(
     ("card", "matched", "outcome"),
     [
-        (FlipInMove.FIRST, None, Outcome.F_CORRECT),
-        (FlipInMove.FIRST, True, Outcome.F_CORRECT),
-        (FlipInMove.FIRST, False, Outcome.F_WRONG),
-        (FlipInMove.SECOND, None, Outcome.S_CORRECT),
-        (FlipInMove.SECOND, True, Outcome.S_CORRECT),
-        (FlipInMove.SECOND, False, Outcome.S_WRONG),
+        (FlipInMove.FIRST, None, MoveOutcome.F_CORRECT),
+        (FlipInMove.FIRST, True, MoveOutcome.F_CORRECT),
+        (FlipInMove.FIRST, False, MoveOutcome.F_WRONG),
+        (FlipInMove.SECOND, None, MoveOutcome.S_CORRECT),
+        (FlipInMove.SECOND, True, MoveOutcome.S_CORRECT),
+        (FlipInMove.SECOND, False, MoveOutcome.S_WRONG),
     ],
 )
 def test_an_outcome_joins_the_coming_card_to_the_last_completed_move(
-    card: FlipInMove, outcome: Outcome, *, matched: bool | None
+    card: FlipInMove, outcome: MoveOutcome, *, matched: bool | None
 ) -> None:
-    assert Outcome.of(card, last_move_matched=matched) is outcome
+    assert MoveOutcome.of(card, last_move_matched=matched) is outcome
 
 
 def test_a_state_is_read_off_a_game() -> None:
@@ -95,7 +95,7 @@ def test_a_state_is_read_off_a_game() -> None:
         game.turn_back()
         outcomes.append(State.of(game, Action.NO_HELP).outcome.name)
     assert outcomes == ["F_CORRECT", "S_CORRECT", "F_WRONG", "S_WRONG", "F_CORRECT", "S_CORRECT"]
-    assert State.of(game, Action.SUG_ROW) == State(Phase.MIDDLE, Action.SUG_ROW, Outcome.S_CORRECT)
+    assert State.of(game, Action.SUG_ROW) == State(Phase.MIDDLE, Action.SUG_ROW, MoveOutcome.S_CORRECT)
 
 
 def test_the_coming_card_is_the_second_only_while_one_card_lies_open() -> None:

@@ -87,10 +87,10 @@ def test_from_a_hint_to_the_robot_and_from_its_last_word_to_the_open_board(
                 watch = app.runner.on_event
                 assert watch is not None
 
-                def look(event: Any, commands: Any, stage: Any, watch: Any = watch) -> None:
-                    if isinstance(event, happened.SpeechFinished) and do.UnlockBoard() in commands:
+                def look(event: Any, outcome: Any, stage: Any, watch: Any = watch) -> None:
+                    if isinstance(event, happened.SpeechFinished) and do.UnlockBoard() in outcome.effects:
                         opened.append(monotonic() - ended[-1])
-                    watch(event, commands, stage)
+                    watch(event, outcome, stage)
 
                 app.runner.on_event = look
                 rehearsal.run()

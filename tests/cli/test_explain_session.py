@@ -19,7 +19,7 @@ from kiosk.experiment.session import Session
 from kiosk.store.database import FILE
 from kiosk.store.queries import explain_stored_decision, open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from tests.experiment.driver import Driver, at_random, notes
+from tests.experiment.driver import Driver, at_random
 from tests.samples import mixed, plan, whole
 
 SEED = 5
@@ -100,8 +100,8 @@ def test_a_session_on_the_kept_plan_says_the_same_again(tmp_path: Path) -> None:
     driver = stored(tmp_path)
     with open_repository(tmp_path) as sessions:
         session = Session(sessions.plan(1), sessions.seed(1))
-    again = [note for event in driver.world for note in notes(session.handle(event))]
-    assert again == [note for step in driver.steps for note in notes(step.commands)]
+    again = [note for event in driver.world for note in session.handle(event).events]
+    assert again == [note for step in driver.steps for note in step.outcome.events]
 
 
 def test_where_nobody_helped_the_state_is_told_all_the_same(tmp_path: Path) -> None:

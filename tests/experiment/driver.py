@@ -15,7 +15,7 @@ from typing import Self, TypeVar
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Effect, EmitEvent
+from kiosk.experiment.effects import Effect, Outcome
 from kiosk.experiment.events import EmbodimentName, Event, SessionEvent, Stage, Timer, WorldEvent
 from kiosk.experiment.questionnaire import Answer, Integer, Item, Multiple, Rating, Single, TextPage
 from kiosk.experiment.session import Session
@@ -48,7 +48,7 @@ class Step:
     """One event and what it led to."""
 
     event: WorldEvent
-    commands: tuple[Effect, ...]
+    outcome: Outcome
 
 
 @dataclass
@@ -82,7 +82,7 @@ class Driver:
     @property
     def events(self) -> list[Event]:
         """Everything as it would be recorded: each world event, then what the session concluded from it."""
-        return [event for step in self.steps for event in (step.event, *notes(step.commands))]
+        return [event for step in self.steps for event in (step.event, *step.outcome.events)]
 
     @property
     def world(self) -> list[WorldEvent]:
@@ -90,9 +90,9 @@ class Driver:
         return [step.event for step in self.steps]
 
     @property
-    def commands(self) -> list[Effect]:
-        """Every command so far."""
-        return [command for step in self.steps for command in step.commands]
+    def effects(self) -> list[Effect]:
+        """Every effect so far."""
+        return [effect for step in self.steps for effect in step.outcome.effects]
 
     def noted(self, kind: type[_Some]) -> list[_Some]:
         """Every conclusion of one kind."""
@@ -105,26 +105,26 @@ class Driver:
 
     # Making things happen
 
-    def send(self, event: WorldEvent) -> tuple[Effect, ...]:
+    def send(self, event: WorldEvent) -> Outcome:
         """Hand the session an event as it is and obey what it says; a refusal passes through and leaves no step."""
-        commands = self.session.handle(event)
-        self.steps.append(Step(event, commands))
+        outcome = self.session.handle(event)
+        self.steps.append(Step(event, outcome))
         self.view.hear(event)
-        self.view.obey(commands)
-        for command in commands:
-            self._obey(command)
-        return commands
+        self.view.follow(outcome)
+        for effect in outcome.effects:
+            self._obey(effect)
+        return outcome
 
-    def start(self) -> tuple[Effect, ...]:
+    def start(self) -> Outcome:
         """Begin the session."""
         return self.send(happened.SessionStarted(at_ms=self.now))
 
-    def go_on(self) -> tuple[Effect, ...]:
+    def go_on(self) -> Outcome:
         """Tap on to what comes next, after a moment."""
         self.spend(ONE_TAP)
         return self.send(happened.ContinuePressed(at_ms=self.now))
 
-    def tap(self, position: Position) -> tuple[Effect, ...]:
+    def tap(self, position: Position) -> Outcome:
         """Tap a card at once."""
         return self.send(happened.CardSelected(at_ms=self.now, position=position))
 
@@ -133,45 +133,45 @@ class Driver:
         for purpose in purposes:
             self.send(happened.ConsentPurposeToggled(at_ms=self.now, purpose=purpose, ticked=ticked))
 
-    def agree(self) -> tuple[Effect, ...]:
+    def agree(self) -> Outcome:
         """Agree to what is ticked, after a moment."""
         self.spend(ONE_TAP)
         return self.send(happened.ConsentSubmitted(at_ms=self.now))
 
-    def decline(self) -> tuple[Effect, ...]:
+    def decline(self) -> Outcome:
         """Play without being recorded."""
         return self.send(happened.ConsentDeclined(at_ms=self.now))
 
-    def say_age(self, *, adult: bool = True) -> tuple[Effect, ...]:
+    def say_age(self, *, adult: bool = True) -> Outcome:
         """Say whether one is old enough."""
         return self.send(happened.AgeConfirmed(at_ms=self.now, adult=adult))
 
-    def skip(self) -> tuple[Effect, ...]:
+    def skip(self) -> Outcome:
         """Leave the practice."""
         return self.send(happened.PracticeSkipped(at_ms=self.now))
 
-    def answer(self, value: Answer | None, item: str | None = None) -> tuple[Effect, ...]:
+    def answer(self, value: Answer | None, item: str | None = None) -> Outcome:
         """Answer the first item that is shown, or another one."""
         shown = self.view.page.items[0].id if self.view.page else ""
         return self.send(happened.ResponseGiven(at_ms=self.now, item=shown if item is None else item, value=value))
 
-    def pause(self) -> tuple[Effect, ...]:
+    def pause(self) -> Outcome:
         """The experimenter stops the session for a while."""
         return self.send(happened.PauseRequested(at_ms=self.now))
 
-    def end_pause(self) -> tuple[Effect, ...]:
+    def end_pause(self) -> Outcome:
         """The experimenter lets it go on."""
         return self.send(happened.PauseEnded(at_ms=self.now))
 
-    def repeat(self) -> tuple[Effect, ...]:
+    def repeat(self) -> Outcome:
         """The experimenter wants the last sentence said again."""
         return self.send(happened.RepeatRequested(at_ms=self.now))
 
-    def end(self, reason: str = "the fair is closing") -> tuple[Effect, ...]:
+    def end(self, reason: str = "the fair is closing") -> Outcome:
         """The experimenter ends the session."""
         return self.send(happened.AbortRequested(at_ms=self.now, reason=reason))
 
-    def wait(self) -> tuple[Effect, ...]:
+    def wait(self) -> Outcome:
         """Let the clock go on to the next thing that is due, a timer's end or the body's answer, and let it happen."""
         due = min(self._due, key=lambda due: (due.at_ms, due.number))
         self._due.remove(due)
@@ -226,7 +226,7 @@ class Driver:
             case _:
                 self.go_on()
 
-    def flip(self, position: Position) -> tuple[Effect, ...]:
+    def flip(self, position: Position) -> Outcome:
         """Wait until it is possible, think, and flip a card."""
         self.wait_until_open()
         self.spend(ONE_TAP)
@@ -323,11 +323,6 @@ def some_answer(item: Item) -> Answer:
     return "a word"
 
 
-def notes(commands: Iterable[Effect]) -> list[SessionEvent]:
-    """What these commands tell to write down."""
-    return [command.event for command in commands if isinstance(command, EmitEvent)]
-
-
 def at_random(seed: int) -> Callable[[View], Position]:
     """A visitor without a memory: any closed card."""
     rng = Random(seed)
@@ -350,7 +345,7 @@ def with_memory(seed: int) -> Callable[[View], Position]:
     return choose
 
 
-def replay(plan: SessionConfig, seed: int, world: Iterable[WorldEvent]) -> list[tuple[Effect, ...]]:
-    """The commands of a new session that is handed the same events."""
+def replay(plan: SessionConfig, seed: int, world: Iterable[WorldEvent]) -> list[Outcome]:
+    """The outcomes of a new session that is handed the same events."""
     session = Session(plan, seed)
     return [session.handle(event) for event in world]

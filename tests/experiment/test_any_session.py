@@ -13,13 +13,13 @@ from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.effects import BoardWait, Effect, EmitEvent
+from kiosk.experiment.effects import BoardWait, Outcome
 from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer, WorldEvent
 from kiosk.experiment.questionnaire import TextPage
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.game import Position
-from tests.experiment.driver import notes, some_answer, with_memory
+from tests.experiment.driver import some_answer, with_memory
 from tests.experiment.view import View
 from tests.samples import ABOUT_YOU, CLOSING, INFORMATION, SHORT, mixed, plan
 
@@ -137,23 +137,23 @@ class AnySession(RuleBasedStateMachine):
         """Hand over one event; only what is accepted reaches the twin, which must then answer the same."""
         stage, measures, keeping = self.session.stage, self.session.measures, self.session.keeping
         try:
-            commands = self.session.handle(event)
+            outcome = self.session.handle(event)
         except InvalidTransition:
             assert (self.session.stage, self.session.measures, self.session.keeping) == (stage, measures, keeping)
             return
         assert stage is not Stage.OVER or isinstance(event, happened.SessionResumed)
         assert not (self.view.paused and event.by_visitor)
-        assert self.twin.handle(event) == commands
+        assert self.twin.handle(event) == outcome
         self.closed_in = stage if isinstance(event, happened.ApplicationClosed) else None
-        self.look_at(event, commands)
+        self.look_at(event, outcome)
 
-    def look_at(self, event: WorldEvent, commands: tuple[Effect, ...]) -> None:
-        kinds = [isinstance(command, EmitEvent) for command in commands]
-        assert kinds == sorted(kinds, reverse=True)
+    def look_at(self, event: WorldEvent, outcome: Outcome) -> None:
+        assert all(concluded.at_ms == event.at_ms for concluded in outcome.events)
         self.view.hear(event)
+        self.view.follow(Outcome(outcome.events, (), outcome.recording))
         if isinstance(event, happened.TimerExpired):
             self.running.discard(event.timer)
-        for command in commands:
+        for command in outcome.effects:
             if isinstance(command, do.StartTimer):
                 self.running.add(command.timer)
                 assert command.after_ms >= 0
@@ -163,10 +163,10 @@ class AnySession(RuleBasedStateMachine):
                 self.found = 0
             elif isinstance(command, do.UnlockBoard) and self.view.bubble and self.view.screen == "board":
                 assert self.view.mark is not None
-            self.view.obey([command])
+            self.view.show([command])
         if isinstance(event, happened.CardSelected):
-            turned = [note for note in notes(commands) if isinstance(note, happened.CardFlipped)]
-            ignored = [note for note in notes(commands) if isinstance(note, happened.CardSelectionRejected)]
+            turned = [note for note in outcome.events if isinstance(note, happened.CardFlipped)]
+            ignored = [note for note in outcome.events if isinstance(note, happened.CardSelectionRejected)]
             assert len(turned) + len(ignored) == 1
 
     # Sense

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, GateDecision, Outcome, Phase
+from kiosk.assistance.policy import Action, FlipInMove, GateDecision, MoveOutcome, Phase
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import (
     EmbodimentName,
@@ -90,7 +90,7 @@ def test_a_record_can_be_read_without_the_program() -> None:
         card=FlipInMove.SECOND,
         game=Phase.MIDDLE,
         last=Action.SUG_ROW,
-        outcome=Outcome.S_WRONG,
+        outcome=MoveOutcome.S_WRONG,
         gate=GateDecision.STILL_EXPLORING,
         action=Action.NO_HELP,
     )

@@ -11,11 +11,12 @@ from kiosk.config import STAGES, Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import NotRecordedReason, Stage, Status
 from kiosk.experiment.session import RecordingState
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import BEFORE_DECIDING
-from tests.experiment.driver import Driver, driven_to, notes, with_memory
+from tests.experiment.driver import Driver, driven_to, with_memory
 from tests.samples import always, plan
 
 DECIDING = [stage for stage in Stage if stage in BEFORE_DECIDING]
@@ -76,8 +77,8 @@ def test_from_then_on_it_is_kept_and_that_is_said_once(stage: Stage) -> None:
 def test_it_is_kept_with_the_first_stage_past_deciding_whichever_that_is(chosen: SessionConfig, first: Stage) -> None:
     driver = Driver(chosen)
     driver.to(Stage.OVER)
-    (step,) = (step for step in driver.steps if do.StartRecording() in step.commands)
-    entered = [event.stage for event in notes(step.commands) if isinstance(event, happened.StageEntered)]
+    (step,) = (step for step in driver.steps if step.outcome.recording == do.StartRecording())
+    entered = [event.stage for event in step.outcome.events if isinstance(event, happened.StageEntered)]
     assert entered == [first]
     assert driver.view.kept == [do.StartRecording()]
 
@@ -113,7 +114,7 @@ def test_whoever_decides_against_it_plays_all_the_same_and_is_forgotten(
     assert driver.view.kept == [do.DiscardRecording(why)]
     assert driver.session.keeping is RecordingState.FORGOTTEN
     assert driver.view.ended is Status.COMPLETED
-    concluded = (event for step in driver.steps[asked - 1 :] for event in notes(step.commands))
+    concluded = (event for step in driver.steps[asked - 1 :] for event in step.outcome.events)
     later = [event.stage for event in concluded if isinstance(event, happened.StageEntered)]
     assert later == [Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.RESULT, Stage.THANKS, Stage.OVER]
     assert driver.session.measures.pairs == 3
@@ -160,14 +161,14 @@ def test_nobody_is_forgotten_twice(visitor: Callable[[], Driver], how: Status, s
 @pytest.mark.parametrize("stage", list(Stage)[1:-1])
 def test_the_experimenter_can_end_a_session_anywhere(stage: Stage) -> None:
     driver = driven_to(stage)
-    commands = driver.end("a fire drill")
+    outcome = driver.end("a fire drill")
     assert driver.world[-1] == happened.AbortRequested(at_ms=driver.now, reason="a fire drill")
-    assert [type(event).__name__ for event in notes(commands)] == ["StageEntered", "SessionEnded"]
-    assert commands[-1] == do.EndSession(Status.STOPPED)
+    assert [type(event).__name__ for event in outcome.events] == ["StageEntered", "SessionEnded"]
+    assert outcome.events[-1] == happened.SessionEnded(at_ms=driver.now, status=Status.STOPPED)
     assert (driver.stage, driver.running) == (Stage.OVER, {})
 
 
-def unstored_game(condition: Condition, seed: int) -> list[tuple[do.Effect, ...]]:
+def unstored_game(condition: Condition, seed: int) -> list[Outcome]:
     """What somebody who declines sees of a game, flip by flip of the same cards."""
     quotas = {"quotas": {"tom": 1, "no_assistance": 1}, "block": 2}
     driver = Driver(plan(condition, always(Action.SUG_CARD), STAGES, allocation=quotas), seed)
@@ -175,7 +176,7 @@ def unstored_game(condition: Condition, seed: int) -> list[tuple[do.Effect, ...]
     driver.send(happened.ConsentDeclined(at_ms=driver.now))
     driver.to(Stage.GAME)
     driver.play(with_memory(seed))
-    return [step.commands for step in driver.steps]
+    return [step.outcome for step in driver.steps]
 
 
 def test_whoever_declines_plays_in_a_condition_by_chance_that_tells_nothing_of_the_next_visitor_s() -> None:
@@ -183,6 +184,10 @@ def test_whoever_declines_plays_in_a_condition_by_chance_that_tells_nothing_of_t
     for seed in range(8):
         assert unstored_game(Condition.TOM, seed) == unstored_game(Condition.NO_ASSISTANCE, seed)
         games.append(
-            any(isinstance(c, do.HighlightHint) for commands in unstored_game(Condition.TOM, seed) for c in commands)
+            any(
+                isinstance(c, do.HighlightHint)
+                for outcome in unstored_game(Condition.TOM, seed)
+                for c in outcome.effects
+            )
         )
     assert set(games) == {True, False}

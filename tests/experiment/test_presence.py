@@ -91,9 +91,9 @@ def test_any_tap_is_an_answer_too() -> None:
     driver = playing()
     while not driver.view.still_there:
         driver.wait()
-    commands = driver.tap(Position(0, 0))
+    outcome = driver.tap(Position(0, 0))
     assert not driver.view.still_there
-    assert do.StopTimer(Timer.STILL_THERE) in commands
+    assert do.StopTimer(Timer.STILL_THERE) in outcome.effects
     assert Timer.STILL_THERE not in driver.running
 
 
@@ -177,7 +177,7 @@ def at(driver: Driver, event: happened.WorldEvent) -> happened.WorldEvent:
 @pytest.mark.parametrize("event", TAPS, ids=lambda event: type(event).__name__)
 def test_while_the_session_is_paused_a_visitor_can_do_nothing(stage: Stage, event: happened.WorldEvent) -> None:
     driver = driven_to(stage, LASTING)
-    assert do.ShowPause() in driver.pause()
+    assert do.ShowPause() in driver.pause().effects
     steps = len(driver.steps)
     with pytest.raises(InvalidTransition):
         driver.send(at(driver, event))

@@ -1,4 +1,4 @@
-"""The stored events of a session, handled again, give the same commands again."""
+"""The stored events of a session, handled again, give the same outcomes again."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import BoardDealt, WorldEvent, from_record, to_record
-from tests.experiment.driver import Driver, Voice, at_random, notes, replay
+from tests.experiment.driver import Driver, Voice, at_random, replay
 from tests.samples import mixed, plan, whole
 
 
@@ -21,9 +21,9 @@ def session(seed: int, voice: Voice = Voice.SPEAKS, condition: Condition = Condi
 
 @pytest.mark.parametrize("voice", Voice)
 @pytest.mark.parametrize("condition", Condition)
-def test_the_same_events_lead_to_the_same_commands(voice: Voice, condition: Condition) -> None:
+def test_the_same_events_lead_to_the_same_outcome(voice: Voice, condition: Condition) -> None:
     played = session(7, voice, condition)
-    assert replay(played.plan, 7, played.world) == [step.commands for step in played.steps]
+    assert replay(played.plan, 7, played.world) == [step.outcome for step in played.steps]
 
 
 def test_so_do_events_that_were_written_and_read_again() -> None:
@@ -31,7 +31,7 @@ def test_so_do_events_that_were_written_and_read_again() -> None:
     text = json.dumps([to_record(event) for event in played.events])
     stored = [from_record(record) for record in json.loads(text)]
     world = [event for event in stored if isinstance(event, WorldEvent)]
-    assert replay(played.plan, 8, world) == [step.commands for step in played.steps]
+    assert replay(played.plan, 8, world) == [step.outcome for step in played.steps]
 
 
 def test_the_same_seed_and_visitor_make_the_same_session() -> None:
@@ -41,9 +41,9 @@ def test_the_same_seed_and_visitor_make_the_same_session() -> None:
 def test_another_seed_makes_another_session() -> None:
     played = session(10)
     dealt = played.noted(BoardDealt)[0]
-    to_the_board = next(number for number, step in enumerate(played.steps, 1) if dealt in notes(step.commands))
+    to_the_board = next(number for number, step in enumerate(played.steps, 1) if dealt in step.outcome.events)
     other = replay(played.plan, 11, played.world[:to_the_board])
-    assert other != [step.commands for step in played.steps[:to_the_board]]
+    assert other != [step.outcome for step in played.steps[:to_the_board]]
 
 
 def test_two_sessions_of_one_plan_do_not_meet() -> None:

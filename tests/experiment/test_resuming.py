@@ -17,7 +17,7 @@ from kiosk.experiment.questionnaire import ItemOrder
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import InvalidTransition
-from tests.experiment.driver import Driver, Step, Voice, driven_to, notes, replay
+from tests.experiment.driver import Driver, Step, Voice, driven_to, replay
 from tests.experiment.table import miss
 from tests.samples import CLOSING, likert, plan, questionnaire, whole
 
@@ -90,18 +90,19 @@ def test_a_session_that_is_cut_off_anywhere_else_can_be_finished_and_replayed(se
     assert driver.stage is stage
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
-    assert replay(SMALL, SEED, driver.world) == [step.commands for step in driver.steps]
+    assert replay(SMALL, SEED, driver.world) == [step.outcome for step in driver.steps]
     entered = [event.stage for event in driver.noted(happened.StageEntered)]
     once = [stage for index, stage in enumerate(entered) if stage not in entered[:index]]
     assert [stage.value for stage in once] == [*STAGES, "over"]
     assert len(entered) == len(once) + 1
-    assert [command for command in driver.commands if isinstance(command, do.StartRecording)] == [do.StartRecording()]
+    decisions = [step.outcome.recording for step in driver.steps if step.outcome.recording is not None]
+    assert decisions == [do.StartRecording()]
 
 
 def beginning(step: Step) -> list[object]:
     """All that is done as a stage begins, whatever is said in it."""
-    first = max(index for index, command in enumerate(step.commands) if _idle(command))
-    return [type(command) if isinstance(command, do.Speak) else command for command in step.commands[first:]]
+    first = max(index for index, command in enumerate(step.outcome.effects) if _idle(command))
+    return [type(command) if isinstance(command, do.Speak) else command for command in step.outcome.effects[first:]]
 
 
 def _idle(command: do.Effect) -> bool:
@@ -124,7 +125,7 @@ def test_going_on_is_recorded_with_the_body_that_helps_then(stage: Stage) -> Non
     driver = Driver.resumed(SMALL, SEED, past, EmbodimentName.FURHAT)
     step = driver.steps[-1]
     assert step.event == happened.SessionResumed(at_ms=past[-1].at_ms, body=EmbodimentName.FURHAT)
-    assert notes(step.commands)[0] == happened.StageEntered(at_ms=driver.now, stage=stage)
+    assert step.outcome.events[0] == happened.StageEntered(at_ms=driver.now, stage=stage)
 
 
 def test_a_robot_that_was_lost_before_can_be_lost_again_after_going_on() -> None:
@@ -178,7 +179,7 @@ def test_a_pause_is_over_when_the_session_goes_on(stage: Stage) -> None:
     driver = driven_to(stage, SMALL, SEED)
     driver.pause()
     driver = Driver.resumed(SMALL, SEED, driver.world)
-    assert do.HidePause() in driver.steps[-1].commands
+    assert do.HidePause() in driver.steps[-1].outcome.effects
     assert not driver.view.paused
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
@@ -191,9 +192,9 @@ def test_what_ran_and_what_was_asked_before_the_cut_is_stopped(stage: Stage) -> 
     assert driver.view.still_there
     ran = driver.running.keys() - {Timer.IDLE}
     driver = Driver.resumed(SMALL, SEED, driver.world)
-    stopped = {command.timer for command in driver.steps[-1].commands if isinstance(command, do.StopTimer)}
+    stopped = {command.timer for command in driver.steps[-1].outcome.effects if isinstance(command, do.StopTimer)}
     assert stopped >= ran >= {Timer.STILL_THERE}
-    assert do.StopSpeaking() in driver.steps[-1].commands
+    assert do.StopSpeaking() in driver.steps[-1].outcome.effects
     assert not driver.view.still_there
     with pytest.raises(InvalidTransition):
         driver.send(happened.PresenceConfirmed(at_ms=driver.now))
@@ -210,7 +211,7 @@ def test_a_session_that_was_closed_with_the_program_goes_on_where_it_was(stage: 
     closed.to(Stage.OVER)
     assert closed.view.ended is Status.COMPLETED
     assert closed.view.kept == []
-    assert replay(SMALL, SEED, closed.world) == [step.commands for step in closed.steps]
+    assert replay(SMALL, SEED, closed.world) == [step.outcome for step in closed.steps]
 
 
 @pytest.mark.parametrize("stage", [Stage.CONSENT, Stage.GAME])
@@ -255,4 +256,4 @@ def test_a_session_can_be_cut_off_more_than_once() -> None:
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
     assert len([event for event in driver.world if isinstance(event, happened.SessionResumed)]) == 4
-    assert replay(SMALL, SEED, driver.world) == [step.commands for step in driver.steps]
+    assert replay(SMALL, SEED, driver.world) == [step.outcome for step in driver.steps]

@@ -10,10 +10,10 @@ from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.effects import EmitEvent, Mood
+from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.session import Session
-from tests.experiment.driver import Driver, Voice, at_random, driven_to, notes, with_memory
+from tests.experiment.driver import Driver, Voice, at_random, driven_to, with_memory
 from tests.experiment.table import playing, seen
 from tests.samples import ENGLISH, SHORT, always, plan, whole
 
@@ -46,21 +46,19 @@ def test_a_session_comes_to_its_end_whatever_the_body_does(voice: Voice, conditi
     assert driver.view.progress == (12, driver.session.measures.moves)
 
 
-def test_what_is_written_stands_before_what_is_done() -> None:
+def test_what_is_concluded_has_the_time_of_what_it_follows_from() -> None:
     driver = Driver(whole(), 2)
     driver.whole_session(at_random(2))
     for step in driver.steps:
-        kinds = [isinstance(command, EmitEvent) for command in step.commands]
-        assert kinds == sorted(kinds, reverse=True)
-        assert all(event.at_ms == step.event.at_ms for event in notes(step.commands))
+        assert all(event.at_ms == step.event.at_ms for event in step.outcome.events)
 
 
 def test_leaving_a_stage_takes_its_sentence_with_it() -> None:
     driver = Driver(plan(policy=always(Action.NO_HELP)), 2)
     driver.start()
     assert driver.view.bubble in ENGLISH.wordings("introduction-speech", cards=24, pairs=12)
-    commands = driver.go_on()
-    assert commands.index(do.StopSpeaking()) < commands.index(do.ClearBubble())
+    outcome = driver.go_on()
+    assert outcome.effects.index(do.StopSpeaking()) < outcome.effects.index(do.ClearBubble())
     assert seen(driver, "screen", "bubble", "speaking") == ("board", None, None)
 
 
@@ -82,16 +80,16 @@ def test_the_introduction_can_be_left_while_it_is_spoken() -> None:
 
 def test_the_board_is_shown_without_telling_what_lies_where() -> None:
     driver = playing()
-    shown = next(command for command in driver.commands if isinstance(command, do.ShowBoard))
+    shown = next(command for command in driver.effects if isinstance(command, do.ShowBoard))
     assert shown == do.ShowBoard(rows=4, columns=6, pairs=12, deck="animals", practice=False)
 
 
 @pytest.mark.parametrize("stage", UNDERWAY)
 def test_a_program_that_is_closed_interrupts_the_session(stage: Stage) -> None:
     driver = driven_to(stage)
-    commands = driver.send(happened.ApplicationClosed(at_ms=driver.now))
-    assert [type(event).__name__ for event in notes(commands)] == ["StageEntered", "SessionEnded"]
-    assert commands[-1] == do.EndSession(Status.INTERRUPTED)
+    outcome = driver.send(happened.ApplicationClosed(at_ms=driver.now))
+    assert [type(event).__name__ for event in outcome.events] == ["StageEntered", "SessionEnded"]
+    assert outcome.events[-1] == happened.SessionEnded(at_ms=driver.now, status=Status.INTERRUPTED)
     assert (driver.stage, driver.running) == (Stage.OVER, {})
 
 

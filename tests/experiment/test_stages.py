@@ -22,7 +22,7 @@ from kiosk.experiment.transitions import (
     diagram,
     transition,
 )
-from tests.experiment.driver import Driver, Step, driven_to, notes
+from tests.experiment.driver import Driver, Step, driven_to
 from tests.experiment.examples import EXAMPLES
 from tests.samples import plan
 
@@ -267,8 +267,8 @@ def test_a_session_follows_any_course_to_its_end_and_is_kept_once(names: tuple[s
     assert driver.view.ended is Status.COMPLETED
     assert len(driver.view.kept) == 1
     first = next(stage for stage in entered if stage not in BEFORE_DECIDING)
-    kept_in = next(step for step in driver.steps if do.StartRecording() in step.commands)
-    assert happened.StageEntered(at_ms=kept_in.event.at_ms, stage=first) in notes(kept_in.commands)
+    kept_in = next(step for step in driver.steps if step.outcome.recording == do.StartRecording())
+    assert happened.StageEntered(at_ms=kept_in.event.at_ms, stage=first) in kept_in.outcome.events
 
 
 @given(names=courses())

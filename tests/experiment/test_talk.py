@@ -8,6 +8,7 @@ from kiosk.assistance.policy import Action, Gate
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer
 from kiosk.experiment.projections import count_embodiment_changes
 from kiosk.experiment.transitions import InvalidTransition
@@ -16,7 +17,7 @@ from tests.experiment.table import a_pair
 from tests.samples import always, plan, whole
 
 
-def lose(driver: Driver) -> tuple[do.Effect, ...]:
+def lose(driver: Driver) -> Outcome:
     """The robot is lost now."""
     return driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
 
@@ -31,18 +32,17 @@ def hinted(voice: Voice = Voice.SPEAKS) -> Driver:
 def test_the_avatar_says_at_once_what_the_robot_had_not_said() -> None:
     driver = hinted()
     hint = driver.noted(happened.HintGiven)[-1]
-    commands = lose(driver)
-    assert commands == (
-        do.EmitEvent(happened.EmbodimentChanged(at_ms=driver.now, body=EmbodimentName.AVATAR, why="the plug")),
-        do.SwitchEmbodiment(EmbodimentName.AVATAR),
-        do.Speak(hint.utterance, hint.sentence),
+    outcome = lose(driver)
+    assert outcome == Outcome(
+        (happened.EmbodimentChanged(at_ms=driver.now, body=EmbodimentName.AVATAR, why="the plug"),),
+        (do.SwitchEmbodiment(EmbodimentName.AVATAR), do.Speak(hint.utterance, hint.sentence)),
     )
 
 
 def test_what_was_said_already_is_not_said_again() -> None:
     driver = hinted()
     driver.wait_until_open()
-    assert not [command for command in lose(driver) if isinstance(command, do.Speak)]
+    assert not [command for command in lose(driver).effects if isinstance(command, do.Speak)]
 
 
 def test_the_board_opens_when_the_sentence_was_due_whoever_said_it() -> None:
@@ -69,7 +69,7 @@ def test_a_session_that_loses_its_robot_goes_on_to_its_end_and_can_be_replayed(l
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
     assert count_embodiment_changes(driver.events) == 1
-    assert replay(driver.plan, 3, driver.world) == [step.commands for step in driver.steps]
+    assert replay(driver.plan, 3, driver.world) == [step.outcome for step in driver.steps]
 
 
 def test_the_course_of_the_game_is_the_same_with_and_without_the_loss() -> None:
@@ -83,7 +83,7 @@ def test_the_course_of_the_game_is_the_same_with_and_without_the_loss() -> None:
 def test_every_sentence_is_recorded_when_it_is_requested() -> None:
     driver = Driver(whole())
     driver.whole_session(with_memory(1))
-    spoken = [command for command in driver.commands if isinstance(command, do.Speak)]
+    spoken = [command for command in driver.effects if isinstance(command, do.Speak)]
     recorded = {
         event.utterance: event.sentence
         for event in driver.events
@@ -98,13 +98,13 @@ def test_a_robot_that_is_lost_after_a_stage_was_left_says_nothing_of_that_stage_
     driver.skip()
     assert driver.stage is Stage.GAME
     said_before = {event.utterance for event in driver.noted(happened.SentenceRequested)}
-    again = [command.utterance for command in lose(driver) if isinstance(command, do.Speak)]
+    again = [command.utterance for command in lose(driver).effects if isinstance(command, do.Speak)]
     assert not said_before & set(again)
 
 
 def test_silence_is_recorded_and_changes_nothing_of_what_is_said() -> None:
     quiet, heard = hinted(), hinted()
-    assert quiet.send(happened.MuteChanged(at_ms=quiet.now, quiet=True)) == ()
+    assert quiet.send(happened.MuteChanged(at_ms=quiet.now, quiet=True)) == Outcome((), ())
     for driver in (quiet, heard):
         driver.play(with_memory(2))
     assert quiet.noted(happened.HintGiven) == heard.noted(happened.HintGiven)
@@ -130,11 +130,11 @@ def said(stage: Stage) -> Driver:
 @pytest.mark.parametrize("stage", SPEAKING)
 def test_the_last_sentence_is_said_again_under_a_new_number(stage: Stage) -> None:
     driver = said(stage)
-    last = next(command for command in reversed(driver.commands) if isinstance(command, do.Speak))
-    commands = driver.repeat()
-    assert commands == (
-        do.EmitEvent(happened.SentenceRepeated(at_ms=driver.now, of=last.utterance, utterance=last.utterance + 1)),
-        do.Speak(last.utterance + 1, last.sentence),
+    last = next(command for command in reversed(driver.effects) if isinstance(command, do.Speak))
+    outcome = driver.repeat()
+    assert outcome == Outcome(
+        (happened.SentenceRepeated(at_ms=driver.now, of=last.utterance, utterance=last.utterance + 1),),
+        (do.Speak(last.utterance + 1, last.sentence),),
     )
 
 
@@ -194,8 +194,8 @@ def test_a_hint_that_is_said_again_falls_silent_with_its_flip() -> None:
     driver = said(Stage.GAME)
     driver.repeat()
     hint = driver.view.bubble
-    commands = driver.tap(driver.view.closed[0])
-    assert commands.index(do.StopSpeaking()) < commands.index(do.ClearBubble())
+    outcome = driver.tap(driver.view.closed[0])
+    assert outcome.effects.index(do.StopSpeaking()) < outcome.effects.index(do.ClearBubble())
     assert driver.view.bubble != hint
 
 
@@ -216,4 +216,4 @@ def test_the_avatar_goes_on_with_what_the_robot_was_saying_again() -> None:
     driver = said(Stage.GAME)
     driver.repeat()
     again = driver.noted(happened.SentenceRepeated)[0].utterance
-    assert lose(driver)[-1] == do.Speak(again, str(driver.view.bubble))
+    assert lose(driver).effects[-1] == do.Speak(again, str(driver.view.bubble))

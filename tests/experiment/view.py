@@ -1,4 +1,4 @@
-"""What a visitor would see of the commands so far."""
+"""What a visitor would see of the outcomes so far."""
 
 from __future__ import annotations
 
@@ -6,8 +6,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import BoardWait, Effect, Mood
-from kiosk.experiment.events import NotRecordedReason, SessionResumed, SpeechFailed, SpeechFinished, Status, WorldEvent
+from kiosk.experiment.effects import BoardWait, Effect, Mood, Outcome, RecordingDecision
+from kiosk.experiment.events import (
+    NotRecordedReason,
+    SessionEnded,
+    SessionResumed,
+    SpeechFailed,
+    SpeechFinished,
+    Status,
+    WorldEvent,
+)
 from kiosk.experiment.questionnaire import Answer
 from kiosk.game import Position
 
@@ -37,7 +45,7 @@ class View:
     answers: dict[str, Answer] = field(default_factory=dict)
     still_there: bool = False
     paused: bool = False
-    kept: list[do.StartRecording | do.DiscardRecording] = field(default_factory=list)
+    kept: list[RecordingDecision] = field(default_factory=list)
     ended: Status | None = None
 
     @property
@@ -58,18 +66,27 @@ class View:
         if isinstance(event, SessionResumed):
             self.ended = None
 
-    def obey(self, commands: Iterable[Effect]) -> None:
-        """Show what these commands say."""
-        for command in commands:
-            if not (self._show_screen(command) or self._show_board(command) or self._show_other(command)):
-                assert isinstance(command, do.EmitEvent | do.StartTimer | do.StopTimer | do.SwitchEmbodiment), command
+    def follow(self, outcome: Outcome) -> None:
+        """Note what becomes of the session, and show what is to be shown."""
+        if outcome.recording is not None:
+            self.kept.append(outcome.recording)
+        for event in outcome.events:
+            if isinstance(event, SessionEnded):
+                self.ended = event.status
+        self.show(outcome.effects)
 
-    def _show_screen(self, command: Effect) -> bool:  # noqa: C901 - one case per command
-        match command:
+    def show(self, effects: Iterable[Effect]) -> None:
+        """Show what these effects say."""
+        for effect in effects:
+            if not (self._show_screen(effect) or self._show_board(effect) or self._show_other(effect)):
+                assert isinstance(effect, do.StartTimer | do.StopTimer | do.SwitchEmbodiment), effect
+
+    def _show_screen(self, effect: Effect) -> bool:  # noqa: C901 - one case per effect
+        match effect:
             case do.ShowAbout():
                 self.screen = "about"
             case do.ShowConsent():
-                self.screen, self.consent, self.ticks = "consent", command, frozenset()
+                self.screen, self.consent, self.ticks = "consent", effect, frozenset()
             case do.ShowAgeQuestion(adult=adult):
                 self.screen, self.adult = "age", adult
             case do.ShowIntroduction():
@@ -79,9 +96,9 @@ class View:
                 self.rows, self.columns, self.deck = rows, columns, deck
                 self.up, self.found, self.held, self.mark, self.progress = {}, set(), None, None, (0, 0)
             case do.ShowResult():
-                self.screen, self.result = "result", command
+                self.screen, self.result = "result", effect
             case do.ShowItems():
-                self.screen, self.page, self.answers, self.missing = "questions", command, {}, ()
+                self.screen, self.page, self.answers, self.missing = "questions", effect, {}, ()
             case do.ShowDebrief():
                 self.screen = "debrief"
             case do.ShowThanks():
@@ -90,8 +107,8 @@ class View:
                 return False
         return True
 
-    def _show_board(self, command: Effect) -> bool:  # noqa: C901 - one case per command
-        match command:
+    def _show_board(self, effect: Effect) -> bool:  # noqa: C901 - one case per effect
+        match effect:
             case do.RevealCard(position=position, card=card):
                 self.up[position] = card
             case do.HideCards(positions=positions):
@@ -113,8 +130,8 @@ class View:
                 return False
         return True
 
-    def _show_other(self, command: Effect) -> bool:  # noqa: C901, PLR0912 - one case per command
-        match command:
+    def _show_other(self, effect: Effect) -> bool:  # noqa: C901, PLR0912 - one case per effect
+        match effect:
             case do.ShowTicks(purposes=purposes):
                 self.ticks, self.missing = purposes, ()
             case do.ShowValidationErrors(names=names):
@@ -139,10 +156,6 @@ class View:
                 self.paused = True
             case do.HidePause():
                 self.paused = False
-            case do.StartRecording() | do.DiscardRecording():
-                self.kept.append(command)
-            case do.EndSession(status=status):
-                self.ended = status
             case _:
                 return False
         return True

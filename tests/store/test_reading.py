@@ -18,7 +18,7 @@ from kiosk.export.layouts import PsychDs
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from tests.experiment.driver import Driver, notes, with_memory
+from tests.experiment.driver import Driver, with_memory
 from tests.samples import plan
 
 START = happened.SessionStarted(at_ms=0)
@@ -182,9 +182,7 @@ def test_every_session_has_its_own_measures(folder: Path, provenance: Provenance
             driver.to_the_game()
             driver.play(with_memory(seed))
             measures.append(driver.session.measures)
-            recorder.begin(
-                provenance, [event for step in driver.steps for event in (step.event, *notes(step.commands))]
-            )
+            recorder.begin(provenance, [event for step in driver.steps for event in (step.event, *step.outcome.events)])
         with open_repository(folder) as stored:
             assert [session.measures for session in stored.sessions()] == measures
 

@@ -26,7 +26,7 @@ from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
-from tests.experiment.driver import Driver, notes, replay
+from tests.experiment.driver import Driver, replay
 from tests.store.writer import GONE
 
 A_TOMBSTONE = "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
@@ -42,9 +42,9 @@ def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
 def write(recorder: Recorder, provenance: Provenance, played: Driver) -> int:
     """Write a session as it is played: a transaction for every event and what followed from it."""
     first, *others = played.steps
-    number = recorder.begin(provenance, [first.event, *notes(first.commands)]).session
+    number = recorder.begin(provenance, [first.event, *first.outcome.events]).session
     for step in others:
-        recorder.append([step.event, *notes(step.commands)])
+        recorder.append([step.event, *step.outcome.events])
     return number
 
 
@@ -95,7 +95,7 @@ def test_a_stored_session_can_be_replayed_from_the_database_alone(
     with open_repository(folder) as stored:
         plan, seed = stored.plan(number), stored.seed(number)
         world = [event for event in stored.events(number) if isinstance(event, happened.WorldEvent)]
-    assert replay(plan, seed, world) == [step.commands for step in played.steps]
+    assert replay(plan, seed, world) == [step.outcome for step in played.steps]
 
 
 def test_events_are_numbered_from_one_without_a_gap(folder: Path, provenance: Provenance, played: Driver) -> None:

@@ -20,7 +20,7 @@ from kiosk.assistance.policy import (  # noqa: E402
     NO_GATE,
     STATES,
     Action,
-    Outcome,
+    MoveOutcome,
     Phase,
     QTable,
 )
@@ -90,7 +90,7 @@ def test_observations_are_the_rows_of_the_table() -> None:
         state = STATES[observation]
         assert state.game is Phase.of(facts["pairs_found"], 12)
         assert state.last is Action(facts["assistance"])
-        first = state.outcome in (Outcome.F_CORRECT, Outcome.F_WRONG)
+        first = state.outcome in (MoveOutcome.F_CORRECT, MoveOutcome.F_WRONG)
         assert over or first == (facts["flips"] % 2 == 0)
 
 

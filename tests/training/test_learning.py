@@ -12,7 +12,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import NO_GATE, STATES, Action, Outcome, QTable
+from kiosk.assistance.policy import NO_GATE, STATES, Action, MoveOutcome, QTable
 from kiosk.cli.learning import train_command_line
 from kiosk.training import policies
 from kiosk.training.learning import (
@@ -195,14 +195,14 @@ def test_the_learner_and_the_reference_learner_come_to_the_same_values() -> None
 
 def test_with_the_gate_no_first_card_is_asked_about_after_a_match() -> None:
     met = policies.visits(learnt(replace(RETRIEVING, episodes=300)))
-    assert not [state for state in met if state.outcome is Outcome.F_CORRECT]
+    assert not [state for state in met if state.outcome is MoveOutcome.F_CORRECT]
     open_house = policies.visits(learnt(replace(RETRIEVING, episodes=300, gate=NO_GATE)))
-    assert [state for state in open_house if state.outcome is Outcome.F_CORRECT]
+    assert [state for state in open_house if state.outcome is MoveOutcome.F_CORRECT]
 
 
 def test_where_every_flip_is_a_decision_the_visits_still_count_those_with_a_choice() -> None:
     table = learnt(replace(RETRIEVING, episodes=300, decisions=Decisions.EVERY_FLIP))
-    assert not [state for state in policies.visits(table) if state.outcome is Outcome.F_CORRECT]
+    assert not [state for state in policies.visits(table) if state.outcome is MoveOutcome.F_CORRECT]
     assert any(table.row(STATES[0]))
 
 
@@ -254,7 +254,7 @@ def test_the_study_like_table_comes_out_again() -> None:
 
 def test_trained_with_random_targets_the_table_never_names_a_first_card() -> None:
     blind = learnt(replace(RETRIEVING, episodes=3000, target=TargetRule.RANDOM))
-    firsts = [state for state in policies.visits(blind) if state.outcome is Outcome.F_WRONG]
+    firsts = [state for state in policies.visits(blind) if state.outcome is MoveOutcome.F_WRONG]
     assert firsts
     # 3,000 episodes are too few to settle what is rarely met, so the often met states are looked at.
     met = policies.visits(blind)
@@ -272,6 +272,8 @@ def test_two_seeds_of_the_default_recipe_act_alike_where_they_have_been_often() 
     one, other = (learnt(replace(RETRIEVING, episodes=2000, seed=seed)) for seed in (1, 2))
     # 2,000 of the 25,000 episodes settle second cards; docs/learning.md has the agreement of whole tables.
     met = policies.visits(one)
-    often = [state for state in met if state.outcome in (Outcome.S_CORRECT, Outcome.S_WRONG) and met[state] > 2000]
+    often = [
+        state for state in met if state.outcome in (MoveOutcome.S_CORRECT, MoveOutcome.S_WRONG) and met[state] > 2000
+    ]
     assert len(often) >= 6
     assert [state.label for state in often if one.action(state) is not other.action(state)] == []

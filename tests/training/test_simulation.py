@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from kiosk import StoreFailed, UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, Gate, Outcome, PolicyError, QTable, State
+from kiosk.assistance.policy import Action, Gate, MoveOutcome, PolicyError, QTable, State
 from kiosk.cli.evidence import difference
 from kiosk.config import POLICIES
 from kiosk.training import policies, simulation
@@ -117,7 +117,7 @@ def test_assistance_per_flip_is_the_mean_level_of_help() -> None:
 
 def test_led_to_match_counts_first_card_hints_that_were_followed_into_a_match() -> None:
     def second_cards(state: State) -> Action:
-        return Action.SUG_CARD if state.outcome in (Outcome.S_CORRECT, Outcome.S_WRONG) else Action.SUG_ROW
+        return Action.SUG_CARD if state.outcome in (MoveOutcome.S_CORRECT, MoveOutcome.S_WRONG) else Action.SUG_ROW
 
     assert simulate_games(policy_that(second_cards), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] == 1.0
     assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None

@@ -24,7 +24,7 @@ from kiosk.ui.app import App
 from tests.robots.furhat_fake import FAULTS
 from tests.robots.furhat_fake import Mode as Fault
 from tests.ui.headless import headless
-from tests.ui.sabotage import Moment, Outcome, Sabotage, outcome, replayed
+from tests.ui.sabotage import Moment, Result, Sabotage, replayed, result_of
 
 CLICKS = 60
 """A session has about so many clicks."""
@@ -59,12 +59,12 @@ def kiosk_with_robot(port: int, data: Path) -> AbstractContextManager[App]:
     return headless(read_settings(None, "127.0.0.1", port), data)
 
 
-def session(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Outcome:
+def session(app: App, data: Path, robot: Robot, fault: Fault, at: int | Moment) -> Result:
     """One session with one fault."""
     rehearsal = Sabotage(app, 1, lambda: robot.fall_into(fault), at)
     rehearsal.run()
     with open_repository(data) as stored:
-        result = outcome(stored, rehearsal)
+        result = result_of(stored, rehearsal)
         assert replayed(stored, result.session.id) == result.events
     return result
 
@@ -77,7 +77,7 @@ def planned(seeds: int) -> Iterator[tuple[Fault, int | Moment]]:
         yield from ((fault, Random(f"{fault.name}/{seed}").randint(1, CLICKS)) for seed in range(seeds))
 
 
-def line(fault: Fault, at: int | Moment, result: Outcome) -> str:
+def line(fault: Fault, at: int | Moment, result: Result) -> str:
     """A session in one line."""
     counted = result.utterances
     return (

@@ -8,7 +8,7 @@ from enum import Enum
 
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, Status, WorldEvent
 from kiosk.experiment.projections import SpeechCounts, count_embodiment_changes, count_speech
 from kiosk.experiment.session import Session
@@ -62,16 +62,16 @@ class Sabotage(Rehearsal):
                 return shown == "result"
         return self._clicks >= self._at
 
-    def _look(self, event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
-        said = [command.sentence for command in commands if isinstance(command, do.Speak)]
+    def _look(self, event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
+        said = [command.sentence for command in outcome.effects if isinstance(command, do.Speak)]
         if said and self._app.screens.avatar.property("bubble") != said[-1]:
             self.unseen.append(said[-1])
         if self._check is not None:
-            self._check(event, commands, stage)
+            self._check(event, outcome, stage)
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Result:
     """What became of a session."""
 
     session: StoredSession
@@ -103,10 +103,10 @@ class Outcome:
         return [what for what, holds in wrong.items() if holds]
 
 
-def outcome(stored: SessionRepository, rehearsal: Sabotage) -> Outcome:
+def result_of(stored: SessionRepository, rehearsal: Sabotage) -> Result:
     """What became of the last session."""
     session = stored.sessions()[-1]
-    return Outcome(session, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
+    return Result(session, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
 
 
 def replayed(stored: SessionRepository, number: int) -> list[Event]:
@@ -115,8 +115,8 @@ def replayed(stored: SessionRepository, number: int) -> list[Event]:
     again: list[Event] = []
     for event in stored.events(number):
         if isinstance(event, WorldEvent):
-            commands = session.handle(event)
-            again += [event, *(command.event for command in commands if isinstance(command, do.EmitEvent))]
+            outcome = session.handle(event)
+            again += [event, *outcome.events]
     return again
 
 

@@ -105,7 +105,7 @@ def told(reading: Booth) -> list[WorldEvent]:
     """What is recorded from now on, but for waits and voices."""
     events: list[WorldEvent] = []
     kinds = (happened.UserActivity, happened.PresenceConfirmed, happened.IdleTimedOut)
-    reading.app.runner.on_event = lambda event, _commands, _stage: (
+    reading.app.runner.on_event = lambda event, _outcome, _stage: (
         events.append(event) if isinstance(event, kinds) else None
     )
     return events

@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, Status, WorldEvent
 from kiosk.experiment.questionnaire import Multiple, Questionnaire
 from kiosk.game import Position
@@ -306,8 +306,8 @@ def test_a_rehearsal_on_virtual_time_stands_still_meanwhile_so_that_its_record_i
     watch = disturbed.app.runner.on_event
     assert watch is not None
 
-    def watch_and_hold(event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
-        watch(event, commands, stage)
+    def watch_and_hold(event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
+        watch(event, outcome, stage)
         if isinstance(event, happened.CardSelected) and not held:
             held.append(event)
             other.hold()
@@ -332,7 +332,7 @@ def test_the_interface_goes_on_while_another_process_holds_the_database(qtbot: Q
             ticking = QTimer()
             ticking.timeout.connect(lambda: ticks.append(1))
             ticking.start(5)
-            app.runner.tell(happened.ContinuePressed)
+            app.runner.dispatch(happened.ContinuePressed(at_ms=app.runner.now_ms()))
             qtbot.waitUntil(lambda: app.screens.kiosk.covered)
             assert len(ticks) > 20
             assert app.screens.kiosk.shown == "introduction"

@@ -19,7 +19,7 @@ from tests.robots.realtime_fake import Mode as Broken
 from tests.robots.realtime_fake import RealtimeFake
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
-from tests.ui.sabotage import Moment, Outcome, Sabotage, after_loss, outcome, replayed
+from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
 QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 2_000)
@@ -40,12 +40,12 @@ def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
     return make_booth(settings=short(robot=robot))
 
 
-def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Outcome:
+def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Result:
     """A session in which the robot falls into this mode; it must be whole, and replay as it was."""
     rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), at)
     rehearsal.run()
     with open_repository(booth.data) as stored:
-        result = outcome(stored, rehearsal)
+        result = result_of(stored, rehearsal)
         assert replayed(stored, result.session.id) == result.events
     assert result.faults() == []
     return result
@@ -98,7 +98,7 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()
         with open_repository(booth.data) as stored:
-            result = outcome(stored, rehearsal)
+            result = result_of(stored, rehearsal)
         booth.app.embodiments.close()
     assert result.faults() == []
     assert result.body_changes == 1
@@ -110,7 +110,7 @@ def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake
     rehearsal = Sabotage(booth.app, 1, lambda: None, 1)
     rehearsal.run()
     with open_repository(booth.data) as stored:
-        events = outcome(stored, rehearsal).events
+        events = result_of(stored, rehearsal).events
     hint = [event for event in events if isinstance(event, happened.HintGiven)][2]
     started = next(event for event in after_loss(events) if isinstance(event, happened.SpeechStarted))
     lost = next(event for event in events if isinstance(event, happened.RobotDisconnected))

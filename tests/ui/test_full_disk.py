@@ -61,8 +61,9 @@ def write_until(booth: Booth, over: Callable[[], bool]) -> None:
     for _ in count():
         if over():
             return
-        for event in (happened.PauseRequested, happened.PauseEnded):
-            booth.app.runner.tell(event)
+        runner = booth.app.runner
+        for kind in (happened.PauseRequested, happened.PauseEnded):
+            runner.dispatch(kind(at_ms=runner.now_ms()))
 
 
 @pytest.mark.parametrize("stage", KEPT, ids=lambda stage: stage.value)

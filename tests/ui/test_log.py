@@ -68,9 +68,9 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
         check = booth.app.runner.on_event
         assert check is not None
 
-        def watch(event: object, commands: object, stage: Stage) -> None:
-            memory.note(booth.app, event, commands)  # type: ignore[arg-type]  # as the runner tells them
-            check(event, commands, stage)  # type: ignore[arg-type]
+        def watch(event: object, outcome: object, stage: Stage) -> None:
+            memory.note(booth.app, event, outcome)  # type: ignore[arg-type]  # as the runner tells them
+            check(event, outcome, stage)  # type: ignore[arg-type]
             if stage is Stage.THANKS:
                 booth.app.quit()
 

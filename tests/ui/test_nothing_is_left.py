@@ -12,7 +12,7 @@ from PySide6.QtCore import QAbstractListModel, QObject
 from PySide6.QtQuick import QQuickItem
 
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import ResponseGiven, Stage, StageEntered, WorldEvent
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
@@ -78,9 +78,9 @@ class Memory:
     typed: set[str] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
 
-    def note(self, app: App, event: WorldEvent, commands: tuple[Effect, ...]) -> None:
+    def note(self, app: App, event: WorldEvent, outcome: Outcome) -> None:
         """Keep what comes of an event."""
-        self.sentences |= {command.sentence for command in commands if isinstance(command, do.Speak)}
+        self.sentences |= {command.sentence for command in outcome.effects if isinstance(command, do.Speak)}
         if isinstance(event, ResponseGiven) and event.item == "remark" and isinstance(event.value, str):
             self.typed.add(event.value)
         if app.screens.debrief.property("code"):
@@ -102,13 +102,13 @@ class Watched(Rehearsal):
         self._go_on_watching = app.runner.on_event
         app.runner.on_event = self._search
 
-    def _search(self, event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
-        self.own.note(self._app, event, commands)
-        if any(isinstance(c, do.EmitEvent) and isinstance(c.event, StageEntered) for c in commands):
+    def _search(self, event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
+        self.own.note(self._app, event, outcome)
+        if any(isinstance(concluded, StageEntered) for concluded in outcome.events):
             shown = texts(self._app)
             self.left += [(stage.value, text) for text in self._last.all() - self.own.all() if text in shown]
         assert self._go_on_watching is not None
-        self._go_on_watching(event, commands, stage)
+        self._go_on_watching(event, outcome, stage)
 
 
 def visitors(seed: int) -> Iterator[BehaviourProfile]:

@@ -97,7 +97,7 @@ def test_the_screens_go_through_every_stage(replay: Replay) -> None:
 
 
 def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[ReplayStep, ...]) -> None:
-    flip = next(i for i, step in enumerate(steps) if any(isinstance(c, RevealCard) for c in step.commands))
+    flip = next(i for i, step in enumerate(steps) if any(isinstance(c, RevealCard) for c in step.outcome.effects))
     replay.player.go_to(flip)
     before = seen(replay)
     replay.player.step()

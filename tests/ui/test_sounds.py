@@ -20,7 +20,7 @@ TURN = do.RevealCard(HERE, "owl")
 
 
 @pytest.mark.parametrize(
-    ("commands", "sound"),
+    ("effects", "sound"),
     [
         ((TURN, do.UnlockBoard()), SoundEffect.FLIP),
         ((TURN, do.MarkMatched((HERE, HERE)), do.UnlockBoard()), SoundEffect.MATCH),
@@ -31,9 +31,9 @@ TURN = do.RevealCard(HERE, "owl")
     ],
 )
 def test_what_happens_has_one_sound_and_none_while_somebody_speaks(
-    commands: tuple[do.Effect, ...], sound: SoundEffect | None
+    effects: tuple[do.Effect, ...], sound: SoundEffect | None
 ) -> None:
-    assert sound_for(commands) is sound
+    assert sound_for(effects) is sound
 
 
 @pytest.mark.parametrize("sound", SoundEffect)

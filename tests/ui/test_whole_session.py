@@ -10,7 +10,7 @@ import pytest
 from kiosk.config import STAGES, Settings
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.effects import Effect
+from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import NotRecordedReason, Stage, Status, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.store.queries import open_repository
@@ -56,9 +56,10 @@ def test_who_declines_or_is_too_young_plays_to_the_end_and_nothing_is_stored_of_
     watch = booth.app.runner.on_event
     assert watch is not None
 
-    def look(event: WorldEvent, commands: tuple[Effect, ...], stage: Stage) -> None:
-        why_not.extend(command.why for command in commands if isinstance(command, do.DiscardRecording))
-        watch(event, commands, stage)
+    def look(event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
+        if isinstance(outcome.recording, do.DiscardRecording):
+            why_not.append(outcome.recording.why)
+        watch(event, outcome, stage)
 
     booth.app.runner.on_event = look
     rehearsal.run()
@@ -112,8 +113,8 @@ def test_a_stored_session_handled_again_gives_the_same_records(booth: Booth) -> 
     replayed: list[happened.Event] = []
     for event in events:
         if isinstance(event, WorldEvent):
-            commands = again.handle(event)
-            replayed += [event, *(command.event for command in commands if isinstance(command, do.EmitEvent))]
+            outcome = again.handle(event)
+            replayed += [event, *outcome.events]
     assert replayed == events
 
 

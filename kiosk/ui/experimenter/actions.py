@@ -307,14 +307,15 @@ class ActionController:
     # What holds at once
 
     def _again(self, _choice: str, _reason: str) -> None:
-        self._tell_session(happened.RepeatRequested)
+        self._dispatch(happened.RepeatRequested(at_ms=self._booth.runner.now_ms()))
 
     def _quiet(self, _choice: str, _reason: str) -> None:
         embodiments = self._booth.embodiments
         quiet = not embodiments.is_muted
         if not self._written(AuditEvent.SOUND_CHANGED, {"quiet": quiet}):
             return
-        self._booth.runner.tell(happened.MuteChanged, quiet=quiet)
+        runner = self._booth.runner
+        runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), quiet=quiet))
         if quiet:
             embodiments.mute()
         else:
@@ -323,26 +324,29 @@ class ActionController:
 
     def _pause(self, _choice: str, _reason: str) -> None:
         runner = self._booth.runner
-        if runner.accepts(happened.PauseRequested):
-            runner.tell(happened.PauseRequested)
+        pause = happened.PauseRequested(at_ms=runner.now_ms())
+        if runner.accepts(pause):
+            runner.dispatch(pause)
         elif self._panel_is_open:
             # It stays as it is as long as the panel is open; what changes is what comes after.
             self.paused_by_panel = not self.paused_by_panel
         else:
-            self._tell_session(happened.PauseEnded)
+            self._dispatch(happened.PauseEnded(at_ms=runner.now_ms()))
 
     def _end(self, _choice: str, reason: str) -> None:
         # What was typed of a visitor stands with their session alone, and goes with it, or was never to be kept.
         kind = DeviationReason.without_words(reason)
         if self._written(AuditEvent.SESSION_ABORTED, {"stage": self.stage.value, "reason": kind}):
-            self._booth.runner.tell(happened.AbortRequested, reason=reason)
+            runner = self._booth.runner
+            runner.dispatch(happened.AbortRequested(at_ms=runner.now_ms(), reason=reason))
 
     def _next(self, _choice: str, reason: str) -> None:
         match self.stage:
             case Stage.OVER:
                 self._booth.runner.go_on()
             case Stage.THANKS:
-                self._booth.runner.tell(happened.NextParticipantRequested)
+                runner = self._booth.runner
+                runner.dispatch(happened.NextParticipantRequested(at_ms=runner.now_ms()))
             case _:
                 self._end("", reason)
 
@@ -390,16 +394,19 @@ class ActionController:
         """Let the session go on, unless it was stopped before or is to stay so."""
         self._panel_is_open = False
         paused, self.paused_by_panel = self.paused_by_panel, False
-        if paused and self._booth.runner.accepts(happened.PauseEnded):
-            self._booth.runner.tell(happened.PauseEnded)
+        runner = self._booth.runner
+        go_on = happened.PauseEnded(at_ms=runner.now_ms())
+        if paused and runner.accepts(go_on):
+            runner.dispatch(go_on)
 
     _panel_is_open = False
 
     def _hold_for_panel(self) -> None:
         runner = self._booth.runner
-        if self._panel_is_open and runner.accepts(happened.PauseRequested):
+        pause = happened.PauseRequested(at_ms=runner.now_ms())
+        if self._panel_is_open and runner.accepts(pause):
             self.paused_by_panel = True
-            runner.tell(happened.PauseRequested)
+            runner.dispatch(pause)
 
     @property
     def resting(self) -> bool:
@@ -409,7 +416,8 @@ class ActionController:
     def _begun(self) -> None:
         """A session that begins in silence says so."""
         if self._booth.embodiments.is_muted:
-            self._booth.runner.tell(happened.MuteChanged, quiet=True)
+            runner = self._booth.runner
+            runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), quiet=True))
         self.changed()
 
     def _rested(self) -> None:
@@ -419,10 +427,10 @@ class ActionController:
         self._upkeep.on_idle()
         self.changed()
 
-    def _tell_session(self, kind: type[happened.WorldEvent]) -> None:
+    def _dispatch(self, event: happened.WorldEvent) -> None:
         runner = self._booth.runner
-        if runner.accepts(kind):
-            runner.tell(kind)
+        if runner.accepts(event):
+            runner.dispatch(event)
         else:
             self.tell("console-not-now")
 

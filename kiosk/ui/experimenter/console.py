@@ -265,7 +265,8 @@ class Panel:
             "volume": str(min(LOUDNESS, key=lambda volume: abs(volume - actions.volume))),
             "canBeNext": permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
             "quiet": embodiments.is_muted,
-            "staysPaused": booth.runner.accepts(PauseEnded) and not actions.paused_by_panel,
+            "staysPaused": booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms()))
+            and not actions.paused_by_panel,
             "backup": told("console-backup-busy")
             if self._upkeep.busy
             else told("console-backup-waits")

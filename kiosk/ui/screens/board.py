@@ -111,9 +111,10 @@ class BoardScreen(QAbstractListModel):
 
     def reveal(self, position: Position, card: str) -> None:
         """Show one card's picture."""
-        self._face(position).card = card
-        self._face(position).up = True
-        self._tell(position)
+        face = self._face(position)
+        face.card, face.up = card, True
+        index = self.index(self.location(position))
+        self.dataChanged.emit(index, index)
 
     def hide(self, positions: tuple[Position, ...]) -> None:
         """Close these cards."""

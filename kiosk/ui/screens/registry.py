@@ -23,11 +23,19 @@ from kiosk.ui.screens.questionnaire import FormScreen
 from kiosk.ui.screens.shell import AttractScreen, KioskScreen
 
 
-class Dispatch(Protocol):
-    """Takes an event of this kind, with what belongs to it."""
+class InputHandler(Protocol):
+    """Takes what visitors do to the screens."""
 
-    def __call__(self, kind: type[WorldEvent], **what: object) -> None:
-        """Something happened just now."""
+    def now_ms(self) -> int:
+        """Return the time of an event that happens now, in ms since the session began."""
+        ...
+
+    def start(self, language: str) -> None:
+        """Begin a session in this language."""
+        ...
+
+    def dispatch(self, event: WorldEvent) -> None:
+        """Have the session handle an event."""
         ...
 
 
@@ -104,22 +112,27 @@ class ScreenSet:
             screen.clear()
         self.set_language(self.resting)
 
-    def listen(self, start: Callable[[str], None], tell: Dispatch) -> None:
-        """Hand on what visitors do: ``start`` takes the language of a new one, ``tell`` everything after that."""
-        self.attract.started.connect(start)
-        self.kiosk.confirmed.connect(partial(tell, happened.PresenceConfirmed))
+    def connect_input(self, to: InputHandler) -> None:
+        """Hand on what visitors do: the language of a new one, and an event for everything after that."""
+        dispatch, now_ms = to.dispatch, to.now_ms
+        self.attract.started.connect(to.start)
+        self.kiosk.confirmed.connect(lambda: dispatch(happened.PresenceConfirmed(at_ms=now_ms())))
         self.consent.ticked.connect(
-            lambda purpose, ticked: tell(happened.ConsentPurposeToggled, purpose=purpose, ticked=ticked)
+            lambda purpose, ticked: dispatch(
+                happened.ConsentPurposeToggled(at_ms=now_ms(), purpose=purpose, ticked=ticked)
+            )
         )
-        self.consent.agreed.connect(partial(tell, happened.ConsentSubmitted))
-        self.consent.declined.connect(partial(tell, happened.ConsentDeclined))
-        self.age.answered.connect(lambda adult: tell(happened.AgeConfirmed, adult=adult))
-        self.form.typed.connect(partial(tell, happened.TypingActivity))
-        self.form.answered.connect(lambda item, value: tell(happened.ResponseGiven, item=item, value=value))
-        self.board.tapped.connect(lambda position: tell(happened.CardSelected, position=position))
-        self.board.skipped.connect(partial(tell, happened.PracticeSkipped))
+        self.consent.agreed.connect(lambda: dispatch(happened.ConsentSubmitted(at_ms=now_ms())))
+        self.consent.declined.connect(lambda: dispatch(happened.ConsentDeclined(at_ms=now_ms())))
+        self.age.answered.connect(lambda adult: dispatch(happened.AgeConfirmed(at_ms=now_ms(), adult=adult)))
+        self.form.typed.connect(lambda: dispatch(happened.TypingActivity(at_ms=now_ms())))
+        self.form.answered.connect(
+            lambda item, value: dispatch(happened.ResponseGiven(at_ms=now_ms(), item=item, value=value))
+        )
+        self.board.tapped.connect(lambda position: dispatch(happened.CardSelected(at_ms=now_ms(), position=position)))
+        self.board.skipped.connect(lambda: dispatch(happened.PracticeSkipped(at_ms=now_ms())))
         for screen in (self.about, self.form, self.introduction, self.result, self.debrief, self.thanks):
-            screen.continued.connect(partial(tell, happened.ContinuePressed))
+            screen.continued.connect(lambda: dispatch(happened.ContinuePressed(at_ms=now_ms())))
 
 
 def _pictures(study: StudyConfig, folder_of: Callable[[str], Path]) -> list[str]:

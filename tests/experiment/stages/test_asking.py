@@ -46,7 +46,7 @@ def test_the_questions_come_one_by_one() -> None:
             at_ms=driver.now, questionnaire="closing", items=(item,)
         )
         assert driver.view.answers == {}
-        assert driver.answer(5)[-1] == do.ShowAnswer(item, 5)
+        assert driver.answer(5).effects[-1] == do.ShowAnswer(item, 5)
         driver.answer(number)
         assert driver.view.answers == {item: number}
         driver.go_on()
@@ -155,7 +155,7 @@ def test_an_answer_can_be_changed_and_taken_back(item: Item) -> None:
     driver.answer(some_answer(item), item.id)
     driver.answer(some_answer(item), item.id)
     assert driver.view.answers == {item.id: some_answer(item)}
-    assert driver.answer(None, item.id)[-1] == do.ShowAnswer(item.id, None)
+    assert driver.answer(None, item.id).effects[-1] == do.ShowAnswer(item.id, None)
     assert driver.view.answers == {}
     driver.answer(None, item.id)
     driver.go_on()
@@ -169,10 +169,10 @@ def test_an_answer_can_be_changed_and_taken_back(item: Item) -> None:
 def test_a_required_item_holds_its_page_and_is_named(item: Item) -> None:
     driver = asking(item.model_copy(update={"required": True}), PAGE)
     for _ in range(2):
-        assert driver.go_on()[-1] == do.ShowValidationErrors((item.id,))
+        assert driver.go_on().effects[-1] == do.ShowValidationErrors((item.id,))
     driver.answer(some_answer(item), item.id)
     driver.answer(None, item.id)
-    assert driver.go_on()[-1] == do.ShowValidationErrors((item.id,))
+    assert driver.go_on().effects[-1] == do.ShowValidationErrors((item.id,))
     driver.answer(some_answer(item), item.id)
     driver.go_on()
     assert driver.view.page == do.ShowItems((PAGE,), 2, 2)
@@ -183,7 +183,7 @@ def test_an_answer_that_says_nothing_is_none(name: str, nothing: Answer) -> None
     item = next(item for item in GALLERY if item.id == name)
     driver = asking(item.model_copy(update={"required": True}))
     driver.answer(nothing, name)
-    assert driver.go_on()[-1] == do.ShowValidationErrors((name,))
+    assert driver.go_on().effects[-1] == do.ShowValidationErrors((name,))
     assert driver.stage is Stage.QUESTIONS
 
 
@@ -191,9 +191,9 @@ def test_only_what_is_missing_is_named_in_the_order_of_the_page() -> None:
     one, two, three, four = (likert(name, required=name != "three") for name in ("one", "two", "three", "four"))
     driver = asking(one, two, three, four, per_page=4)
     driver.answer(2, "two")
-    assert driver.go_on()[-1] == do.ShowValidationErrors(("one", "four"))
+    assert driver.go_on().effects[-1] == do.ShowValidationErrors(("one", "four"))
     driver.answer(1, "one")
-    assert driver.go_on()[-1] == do.ShowValidationErrors(("four",))
+    assert driver.go_on().effects[-1] == do.ShowValidationErrors(("four",))
     driver.answer(4, "four")
     driver.go_on()
     assert driver.stage is Stage.OVER
@@ -298,7 +298,7 @@ def test_questionnaires_come_one_after_another_and_share_no_page() -> None:
 def test_the_questions_about_the_visitor_are_asked_in_the_same_way() -> None:
     driver = driven_to(Stage.ABOUT_YOU)
     assert driver.view.page == do.ShowItems(ABOUT_YOU.items[:3], 1, 2)
-    assert driver.go_on()[-1] == do.ShowValidationErrors(("age",))
+    assert driver.go_on().effects[-1] == do.ShowValidationErrors(("age",))
     driver.answer(31, "age")
     driver.answer(("es", "en"), "languages")
     driver.go_on()

@@ -40,7 +40,7 @@ def asked_for_more() -> Driver:
 
 def test_what_the_study_is_about_comes_first() -> None:
     driver = driven_to(Stage.ABOUT)
-    assert do.ShowAbout(INFORMATION.about) in driver.commands
+    assert do.ShowAbout(INFORMATION.about) in driver.effects
 
 
 def test_no_purpose_is_ticked_beforehand() -> None:
@@ -51,10 +51,10 @@ def test_no_purpose_is_ticked_beforehand() -> None:
 
 def test_consent_cannot_be_given_without_what_is_required() -> None:
     driver = driven_to(Stage.CONSENT)
-    assert driver.agree()[-1] == do.ShowValidationErrors(("store",))
+    assert driver.agree().effects[-1] == do.ShowValidationErrors(("store",))
     driver.tick("share")
     assert driver.view.missing == ()
-    assert driver.agree()[-1] == do.ShowValidationErrors(("store",))
+    assert driver.agree().effects[-1] == do.ShowValidationErrors(("store",))
     assert driver.noted(happened.ConsentGiven) == []
     assert driver.view.screen == "consent"
     driver.tick("store")
@@ -64,9 +64,9 @@ def test_consent_cannot_be_given_without_what_is_required() -> None:
 
 def test_everything_that_is_missing_is_named_in_the_order_of_the_sheet() -> None:
     driver = asked_for_more()
-    assert driver.agree()[-1] == do.ShowValidationErrors(("take_part", "store"))
+    assert driver.agree().effects[-1] == do.ShowValidationErrors(("take_part", "store"))
     driver.tick("store")
-    assert driver.agree()[-1] == do.ShowValidationErrors(("take_part",))
+    assert driver.agree().effects[-1] == do.ShowValidationErrors(("take_part",))
 
 
 def test_a_tick_can_be_taken_back() -> None:
@@ -75,7 +75,7 @@ def test_a_tick_can_be_taken_back() -> None:
     assert driver.view.ticks == {"store", "share"}
     driver.tick("store", ticked=False)
     assert driver.view.ticks == {"share"}
-    assert driver.agree()[-1] == do.ShowValidationErrors(("store",))
+    assert driver.agree().effects[-1] == do.ShowValidationErrors(("store",))
     driver.tick("store", "store")
     driver.tick("share", ticked=False)
     driver.tick("share", ticked=False)

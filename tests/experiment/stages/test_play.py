@@ -11,7 +11,7 @@ from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.effects import BoardWait, EmitEvent, Mood
+from kiosk.experiment.effects import BoardWait, Mood, Outcome
 from kiosk.experiment.events import Stage, Timer
 from kiosk.game import FlipRejection, Position
 from tests.experiment.driver import SPEECH_LAG, SPEECH_TIME, Driver, Voice, at_random, with_memory
@@ -28,10 +28,10 @@ ONLY_SECOND = always(Action.SUG_CARD, Gate(opening=0, patience=99, first_patienc
 
 def test_a_tap_turns_a_card_up() -> None:
     driver = playing()
-    commands = driver.flip(Position(1, 2))
+    outcome = driver.flip(Position(1, 2))
     flipped = driver.noted(happened.CardFlipped)[0]
     assert (flipped.number, flipped.move, flipped.position, flipped.matched) == (1, 1, Position(1, 2), None)
-    assert do.RevealCard(Position(1, 2), flipped.card) in commands
+    assert do.RevealCard(Position(1, 2), flipped.card) in outcome.effects
     assert driver.view.held is None
 
 
@@ -39,10 +39,10 @@ def test_a_pair_is_shown_and_the_board_stays_open() -> None:
     driver = playing()
     first, mate = a_pair(driver)
     driver.flip(first)
-    commands = driver.flip(mate)
+    outcome = driver.flip(mate)
     assert driver.noted(happened.CardFlipped)[1].matched is True
-    assert do.MarkMatched((mate, first)) in commands
-    assert do.ShowProgress(1, 1) in commands
+    assert do.MarkMatched((mate, first)) in outcome.effects
+    assert do.ShowProgress(1, 1) in outcome.effects
     assert seen(driver, "found", "held") == ({first, mate}, None)
     assert driver.running.keys() == {Timer.IDLE}
 
@@ -52,14 +52,14 @@ def test_two_different_cards_are_shown_for_a_while_and_turn_back() -> None:
     first, second = miss(driver)
     assert driver.view.held is BoardWait.TURNING_BACK
     shown_at = driver.now
-    commands = driver.wait()
+    outcome = driver.wait()
     assert (driver.now, driver.world[-1]) == (
         shown_at + 1500,
         happened.TimerExpired(at_ms=shown_at + 1500, timer=Timer.TURN_BACK),
     )
-    assert commands.index(do.HideCards((first, second))) < commands.index(do.UnlockBoard())
+    assert outcome.effects.index(do.HideCards((first, second))) < outcome.effects.index(do.UnlockBoard())
     assert seen(driver, "held", "up") == (None, {})
-    assert do.ShowProgress(0, 1) in driver.commands
+    assert do.ShowProgress(0, 1) in driver.effects
 
 
 @pytest.mark.parametrize("which", ["open", "closed"])
@@ -68,9 +68,9 @@ def test_taps_while_two_cards_turn_back_are_ignored(which: str) -> None:
     first, second = miss(driver)
     place = first if which == "open" else another(driver, first, second)
     before = driver.session.measures
-    assert driver.tap(place) == (
-        EmitEvent(happened.CardSelectionRejected(at_ms=driver.now, position=place, why=FlipRejection.TURNING_BACK)),
-        do.StartTimer(Timer.IDLE, 120_000),
+    assert driver.tap(place) == Outcome(
+        (happened.CardSelectionRejected(at_ms=driver.now, position=place, why=FlipRejection.TURNING_BACK),),
+        (do.StartTimer(Timer.IDLE, 120_000),),
     )
     assert driver.session.measures == before
     driver.wait_until_open()
@@ -173,7 +173,7 @@ def test_without_assistance_nothing_is_decided_and_nothing_said() -> None:
     driver.play(with_memory(1))
     assert not driver.noted(happened.AssistanceDecided)
     assert not driver.noted(happened.HintGiven)
-    spoken = [command for command in driver.commands if isinstance(command, do.Speak)]
+    spoken = [command for command in driver.effects if isinstance(command, do.Speak)]
     assert len(spoken) == 2
 
 
@@ -189,9 +189,9 @@ def test_taps_while_the_assistant_speaks_are_ignored() -> None:
     driver = playing(Action.SUG_CARD)
     before = driver.session.measures
     for place in (Position(0, 0), Position(-5, 0)):
-        assert driver.tap(place) == (
-            EmitEvent(happened.CardSelectionRejected(at_ms=driver.now, position=place, why=None)),
-            do.StartTimer(Timer.IDLE, 120_000),
+        assert driver.tap(place) == Outcome(
+            (happened.CardSelectionRejected(at_ms=driver.now, position=place, why=None),),
+            (do.StartTimer(Timer.IDLE, 120_000),),
         )
     assert driver.session.measures == before
     assert driver.view.held is BoardWait.SPEAKING
@@ -239,8 +239,8 @@ def test_no_flip_can_be_made_in_ignorance_of_the_mark(voice: Voice, delay: int) 
     assert marked == {event.flip for event in driver.noted(happened.HintGiven)}
     assert len(driver.noted(happened.HintHighlighted)) == len(marked) == len(driver.noted(happened.BoardUnlocked))
     view = View()
-    for command in driver.commands:
-        view.obey([command])
+    for command in driver.effects:
+        view.show([command])
         if isinstance(command, do.UnlockBoard) and view.bubble:
             assert view.mark is not None
     names = [type(event).__name__ for event in driver.events]
@@ -255,17 +255,17 @@ def test_the_next_flip_clears_the_mark_and_the_bubble() -> None:
     driver.flip(first)
     driver.wait_until_open()
     assert driver.view.mark == (mate.row, mate.column)
-    commands = driver.flip(mate)
-    up = next(command for command in commands if isinstance(command, do.RevealCard))
-    assert commands.index(do.ClearHighlight()) < commands.index(up)
-    assert commands.index(do.ClearBubble()) < commands.index(up)
+    outcome = driver.flip(mate)
+    up = next(command for command in outcome.effects if isinstance(command, do.RevealCard))
+    assert outcome.effects.index(do.ClearHighlight()) < outcome.effects.index(up)
+    assert outcome.effects.index(do.ClearBubble()) < outcome.effects.index(up)
     assert seen(driver, "mark", "bubble") == (None, None)
 
 
 def test_a_flip_without_a_hint_clears_nothing() -> None:
-    commands = playing().flip(Position(0, 0))
-    assert do.ClearHighlight() not in commands
-    assert do.ClearBubble() not in commands
+    outcome = playing().flip(Position(0, 0))
+    assert do.ClearHighlight() not in outcome.effects
+    assert do.ClearBubble() not in outcome.effects
 
 
 # The body
@@ -303,11 +303,11 @@ def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() 
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait_until_open()
     assert driver.now == given_at + max(1000, 100 * len(sentence))
-    assert driver.steps[-1].commands[0:2] == (
-        EmitEvent(happened.HintHighlighted(at_ms=driver.now, flip=1)),
-        EmitEvent(happened.BoardUnlocked(at_ms=driver.now)),
+    assert driver.steps[-1].outcome.events == (
+        happened.HintHighlighted(at_ms=driver.now, flip=1),
+        happened.BoardUnlocked(at_ms=driver.now),
     )
-    assert do.StopSpeaking() in driver.steps[-1].commands
+    assert do.StopSpeaking() in driver.steps[-1].outcome.effects
     assert driver.view.bubble == sentence
 
 
@@ -320,7 +320,7 @@ def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
         happened.SpeechFinished(at_ms=driver.now, utterance=2),
         happened.SpeechFailed(at_ms=driver.now, utterance=2, why="late"),
     ):
-        assert driver.send(event) == ()
+        assert driver.send(event) == Outcome((), ())
     assert driver.view == late
 
 
@@ -333,7 +333,7 @@ def test_another_sentence_s_end_does_not_open_the_board(utterance: int) -> None:
         happened.SpeechFinished(at_ms=driver.now, utterance=utterance),
         happened.SpeechFailed(at_ms=driver.now, utterance=utterance, why="no sound"),
     ):
-        assert driver.send(event) == ()
+        assert driver.send(event) == Outcome((), ())
     assert driver.view.held is BoardWait.SPEAKING
 
 
@@ -376,7 +376,7 @@ def test_a_second_flip_without_a_hint_leaves_the_face_as_it_is() -> None:
     begun = len(driver.steps)
     for place in a_pair(driver):
         driver.flip(place)
-    played = [command for step in driver.steps[begun:] for command in step.commands]
+    played = [command for step in driver.steps[begun:] for command in step.outcome.effects]
     assert played
     assert not [command for command in played if isinstance(command, do.SetExpression)]
 

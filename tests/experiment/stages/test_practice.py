@@ -12,7 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, PracticeEnd, Stage, Timer
 from kiosk.experiment.projections import Measures
-from tests.experiment.driver import Driver, driven_to, notes, with_memory
+from tests.experiment.driver import Driver, driven_to, with_memory
 from tests.experiment.table import a_pair, another, miss
 from tests.samples import ANIMALS, FRUIT, always, whole
 
@@ -35,7 +35,7 @@ def within(driver: Driver, stage: Stage) -> list[Event]:
 
 def test_it_has_a_board_and_a_deck_of_its_own() -> None:
     driver = practising()
-    assert do.ShowBoard(rows=3, columns=4, pairs=6, deck="fruit", practice=True) in driver.steps[-1].commands
+    assert do.ShowBoard(rows=3, columns=4, pairs=6, deck="fruit", practice=True) in driver.steps[-1].outcome.effects
     assert driver.view.screen == "practice"
     dealt = driver.noted(happened.BoardDealt)[-1]
     assert set(dealt.cards) == set(FRUIT)
@@ -173,5 +173,5 @@ def test_how_long_somebody_practised_changes_nothing_of_the_game(much: int) -> N
 
 def test_its_end_is_recorded_before_the_game_begins() -> None:
     driver = practising()
-    kinds = [type(event).__name__ for event in notes(driver.skip())]
+    kinds = [type(event).__name__ for event in driver.skip().events]
     assert kinds[:3] == ["PracticeFinished", "StageEntered", "BoardDealt"]

@@ -49,7 +49,7 @@ def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> Non
 def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None:
     driver = driven_to(Stage.INTRODUCTION, whole(condition))
     helped = condition is not Condition.NO_ASSISTANCE
-    assert do.ShowIntroduction(helped=helped) in driver.steps[-1].commands
+    assert do.ShowIntroduction(helped=helped) in driver.steps[-1].outcome.effects
     speech = "introduction-speech" if helped else "introduction-speech-alone"
     assert driver.view.bubble in ENGLISH.wordings(speech, cards=24, pairs=12)
 
@@ -59,7 +59,7 @@ def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None
 
 def test_the_study_is_explained_before_the_thanks() -> None:
     driver = driven_to(Stage.DEBRIEF)
-    assert do.ShowDebrief(INFORMATION.debrief) in driver.steps[-1].commands
+    assert do.ShowDebrief(INFORMATION.debrief) in driver.steps[-1].outcome.effects
     assert driver.view.mood is Mood.IDLE
     driver.go_on()
     assert (driver.stage, driver.view.mood) == (Stage.THANKS, Mood.HAPPY)

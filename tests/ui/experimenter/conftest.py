@@ -132,16 +132,16 @@ class Desk(Booth):
                 runner.start("en")
             case Stage.CONSENT:
                 for purpose in self.purposes:
-                    runner.tell(happened.ConsentPurposeToggled, purpose=purpose, ticked=True)
-                runner.tell(happened.ConsentSubmitted)
+                    runner.dispatch(happened.ConsentPurposeToggled(at_ms=runner.now_ms(), purpose=purpose, ticked=True))
+                runner.dispatch(happened.ConsentSubmitted(at_ms=runner.now_ms()))
             case Stage.AGE:
-                runner.tell(happened.AgeConfirmed, adult=True)
+                runner.dispatch(happened.AgeConfirmed(at_ms=runner.now_ms(), adult=True))
             case Stage.PRACTICE:
-                runner.tell(happened.PracticeSkipped)
+                runner.dispatch(happened.PracticeSkipped(at_ms=runner.now_ms()))
             case Stage.GAME:
                 self._play()
             case _:
-                runner.tell(happened.ContinuePressed)
+                runner.dispatch(happened.ContinuePressed(at_ms=runner.now_ms()))
 
     @property
     def purposes(self) -> list[str]:
@@ -151,7 +151,9 @@ class Desk(Booth):
 
     def _play(self) -> None:
         for column in range(2):
-            self.app.runner.tell(happened.CardSelected, position=Position(0, column))
+            self.app.runner.dispatch(
+                happened.CardSelected(at_ms=self.app.runner.now_ms(), position=Position(0, column))
+            )
         self.wait_until(lambda: self.stage is not Stage.GAME)
 
 
@@ -162,7 +164,7 @@ class Witness:
         self.events: list[WorldEvent] = []
         self.stage = app.experimenter.actions.stage
         """The stage in which it began to look."""
-        app.runner.on_event = lambda event, _commands, _stage: self.events.append(event)
+        app.runner.on_event = lambda event, _outcome, _stage: self.events.append(event)
 
     def saw(self, kind: type[WorldEvent]) -> bool:
         """Whether something of this kind happened."""

@@ -125,7 +125,7 @@ def test_activity_told_meanwhile_does_not_shorten_the_idle_time_of_the_next_stag
     assigner.press(Qt.Key.Key_Down)
     wait_ms(assigner, 15_000 - 50)
     other.execute("BEGIN IMMEDIATE")
-    assigner.app.runner.tell(ContinuePressed)
+    assigner.app.runner.dispatch(ContinuePressed(at_ms=assigner.app.runner.now_ms()))
     wait_ms(assigner, 100)
     assert assigner.screen == "introduction"
     other.execute("ROLLBACK")

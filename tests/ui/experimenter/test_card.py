@@ -176,7 +176,9 @@ def test_the_card_goes_away_when_nobody_answers_and_the_session_has_gone_on_mean
     witness = Witness(assigner.app)
     before = assigner.app.clock.now_ms()
     assigner.shortcut(Action.END)
-    assigner.app.runner.tell(happened.CardSelected, position=assigner.app.screens.board.closed[0])
+    assigner.app.runner.dispatch(
+        happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=assigner.app.screens.board.closed[0])
+    )
     assigner.wait_until(lambda: assigner.card.asks_for is AuthorisationStep.NOTHING)
     assert assigner.app.clock.now_ms() - before == AWAY_MS
     assert witness.saw(happened.CardSelected)
@@ -234,7 +236,7 @@ def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_
 
 def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(assigner: Desk) -> None:
     assigner.go_to(Stage.CONSENT)
-    assigner.app.runner.tell(happened.ConsentDeclined)
+    assigner.app.runner.dispatch(happened.ConsentDeclined(at_ms=assigner.app.runner.now_ms()))
     assigner.do(Action.END, reason="5")
     assigner.type("Marvin is tired")
     assigner.enter()
@@ -276,7 +278,7 @@ def test_a_action_that_the_session_has_outrun_is_refused(assigner: Desk) -> None
     assigner.go_to(Stage.THANKS)
     assigner.shortcut(Action.END)
     assigner.unlock()
-    assigner.app.runner.tell(happened.ContinuePressed)
+    assigner.app.runner.dispatch(happened.ContinuePressed(at_ms=assigner.app.runner.now_ms()))
     assigner.type("1")
     assert assigner.noted == "Not now"
     assert "SessionAborted" not in [kind for kind, _ in assigner.notes]

@@ -26,12 +26,14 @@ def say_something(assigner: Desk) -> None:
     if assigner.stage is Stage.GAME:
         # A hint comes only to somebody who finds nothing.
         board = assigner.app.screens.board
-        while not assigner.app.runner.accepts(happened.RepeatRequested):
+        while not assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms())):
             for place in board.closed[:1]:
-                assigner.app.runner.tell(happened.CardSelected, position=place)
+                assigner.app.runner.dispatch(happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=place))
             assigner.jump()
     elif permission(Action.AGAIN, assigner.stage).effect is ActionEffect.NOW:
-        assigner.wait_until(lambda: assigner.app.runner.accepts(happened.RepeatRequested))
+        assigner.wait_until(
+            lambda: assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms()))
+        )
 
 
 def done(assigner: Desk, action: Action, witness: Witness) -> bool:
@@ -55,7 +57,7 @@ def undo(assigner: Desk) -> None:
     """Have everything as it was before a action, apart from the stage."""
     app = assigner.app
     app.experimenter.panel.close()
-    app.runner.tell(happened.PauseEnded)
+    app.runner.dispatch(happened.PauseEnded(at_ms=app.runner.now_ms()))
     app.embodiments.unmute()
     app.embodiments.prefer(EmbodimentName.FURHAT)
     app.assigner.choose(None, "a test")
@@ -127,7 +129,7 @@ def test_a_chosen_condition_holds_until_a_session_in_it_is_on_record(make_assign
     assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
     assigner.app.assigner.choose(Condition.NO_ASSISTANCE, "a test")
     assigner.go_to(Stage.CONSENT)
-    assigner.app.runner.tell(happened.ConsentDeclined)
+    assigner.app.runner.dispatch(happened.ConsentDeclined(at_ms=assigner.app.runner.now_ms()))
     assigner.do(Action.END)
     assert assigner.app.assigner.chosen is Condition.NO_ASSISTANCE
     assigner.go_to(Stage.INTRODUCTION)

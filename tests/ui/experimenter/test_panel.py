@@ -150,7 +150,7 @@ def test_it_closes_by_itself_when_nobody_is_at_it_and_asks_for_the_pin_again(ass
 def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_ended(make_assigner: MakeDesk) -> None:
     assigner = make_assigner(**LISTED, stages=["game", "result"])
     assigner.go_to(Stage.RESULT)
-    assigner.app.runner.tell(happened.ContinuePressed)
+    assigner.app.runner.dispatch(happened.ContinuePressed(at_ms=assigner.app.runner.now_ms()))
     assigner.go_to(Stage.GAME)
     assigner.do(Action.END, reason="2")
     assigner.open_panel()

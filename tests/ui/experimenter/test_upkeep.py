@@ -221,7 +221,7 @@ def test_in_the_kiosk_no_room_ends_no_session_but_the_next_one_cannot_begin(assi
     assigner.app.runner.set_closed(shut=True)
     assert assigner.screen == "practice"
     assigner.go_to(Stage.THANKS)
-    assigner.app.runner.tell(happened.NextParticipantRequested)
+    assigner.app.runner.dispatch(happened.NextParticipantRequested(at_ms=assigner.app.runner.now_ms()))
     assert assigner.screen == "pause"
     assigner.app.runner.start("en")
     assert assigner.screen == "pause"
