@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError,
 
 from kiosk import UserInputError
 from kiosk.errors import shortened, toml_error_message, validation_messages
+from kiosk.extensions import ExtensionGroup, registered_names
 from kiosk.language_codes import is_right, standard
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
 
@@ -285,22 +286,29 @@ class Screen(ConfigModel):
     board: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = "left"
 
 
+NO_ROBOT = "none"
+"""The kind of robot of a study in which the avatar helps alone."""
+
+
 class RobotConfig(ConfigModel):
     """The robot that speaks in the avatar's place, if there is one; all times in milliseconds, all lengths in metres.
 
     ``board_middle`` and ``board_size`` are told as the robot sees them: sideways, up, and forward.
     """
 
-    kind: Annotated[
-        Literal["none", "furhat", "furhat-realtime"], Field(description="Which robot, or none: the avatar alone.")
-    ] = "none"
+    kind: Annotated[str, Field(description="Which robot, by the name of its driver, or none: the avatar alone.")] = (
+        NO_ROBOT
+    )
     host: Annotated[str, Field(min_length=1, description="Its name or address on the network.")] = "localhost"
     port: Annotated[
-        int | None, Field(ge=1, le=65535, description="Its port; by default 54321, or 9000 for furhat-realtime.")
+        int | None, Field(ge=1, le=65535, description="Its port; by default the one that its driver names.")
     ] = None
     key: Annotated[
-        str, Field(exclude=True, description="The key of the Realtime API, if it asks for one; never recorded.")
+        str, Field(exclude=True, description="The key or password that it asks for, if any; never recorded.")
     ] = ""
+    options: Annotated[
+        dict[str, Any], Field(description="What only this driver knows, by its own names; see the driver's page.")
+    ] = {}
     voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
     connect_deadline: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
     answer_deadline: Annotated[Milliseconds, Field(description="The longest that any answer but speech may take.")] = (
@@ -470,6 +478,11 @@ class Settings(ConfigModel):
         """Read a study file; the paths in it start from its own folder."""
         settings = super().read(path)
         settings._file = path
+        # Not in the model: a stored session stays readable where its robot is not installed.
+        kinds = (NO_ROBOT, *registered_names(ExtensionGroup.ROBOTS))
+        if settings.robot.kind not in kinds:
+            offered = f"{', '.join(map(repr, kinds[:-1]))} or {kinds[-1]!r}"
+            raise UserInputError(f"{settings.name}: robot.kind must be {offered}, but it is {settings.robot.kind!r}")
         return settings
 
     @property

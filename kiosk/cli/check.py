@@ -7,7 +7,7 @@ import os
 import queue
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from functools import partial
@@ -35,9 +35,11 @@ from kiosk.cli.options import (
 )
 from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig, kind_of
+from kiosk.extensions import Extension, ExtensionGroup, find, installed
 from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.robots import checks as robots_checks
 from kiosk.robots import voice_program
+from kiosk.robots.registry import check_robot, load_driver
 from kiosk.store import checks as store_checks
 from kiosk.store.database import in_use
 from kiosk.store.maintenance import FOLDER
@@ -163,6 +165,32 @@ def _late(probes: Sequence[Check], outcomes: dict[int, _Outcome], passed_s: floa
     }
 
 
+EXTENSIONS = "extensions"
+
+
+def extensions_check() -> Iterator[CheckResult]:
+    """List what other packages add, and import each, so that a broken one is found before it is needed."""
+    added = [each for group in ExtensionGroup for each in installed(group) if not each.is_built_in]
+    if not added:
+        yield CheckResult.good(EXTENSIONS, "none installed")
+    for extension in added:
+        what = f"{extension.group.noun} {extension.name}"
+        try:
+            find(extension.group, extension.name)
+            _LOADERS[extension.group](extension)
+        except UserInputError as error:
+            remedy = f"mend the package {extension.package}, or remove it: pip uninstall {extension.package}"
+            yield CheckResult.bad(what, str(error), remedy)
+        else:
+            yield CheckResult.good(what, f"{extension.package} {extension.version}")
+
+
+_LOADERS: Mapping[ExtensionGroup, Callable[[Extension], object]] = {
+    ExtensionGroup.ROBOTS: load_driver,
+    ExtensionGroup.ITEMS: Extension.load,
+    ExtensionGroup.ACTIONS: Extension.load,
+}
+
 _DISPLAY_S, _MARGIN_S = 14.0, 1.0
 PICTURES = "pictures"
 SENTENCE = "introduction-help"
@@ -191,6 +219,7 @@ def all_checks(booth: CheckTargets) -> Iterator[Check]:
     yield from _heard(booth)
     yield from _kept(booth)
     yield from _machine(booth.folder)
+    yield Check(EXTENSIONS, extensions_check)
 
 
 def _study(booth: CheckTargets) -> Iterator[Check]:
@@ -312,8 +341,10 @@ def check_command(
         click.echo(json.dumps({"ready": ready, "findings": rows}))
     else:
         _show(found, ready=ready)
-    if booth.faults:
-        raise UserInputError(*booth.faults)
+    nouns = tuple(f"{group.noun} " for group in ExtensionGroup)
+    broken = [each.words for each in found if each.state is Severity.BAD and each.what.startswith(nouns)]
+    if booth.faults or broken:
+        raise UserInputError(*dict.fromkeys((*booth.faults, *broken)))
     context.exit(0 if ready else NOT_READY)
 
 
@@ -327,6 +358,7 @@ def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int
     try:
         settings = read_settings(file, host, port)
         study = read_study(settings)
+        check_robot(settings)
     except UserInputError as refusal:
         faults = refusal.sentences
     return CheckTargets(data, site, in_use(data), file, settings, study, faults)

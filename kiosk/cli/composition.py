@@ -18,7 +18,8 @@ from types import TracebackType
 from platformdirs import user_data_path
 
 from kiosk import DISK_FULL, UserInputError, why
-from kiosk.config import Settings
+from kiosk.config import NO_ROBOT, Settings
+from kiosk.extensions import ExtensionGroup, registered_names
 
 DATA = user_data_path("recollect", appauthor=False)
 """Where a study's data are kept unless told otherwise."""
@@ -38,7 +39,7 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
     if robot_host is None and robot_port is None:
         return settings
     robot = settings.robot
-    found = {"kind": "furhat" if robot.kind == "none" else robot.kind}
+    found = {"kind": registered_names(ExtensionGroup.ROBOTS)[0] if robot.kind == NO_ROBOT else robot.kind}
     given = {"host": robot_host or robot.host, "port": robot_port or robot.port}
     return settings.model_copy(update={"robot": robot.model_copy(update=found | given)})
 

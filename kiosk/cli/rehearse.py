@@ -25,11 +25,12 @@ from kiosk.cli.options import (
     robot_port_option,
     study_option,
 )
-from kiosk.config import STAGES
+from kiosk.config import NO_ROBOT, STAGES
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import count_embodiment_changes, count_speech
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.robots.registry import check_robot
 from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
@@ -120,6 +121,7 @@ def rehearse(
     A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
     """
     prepared = read_study(read_settings(study, robot_host, robot_port))
+    check_robot(prepared.settings)
     _check(prepared, speed, language)
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
@@ -162,7 +164,7 @@ def _check(study: StudyConfig, speed: float | None, language: str | None) -> Non
 
 
 def _has_robot(study: StudyConfig) -> bool:
-    return study.settings.robot.kind != "none"
+    return study.settings.robot.kind != NO_ROBOT
 
 
 def _mode(speed: float | None, *, headless: bool) -> RunMode:

@@ -16,8 +16,15 @@ from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
 from kiosk.experiment.effects import Mood
-from kiosk.robots.embodiment import BoardPoint, RobotDriver, RobotError, Utterance
-from kiosk.robots.furhat import Furhat, chosen_voice
+from kiosk.robots.embodiment import (
+    BoardPoint,
+    Capability,
+    InspectableRobot,
+    RobotDriver,
+    RobotError,
+    Utterance,
+    chosen_voice,
+)
 from kiosk.robots.registry import create_robot
 from kiosk.units import MS_PER_SECOND
 
@@ -37,8 +44,8 @@ class RobotTrial:
 
 @click.command()
 @click.option("--host", help="The robot's name or address; localhost unless the study file says otherwise.")
-@click.option("--port", type=click.IntRange(1, 65535), help="Its port; 54321, or 9000 with --realtime.")
-@click.option("--realtime", is_flag=True, help="Speak the Realtime API instead of the Remote API.")
+@click.option("--port", type=click.IntRange(1, 65535), help="Its port; the one that its driver names otherwise.")
+@click.option("--kind", help="Its driver, by name; the study file's, or else the first one that there is.")
 @click.option("--language", help="The language that it is to speak; the study's unless told otherwise.")
 @click.option("--say", "sentence", help="A sentence for it to say.")
 @click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML), for its axes and deadlines.")
@@ -49,17 +56,17 @@ def robot_command(
     language: str | None,
     sentence: str | None,
     study: Path | None,
+    kind: str | None,
     *,
-    realtime: bool,
     as_json: bool,
 ) -> None:
-    """Try a Furhat step by step, and say what it has and what it does."""
-    settings = read_settings(study, host or (None if study else "localhost"), port)
+    """Try a robot step by step, and say what it has and what it does."""
+    settings = read_settings(study, host or (None if study or kind else "localhost"), port)
     language = language or settings.language_codes[0]
-    asked = settings.robot.model_copy(update={"kind": "furhat-realtime"} if realtime else {})
+    asked = settings.robot.model_copy(update={"kind": kind} if kind else {})
     device = create_robot(asked, language)
     if device is None:
-        raise UserInputError("the study file names no robot; name one with --host")
+        raise UserInputError("the study file names no robot; name one with --host or --kind")
     steps = []
     for step in _tried(device, language, sentence):
         steps.append(step)
@@ -75,32 +82,33 @@ def robot_command(
 
 def _tried(robot: RobotDriver, language: str, sentence: str | None) -> Iterator[RobotTrial]:
     """Try one thing after another; a robot that is not there is asked nothing further."""
-    if isinstance(robot, Furhat):
-        yield from _looked_at(robot, language)
+    if isinstance(robot, InspectableRobot):
+        yield from _inspected(robot, language)
     ready = _try("ready to speak", lambda: _ready(robot))
     yield ready
     if not ready.worked:
         return
-    yield _try("looks at the visitor", partial(robot.look_at, None))
-    yield _try("looks at the board", partial(robot.look_at, BoardPoint(0.5, 0.5)))
+    if Capability.GAZE in robot.capabilities:
+        yield _try("looks at the visitor", partial(robot.look_at, None))
+        yield _try("looks at the board", partial(robot.look_at, BoardPoint(0.5, 0.5)))
     for mood in Mood:
-        if mood is not Mood.IDLE:
+        if mood is not Mood.IDLE and Capability.GESTURES in robot.capabilities:
             yield _try(f"looks {mood.value}", partial(robot.express, mood))
     if sentence is not None:
-        yield _try("says the sentence", partial(robot.say, Utterance(sentence, lambda: None)))
+        yield _try("says the sentence", partial(robot.say, Utterance(sentence, lambda: None, robot.longest_text)))
         yield _try("can be silenced", robot.stop_speech)
     robot.close()
 
 
-def _looked_at(furhat: Furhat, language: str) -> Iterator[RobotTrial]:
-    """What a Furhat tells about itself; nothing more if it is not there."""
-    reached = _try("is it there", lambda: _reach(furhat))
+def _inspected(robot: InspectableRobot, language: str) -> Iterator[RobotTrial]:
+    """What a robot tells about itself; nothing more if it is not there."""
+    reached = _try("is it there", lambda: _reach(robot))
     yield reached
     if reached.worked:
-        yield _try("its voices", lambda: ", ".join(f"{voice.name} ({voice.language})" for voice in furhat.voices()))
-        yield _try(f"a voice for {language}", lambda: _voice(furhat, language))
-        yield _try("its gestures", lambda: ", ".join(furhat.gestures()))
-        yield _try("people it sees", lambda: str(furhat.users()))
+        yield _try("its voices", lambda: ", ".join(f"{voice.name} ({voice.language})" for voice in robot.voices()))
+        yield _try(f"a voice for {language}", lambda: _voice(robot, language))
+        yield _try("its gestures", lambda: ", ".join(robot.gestures()))
+        yield _try("people it sees", lambda: str(robot.users()))
 
 
 def _ready(robot: RobotDriver) -> str:
@@ -108,14 +116,14 @@ def _ready(robot: RobotDriver) -> str:
     return f"speaks as {found.voice.name}" if found.voice else "it answers"
 
 
-def _reach(furhat: Furhat) -> str:
-    furhat.resolve()
-    furhat.health_check()
+def _reach(robot: InspectableRobot) -> str:
+    robot.resolve()
+    robot.health_check()
     return "it answers"
 
 
-def _voice(furhat: Furhat, language: str) -> str:
-    voice = chosen_voice(furhat.voices(), language)
+def _voice(robot: InspectableRobot, language: str) -> str:
+    voice = chosen_voice(robot.voices(), language)
     return f"{voice.name} ({voice.language})"
 
 

@@ -29,6 +29,7 @@ from kiosk.cli.options import (
 )
 from kiosk.experiment.session_config import kind_of
 from kiosk.preflight import CheckResult
+from kiosk.robots.registry import check_robot
 from kiosk.robots.tts_worker import run_tts_worker
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
@@ -82,6 +83,7 @@ def _open(
 ) -> dict[str, Any]:
     """Open the kiosk until it is left; returns what is told of it."""
     prepared = read_study(read_settings(study, robot_host, robot_port))
+    check_robot(prepared.settings)
     if unattended:
         check_pin(prepared.settings)
     chance = SystemRandom()

@@ -19,7 +19,7 @@ from kiosk.experiment.questionnaire import ItemOrder, Questionnaire, TextPage
 from kiosk.experiment.session_config import Source, StudyConfig
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import renamed_items
-from kiosk.robots.registry import create_robot
+from kiosk.robots.registry import check_robot
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.loader import expected_minutes, read_study, study_warnings
 from kiosk.study.reference import as_page, as_study_file
@@ -45,7 +45,7 @@ def study_check(context: click.Context, file: Path, *, as_json: bool) -> None:
     """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
     try:
         read = read_study(Settings.read(file))
-        _check_robot(read.settings)
+        check_robot(read.settings)
         untried = check_pictures(read)
     except UserInputError as refusal:
         if not as_json:
@@ -77,14 +77,6 @@ def check_pictures(read: StudyConfig) -> list[str]:
     if faults:
         raise UserInputError(*faults)
     return []
-
-
-def _check_robot(settings: Settings) -> None:
-    """Raise BadInput if what its robot needs is not installed; it is not looked for."""
-    try:
-        create_robot(settings.robot, settings.language_codes[0])
-    except UserInputError as refusal:
-        raise UserInputError(f"{settings.name}: robot.kind: {refusal}") from refusal
 
 
 def summarised(read: StudyConfig) -> dict[str, Any]:

@@ -82,12 +82,46 @@ class PracticeEnd(Enum):
     TIME = "time"
 
 
-class EmbodimentName(Enum):
-    """Who helps with voice and face."""
+class EmbodimentKind(Enum):
+    """What helps with voice and face."""
 
     AVATAR = "avatar"
-    FURHAT = "furhat"
-    FURHAT_REALTIME = "furhat-realtime"
+    ROBOT = "robot"
+
+
+@dataclass(frozen=True)
+class EmbodimentName:
+    """Who helps with voice and face: the avatar, or a robot by the name of its driver.
+
+    In the records it is the text ``avatar``, or ``robot:`` and the driver's name.
+    """
+
+    AVATAR: ClassVar[EmbodimentName]
+    kind: EmbodimentKind
+    driver: str = ""
+
+    @classmethod
+    def robot(cls, driver: str) -> EmbodimentName:
+        """The robot of a driver."""
+        return cls(EmbodimentKind.ROBOT, driver)
+
+    @classmethod
+    def from_text(cls, text: str) -> EmbodimentName:
+        """The name that a record holds; raises ValueError for anything else."""
+        kind, _, driver = text.partition(":")
+        return cls(EmbodimentKind(kind), driver)
+
+    def __post_init__(self) -> None:
+        """Refuse an avatar with a driver, and a robot without one."""
+        if bool(self.driver) != (self.kind is EmbodimentKind.ROBOT):
+            raise ValueError(f"{self.kind.value!r} with the driver {self.driver!r} is no embodiment")
+
+    def __str__(self) -> str:
+        """As it stands in the records."""
+        return f"{self.kind.value}:{self.driver}" if self.driver else self.kind.value
+
+
+EmbodimentName.AVATAR = EmbodimentName(EmbodimentKind.AVATAR)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -464,6 +498,8 @@ def _converter() -> Converter:
     """A converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
     converter.register_structure_hook(Answer | None, _answer)
+    converter.register_unstructure_hook(EmbodimentName, str)
+    converter.register_structure_hook(EmbodimentName, lambda text, _: EmbodimentName.from_text(text))
     for closed_set in (Action, Phase, MoveOutcome, GateDecision):
         # Their values count rows and columns of a table, or explain; in the records they go by name.
         converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields
 from enum import Enum
 from functools import cached_property, partial
 
-from kiosk.experiment.events import EmbodimentName, PracticeEnd, PracticeFinished, Stage, Status
+from kiosk.experiment.events import EmbodimentKind, EmbodimentName, PracticeEnd, PracticeFinished, Stage, Status
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.labels import fold_name
 from kiosk.experiment.projections import (
@@ -544,8 +544,12 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
         lambda row: row.kept.row["place"],
     ),
     (
-        Variable("body", "Who helped with voice and face when the session began.", levels=enum_levels(EmbodimentName)),
-        lambda row: row.kept.row["body"],
+        Variable("body", "What helped with voice and face when the session began.", levels=enum_levels(EmbodimentKind)),
+        lambda row: EmbodimentName.from_text(row.kept.row["body"]).kind.value,
+    ),
+    (
+        Variable("robot", "Which robot that was, by the name of its driver.", empty="the avatar helped"),
+        lambda row: EmbodimentName.from_text(row.kept.row["body"]).driver or None,
     ),
     (
         Variable(

@@ -10,9 +10,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from kiosk import UserInputError
+from kiosk.config import NO_ROBOT
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.preflight import CheckResult
-from kiosk.robots.embodiment import RobotDriver, RobotError
+from kiosk.robots.embodiment import InspectableRobot, RobotDriver, RobotError, chosen_voice
 from kiosk.robots.registry import create_robot
 from kiosk.units import MS_PER_SECOND
 
@@ -134,27 +135,25 @@ def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool
     try:
         device = create_robot(settings, languages[0])
     except UserInputError as refusal:
-        yield CheckResult.bad(ROBOT, str(refusal), "install it, or set robot.kind to 'none'")
+        yield CheckResult.bad(ROBOT, str(refusal), f"install it anew, or set robot.kind to {NO_ROBOT!r}")
         return
     if device is None:
         yield CheckResult.good(ROBOT, "none in the study file: the avatar helps")
-    elif settings.kind == "furhat":
-        yield from _furhat(settings, languages)
+    elif isinstance(device, InspectableRobot):
+        yield from _inspected(device, settings, languages)
     elif busy:
         yield CheckResult.good(ROBOT, "not tried while a kiosk is open here; its panel tells how the robot is")
     else:
         yield _any(device)
 
 
-def _furhat(settings: RobotSettings, languages: Sequence[str]) -> Iterator[CheckResult]:
-    from kiosk.robots.furhat import Furhat, chosen_voice  # noqa: PLC0415 - only where there is one
-
-    furhat = Furhat(settings, languages[0])
+def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequence[str]) -> Iterator[CheckResult]:
+    """A robot that tells what it has."""
     try:
-        furhat.resolve()
-        furhat.health_check()
-        gestures = furhat.gestures()
-        voices = furhat.voices()
+        robot.resolve()
+        robot.health_check()
+        gestures = robot.gestures()
+        voices = robot.voices()
     except RobotError as failure:
         yield _lost(failure)
         return

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import logging
 import threading
+from abc import ABC, abstractmethod
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import partial
 from threading import Lock
-from typing import Protocol
+from typing import ClassVar, Protocol
 
+from kiosk.config import ConfigModel
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.questionnaire import can_be_kept
+from kiosk.language_codes import distance
 
 
 @dataclass(frozen=True)
@@ -186,7 +189,7 @@ class MutableSpeech:
 
 
 LONGEST_TEXT = 999
-"""Characters that a Furhat is sure to take in one request."""
+"""Characters that a robot takes in one request unless its driver says otherwise."""
 
 
 _DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
@@ -236,9 +239,12 @@ class Capabilities:
 class Utterance:
     """A sentence under way, which any thread may cut off."""
 
-    def __init__(self, sentence: str, started: Callable[[], None]) -> None:
-        """``started`` is called once, on the robot's thread, when the robot has begun or was asked to begin."""
-        self.text = speakable(sentence)
+    def __init__(self, sentence: str, started: Callable[[], None], longest: int = LONGEST_TEXT) -> None:
+        """``started`` is called once, on the robot's thread, when the robot has begun or was asked to begin.
+
+        No more than ``longest`` characters are said.
+        """
+        self.text = speakable(sentence, longest)
         self.started = started
         self._lock = Lock()
         self._cut = False
@@ -264,53 +270,107 @@ class Utterance:
                 end()
 
 
-class RobotDriver(Protocol):
-    """A robot that can be reached, or not."""
+class Capability(Enum):
+    """What a driver can have its robot do besides speaking; it is asked for nothing else."""
+
+    GESTURES = "gestures"
+    GAZE = "gaze"
+
+
+class RobotDriver(ABC):
+    """A robot that can be reached, or not; the base class of every driver.
+
+    Its methods run on threads of their own and may block, up to the deadlines of the settings. They raise RobotError
+    for whatever the robot did not do.
+    """
+
+    name: ClassVar[str]
+    """What study files and records call it: the name that it is registered by."""
+    default_port: ClassVar[int | None] = None
+    """The port where the study file names none."""
+    options: ClassVar[type[ConfigModel]] = ConfigModel
+    """The model of its own table in the study file, ``[robot.options]``."""
+    capabilities: ClassVar[frozenset[Capability]] = frozenset()
+    longest_text: ClassVar[int] = LONGEST_TEXT
+    """Characters that it takes in one request; a longer sentence ends at the last word within."""
+
+    def __init__(self, settings: RobotSettings, language: str) -> None:
+        """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
+        self.settings = settings
+        self.language = language
 
     @property
-    def name(self) -> EmbodimentName:
-        """What the records call it."""
-        ...
+    def port(self) -> int | None:
+        """The port that the study file names, or the driver's own."""
+        return self.settings.port or self.default_port
 
+    @abstractmethod
     def connect(self) -> Capabilities:
         """Look for it and get it ready to speak the study's language; needed again after every failure."""
-        ...
+
+    @abstractmethod
+    def say(self, saying: Utterance) -> None:
+        """Say a sentence to its end, in place of any other. Never tried twice."""
 
     def set_language(self, language: str) -> None:
         """Speak this language from now on; where nothing is connected, once it is."""
-        ...
+        self.language = language
 
-    def say(self, saying: Utterance) -> None:
-        """Say a sentence to its end, in place of any other. Never tried twice."""
-        ...
-
-    def stop_speech(self) -> None:
+    def stop_speech(self) -> None:  # noqa: B027 - a robot may have no way to be stopped
         """Ask it to be silent; whether it obeys is its own affair."""
-        ...
 
-    def express(self, mood: Mood) -> None:
-        """Show a mood, as far as it can."""
-        ...
+    def express(self, mood: Mood) -> None:  # noqa: B027 - never asked without the capability
+        """Show a mood, as far as it can; asked only of a driver with GESTURES."""
 
-    def look_at(self, place: BoardPoint | None) -> None:
-        """Look at a place on the board, or at the visitor."""
-        ...
+    def look_at(self, place: BoardPoint | None) -> None:  # noqa: B027 - never asked without the capability
+        """Look at a place on the board, or at the visitor; asked only of a driver with GAZE."""
 
-    def health_check(self) -> None:
+    def health_check(self) -> None:  # noqa: B027 - a robot may have no way to be asked
         """See whether it still answers."""
-        ...
 
-    def close(self) -> None:
+    def close(self) -> None:  # noqa: B027 - nothing may be open
         """Let go of whatever is open; may be called from any thread and twice."""
-        ...
 
 
-def speakable(sentence: str) -> str:
-    """A sentence as any robot takes it: below 1,000 characters, without markup, control and direction characters."""
+class InspectableRobot(RobotDriver):
+    """A robot that tells what it has without being changed; so it may be asked while it helps."""
+
+    @abstractmethod
+    def resolve(self) -> None:
+        """Look its name up; raises RobotError."""
+
+    @abstractmethod
+    def voices(self) -> tuple[RobotVoice, ...]:
+        """The voices that it offers; raises RobotError."""
+
+    @abstractmethod
+    def gestures(self) -> tuple[str, ...]:
+        """The names of the gestures that it offers; raises RobotError."""
+
+    @abstractmethod
+    def users(self) -> int:
+        """How many people it sees; raises RobotError."""
+
+
+def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = "") -> RobotVoice:
+    """The wished voice, or the first of those that are nearest to the language; raises RobotError without one."""
+    if wished:
+        matching = [(0, voice) for voice in voices if voice.name == wished]
+    else:
+        far = ((distance(language, voice.language), voice) for voice in voices)
+        matching = [(each, voice) for each, voice in far if each is not None]
+    if matching:
+        return min(matching, key=lambda each: each[0])[1]
+    offered = ", ".join(sorted({voice.language for voice in voices})) or "none"
+    raise RobotError(FailureKind.NO_VOICE, wished or language, f"it has {offered}")
+
+
+def speakable(sentence: str, longest: int = LONGEST_TEXT) -> str:
+    """A sentence as a robot takes it: not too long, without markup, control and direction characters."""
     shown = (character for character in sentence if character not in _DIRECTIONS)
     plain = "".join(" " if character in "<>&" or not can_be_kept(character) else character for character in shown)
     text = " ".join(plain.split())
-    return text if len(text) <= LONGEST_TEXT else text[:LONGEST_TEXT].rsplit(" ", 1)[0]
+    return text if len(text) <= longest else text[:longest].rsplit(" ", 1)[0]
 
 
 Job = Callable[[], None]
@@ -394,7 +454,7 @@ class AsyncRobotAdapter:
     @property
     def name(self) -> EmbodimentName:
         """What the records call it."""
-        return self._robot.name
+        return EmbodimentName.robot(self._robot.name)
 
     @property
     def health(self) -> Health:
@@ -424,7 +484,8 @@ class AsyncRobotAdapter:
     def say(self, utterance: int, sentence: str) -> None:
         """Begin to say a sentence, in place of any other."""
         self._drop_sentence()
-        saying = Utterance(sentence, lambda: self._land(lambda: self._started(saying, utterance)))
+        longest = self._robot.longest_text
+        saying = Utterance(sentence, lambda: self._land(lambda: self._started(saying, utterance)), longest)
         self._saying = saying
         self._post(self._voice, "say", partial(self._say, saying, utterance), saying)
         self.look_at(None)
@@ -436,11 +497,13 @@ class AsyncRobotAdapter:
 
     def express(self, mood: Mood) -> None:
         """Show a mood."""
-        self._post(self._motion, "express", partial(self._robot.express, mood))
+        if Capability.GESTURES in self._robot.capabilities:
+            self._post(self._motion, "express", partial(self._robot.express, mood))
 
     def look_at(self, place: BoardPoint | None) -> None:
         """Look at a place on the board, or at the visitor."""
-        self._post(self._motion, "attend", partial(self._robot.look_at, place))
+        if Capability.GAZE in self._robot.capabilities:
+            self._post(self._motion, "attend", partial(self._robot.look_at, place))
 
     def activate(self) -> None:
         """Look at the visitor."""
@@ -614,7 +677,7 @@ class EmbodimentSelector:
 
     def prefer(self, name: EmbodimentName) -> None:
         """Have the avatar help, or the robot whenever it is well, from the next session on."""
-        self._prefers_avatar = name is EmbodimentName.AVATAR
+        self._prefers_avatar = name == EmbodimentName.AVATAR
         if not self._in_session:
             self._choose()
 
@@ -649,7 +712,7 @@ class EmbodimentSelector:
 
     def switch_to(self, to: EmbodimentName) -> None:
         """Have the body of this name help from now on, if there is one."""
-        self._enter(next((body for body in (self._avatar, self._robot) if body is not None and body.name is to), None))
+        self._enter(next((body for body in (self._avatar, self._robot) if body is not None and body.name == to), None))
 
     def close(self) -> None:
         """Let go of the robot; the avatar is let go of by whoever made it."""

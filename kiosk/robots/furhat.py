@@ -19,9 +19,17 @@ from urllib3.connectionpool import HTTPConnectionPool
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import EmbodimentName
-from kiosk.language_codes import distance
-from kiosk.robots.embodiment import BoardPoint, Capabilities, FailureKind, RobotError, RobotVoice, Utterance
+from kiosk.robots.embodiment import (
+    BoardPoint,
+    Capabilities,
+    Capability,
+    FailureKind,
+    InspectableRobot,
+    RobotError,
+    RobotVoice,
+    Utterance,
+    chosen_voice,
+)
 from kiosk.units import MS_PER_SECOND
 
 WISHES: Mapping[Mood, tuple[str, ...]] = MappingProxyType(
@@ -269,22 +277,24 @@ def _innermost(error: BaseException) -> str:
     return str(_causes(error)[-1] if isinstance(error, requests.ConnectionError) else error)
 
 
-PORT = 54321
 OK = 200
 GREETING = b"hello"
 """A part of what its server says when it is up: "hello world"."""
 
 
-class Furhat:
+class Furhat(InspectableRobot):
     """A Furhat, or the virtual one of its maker's kit, that serves the Remote API."""
 
-    name: ClassVar[EmbodimentName] = EmbodimentName.FURHAT
+    name: ClassVar[str] = "furhat"
+    default_port: ClassVar[int] = 54321
+    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
         """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
+        super().__init__(settings, language)
         self._settings = settings
         self._language = language
-        self._http = HttpClient(settings.host, settings.port or PORT, settings.connect_deadline)
+        self._http = HttpClient(settings.host, settings.port or self.default_port, settings.connect_deadline)
         self._gestures: tuple[str, ...] = ()
         self._voices: tuple[RobotVoice, ...] = ()
 
@@ -402,19 +412,6 @@ class Furhat:
             raise RobotError(FailureKind.GARBAGE, f"GET {path}", _shown(content))
         entries = [entry for entry in listed if isinstance(entry, dict)]
         return [entry for entry in entries if not named or isinstance(entry.get("name"), str)]
-
-
-def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = "") -> RobotVoice:
-    """The wished voice, or the first of those that are nearest to the language; raises RobotFailed without one."""
-    if wished:
-        matching = [(0, voice) for voice in voices if voice.name == wished]
-    else:
-        far = ((distance(language, voice.language), voice) for voice in voices)
-        matching = [(each, voice) for each, voice in far if each is not None]
-    if matching:
-        return min(matching, key=lambda each: each[0])[1]
-    offered = ", ".join(sorted({voice.language for voice in voices})) or "none"
-    raise RobotError(FailureKind.NO_VOICE, wished or language, f"it has {offered}")
 
 
 def _check(doing: str, code: int, content: bytes) -> None:

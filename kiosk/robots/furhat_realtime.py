@@ -20,13 +20,19 @@ from websockets.sync.client import ClientConnection, connect
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import EmbodimentName
 from kiosk.language_codes import with_region
-from kiosk.robots.embodiment import BoardPoint, Capabilities, FailureKind, RobotError, Utterance
+from kiosk.robots.embodiment import (
+    BoardPoint,
+    Capabilities,
+    Capability,
+    FailureKind,
+    RobotDriver,
+    RobotError,
+    Utterance,
+)
 from kiosk.robots.furhat import WISHES, to_robot_location
 from kiosk.units import MS_PER_SECOND
 
-PORT = 9000
 PATH = "/v1/events"
 
 _CLOSE_S = 0.2
@@ -66,13 +72,16 @@ class _Waiter:
         return message
 
 
-class FurhatRealtime:
+class FurhatRealtime(RobotDriver):
     """A Furhat that serves the Realtime API; it has to be switched on in the robot's own pages."""
 
-    name: ClassVar[EmbodimentName] = EmbodimentName.FURHAT_REALTIME
+    name: ClassVar[str] = "furhat-realtime"
+    default_port: ClassVar[int] = 9000
+    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
         """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
+        super().__init__(settings, language)
         self._settings = settings
         self._language = language
         self._numbers = count(1)
@@ -150,7 +159,7 @@ class FurhatRealtime:
             raise RobotError(FailureKind.DECLINED, "request.auth", "the key opens nothing")
 
     def _open(self) -> None:
-        host, port = self._settings.host, self._settings.port or PORT
+        host, port = self._settings.host, self._settings.port or self.default_port
         doing = f"opening ws://{host}:{port}{PATH}"
         opened = ExitStack()
         try:

@@ -1,30 +1,54 @@
-"""Which robot a study file asks for. What a robot needs is loaded only when there is one: it takes half a second."""
+"""The robots that a study file can name. A driver is imported only when it is asked for: that takes half a second."""
 
 from __future__ import annotations
 
+from pydantic import ValidationError
+
 from kiosk import UserInputError
+from kiosk.config import NO_ROBOT, Settings
 from kiosk.config import RobotConfig as RobotSettings
+from kiosk.errors import validation_messages
+from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.robots.embodiment import RobotDriver
 
 
+def load_driver(extension: Extension) -> type[RobotDriver]:
+    """Import a driver; raises UserInputError if it is none, or does not go by the name that it is registered by."""
+    driver = extension.load()
+    if not isinstance(driver, type) or not issubclass(driver, RobotDriver):
+        raise extension.broken(f"{extension.entry.value} is no class derived from kiosk.robots.embodiment.RobotDriver")
+    if getattr(driver, "name", None) != extension.name:
+        raise extension.broken(f"its class must have name = {extension.name!r}")
+    if missing := sorted(driver.__abstractmethods__):
+        raise extension.broken(f"its class lacks {', '.join(missing)}")
+    return driver
+
+
 def create_robot(settings: RobotSettings, language: str) -> RobotDriver | None:
-    """The robot of these settings, not yet looked for; None if the avatar is to be alone."""
-    match settings.kind:
-        case "none":
-            return None
-        case "furhat":
-            from kiosk.robots.furhat import Furhat  # noqa: PLC0415
+    """Return the robot of these settings, not yet looked for; None if the avatar is to be alone.
 
-            return Furhat(settings, language)
-        case "furhat-realtime":
-            return _realtime(settings, language)
-
-
-def _realtime(settings: RobotSettings, language: str) -> RobotDriver:
+    Raises UserInputError for a robot that is not installed or is broken, and for options that it does not take.
+    """
+    if settings.kind == NO_ROBOT:
+        return None
+    extension = find(ExtensionGroup.ROBOTS, settings.kind)
+    driver = load_driver(extension)
     try:
-        from kiosk.robots.furhat_realtime import FurhatRealtime  # noqa: PLC0415
-    except ModuleNotFoundError as error:
-        raise UserInputError(
-            "for furhat-realtime the package websockets is missing; install recollect[realtime]"
-        ) from error
-    return FurhatRealtime(settings, language)
+        driver.options.model_validate(settings.options)
+    except ValidationError as error:
+        sentences = validation_messages(error, settings.options, driver.options)
+        raise UserInputError(*(f"robot.options: {sentence}" for sentence in sentences)) from error
+    try:
+        return driver(settings, language)
+    except UserInputError:
+        raise
+    except Exception as error:
+        raise extension.broken(f"{type(error).__name__}: {error}") from error
+
+
+def check_robot(settings: Settings) -> None:
+    """Raise UserInputError if the robot of a study file cannot be used; it is not looked for."""
+    try:
+        create_robot(settings.robot, settings.language_codes[0])
+    except UserInputError as refusal:
+        raise UserInputError(*(f"{settings.name}: {sentence}" for sentence in refusal.sentences)) from refusal

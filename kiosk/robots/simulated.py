@@ -7,8 +7,16 @@ from threading import Lock
 from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import BoardPoint, Capabilities, FailureKind, RobotError, RobotVoice, Utterance
+from kiosk.robots.embodiment import (
+    BoardPoint,
+    Capabilities,
+    Capability,
+    FailureKind,
+    RobotDriver,
+    RobotError,
+    RobotVoice,
+    Utterance,
+)
 
 FAILS = 0.02
 """How often a call fails while it is up: about every second session loses it."""
@@ -17,10 +25,11 @@ RETURNS = 0.5
 """How often it is found again when it is looked for."""
 
 
-class FlakyRobot:
+class FlakyRobot(RobotDriver):
     """Goes and comes back as a seed says; which call comes first is left to the threads."""
 
-    name: ClassVar[EmbodimentName] = EmbodimentName.FURHAT
+    name: ClassVar[str] = "simulated"
+    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
 
     def __init__(self, seed: int) -> None:
         """Up, until it is asked for the first time."""

@@ -93,7 +93,7 @@ class ConditionAssigner:
         return Provenance(
             self.study.plan(language, condition),
             self._origin.seed(),
-            EmbodimentName.AVATAR.value,
+            str(EmbodimentName.AVATAR),
             self._origin.code_commit,
             simulated=self._origin.simulated,
             slot=place,
@@ -421,7 +421,7 @@ class SessionRunner:
     def _with_body(self, provenance: Provenance) -> Provenance:
         """The session with the body that it begins with, whichever was meant."""
         body = self._renderer.body_name
-        return provenance if body is None else replace(provenance, body=body.value)
+        return provenance if body is None else replace(provenance, body=str(body))
 
     def _rest(self, screen: str) -> None:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""

@@ -110,7 +110,10 @@ def test_from_a_failure_to_the_avatars_voice(qtbot: QtBot, tmp_path: Path) -> No
         for _ in range(LOSSES):
             fake.mode = Fault.WELL
             qtbot.waitUntil(
-                lambda: app.embodiments.current is not None and app.embodiments.current.name is EmbodimentName.FURHAT,
+                lambda: (
+                    app.embodiments.current is not None
+                    and app.embodiments.current.name == EmbodimentName.robot("furhat")
+                ),
                 timeout=10_000,
             )
             fake.mode = Fault.RESET

@@ -67,7 +67,7 @@ def test_a_robot_without_the_language_says_what_it_has() -> None:
 
 def test_the_realtime_api_is_tried_as_well() -> None:
     with RealtimeFake() as fake:
-        code, found = tried("--host", "127.0.0.1", "--port", fake.port, "--realtime", "--say", "Hello")
+        code, found = tried("--host", "127.0.0.1", "--port", fake.port, "--kind", "furhat-realtime", "--say", "Hello")
     assert (code, found["kind"]) == (0, "furhat-realtime")
     assert fake.sentences == ["Hello"]
 
@@ -92,7 +92,7 @@ def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(tmp_path: 
         robot = ["--robot-host", "127.0.0.1", "--robot-port", str(fake.port)]
         command = [sys.executable, "-m", "kiosk", "rehearse", "--headless", "--json", "--data", str(tmp_path), *robot]
         played = json.loads(subprocess.run(command, capture_output=True, check=True, timeout=60).stdout)
-    assert (played["status"], played["body"], played["body_changes"]) == ("completed", "furhat", changes)
+    assert (played["status"], played["body"], played["body_changes"]) == ("completed", "robot:furhat", changes)
     counted = played["utterances"]
     assert counted["requested"] == counted["finished"] + counted["shown_only"]
     assert counted["failed"] == changes

@@ -122,16 +122,16 @@ def test_a_stage_that_is_resumed_begins_as_it_began(stage: Stage) -> None:
 @pytest.mark.parametrize("stage", CAN_BE_RESUMED)
 def test_going_on_is_recorded_with_the_body_that_helps_then(stage: Stage) -> None:
     past = driven_to(stage, SMALL, SEED).world
-    driver = Driver.resumed(SMALL, SEED, past, EmbodimentName.FURHAT)
+    driver = Driver.resumed(SMALL, SEED, past, EmbodimentName.robot("furhat"))
     step = driver.steps[-1]
-    assert step.event == happened.SessionResumed(at_ms=past[-1].at_ms, body=EmbodimentName.FURHAT)
+    assert step.event == happened.SessionResumed(at_ms=past[-1].at_ms, body=EmbodimentName.robot("furhat"))
     assert step.outcome.events[0] == happened.StageEntered(at_ms=driver.now, stage=stage)
 
 
 def test_a_robot_that_was_lost_before_can_be_lost_again_after_going_on() -> None:
     driver = driven_to(Stage.INTRODUCTION, SMALL, SEED)
     driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
-    driver = Driver.resumed(SMALL, SEED, driver.world, EmbodimentName.FURHAT)
+    driver = Driver.resumed(SMALL, SEED, driver.world, EmbodimentName.robot("furhat"))
     driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
     assert len(driver.noted(happened.EmbodimentChanged)) == 2
 

@@ -5,10 +5,20 @@ from __future__ import annotations
 import queue
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import AsyncRobotAdapter, BoardPoint, Capabilities, Health, RobotVoice, Utterance
+from kiosk.robots.embodiment import (
+    AsyncRobotAdapter,
+    BoardPoint,
+    Capabilities,
+    Capability,
+    Health,
+    RobotDriver,
+    RobotVoice,
+    Utterance,
+)
 
 PATIENCE_S = 10
 
@@ -97,10 +107,11 @@ class BodyFake:
 
 
 @dataclass
-class RobotFake:
+class RobotFake(RobotDriver):
     """A robot that does at once what it is told, or raises what it was given to raise."""
 
-    name: EmbodimentName = EmbodimentName.FURHAT
+    name: ClassVar[str] = "furhat"
+    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
     failure: Exception | None = None
     did: list[str] = field(default_factory=list)
 

@@ -47,7 +47,7 @@ class Stage:
 
     def helps(self, name: EmbodimentName) -> bool:
         """Whether this body helps now."""
-        return self.embodiments.current is not None and self.embodiments.current.name is name
+        return self.embodiments.current is not None and self.embodiments.current.name == name
 
 
 @pytest.fixture
@@ -71,16 +71,16 @@ def test_until_the_robot_is_found_the_avatar_helps(stage: Stage) -> None:
     assert stage.helps(EmbodimentName.AVATAR)
     assert not stage.embodiments.settled
     stage.settle()
-    assert stage.helps(EmbodimentName.FURHAT)
+    assert stage.helps(EmbodimentName.robot("furhat"))
     assert stage.embodiments.settled
     assert ("withdraw",) in stage.avatar.did
-    assert stage.body.health.words == "the robot is there and speaks as Amy"
+    assert stage.body.health.message == "the robot is there and speaks as Amy"
 
 
 def test_the_experimenter_is_told_how_every_body_is(stage: Stage) -> None:
     stage.begin_to_look()
     assert {name: health.message for name, health in stage.embodiments.health.items()} == {
-        EmbodimentName.FURHAT: "the robot is there and speaks as Amy",
+        EmbodimentName.robot("furhat"): "the robot is there and speaks as Amy",
         EmbodimentName.AVATAR: "it is a fake",
     }
 
@@ -147,7 +147,7 @@ def test_between_sessions_it_is_looked_for_with_growing_pauses_and_taken_back(ro
     stage.robot.failure = None
     stage.waits.spend(8000)
     stage.settle()
-    assert stage.helps(EmbodimentName.FURHAT)
+    assert stage.helps(EmbodimentName.robot("furhat"))
 
 
 def test_what_came_due_during_a_session_is_done_right_after_it(robot_helps: Stage) -> None:
@@ -162,7 +162,7 @@ def test_what_came_due_during_a_session_is_done_right_after_it(robot_helps: Stag
     stage.embodiments.end_session()
     stage.settle()
     assert stage.robot.did.count("connect") == 2
-    assert stage.helps(EmbodimentName.FURHAT)
+    assert stage.helps(EmbodimentName.robot("furhat"))
 
 
 def test_a_robot_that_comes_back_during_a_session_waits_for_its_end(stage: Stage) -> None:
@@ -171,7 +171,7 @@ def test_a_robot_that_comes_back_during_a_session_waits_for_its_end(stage: Stage
     stage.settle()
     assert stage.helps(EmbodimentName.AVATAR)
     stage.embodiments.end_session()
-    assert stage.helps(EmbodimentName.FURHAT)
+    assert stage.helps(EmbodimentName.robot("furhat"))
 
 
 def test_between_sessions_a_robot_that_is_well_is_seen_to(stage: Stage) -> None:

@@ -12,8 +12,8 @@ import pytest
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.robots.embodiment import BoardPoint, FailureKind, RobotError, RobotVoice, Utterance, speakable
-from kiosk.robots.furhat import Furhat, chosen_voice
+from kiosk.robots.embodiment import BoardPoint, FailureKind, RobotError, RobotVoice, Utterance, chosen_voice, speakable
+from kiosk.robots.furhat import Furhat
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 
 DEADLINE_MS = 250

@@ -46,10 +46,10 @@ def test_the_avatar_helps_from_the_next_session_on_when_the_experimenter_prefers
     place.embodiments.begin_session("en")
     helped = []
     prefer = partial(partial, place.embodiments.prefer)
-    for do in (prefer(EmbodimentName.AVATAR), place.embodiments.end_session, prefer(EmbodimentName.FURHAT)):
+    for do in (prefer(EmbodimentName.AVATAR), place.embodiments.end_session, prefer(EmbodimentName.robot("furhat"))):
         do()
         helped.append(place.helper)
-    assert helped == [EmbodimentName.FURHAT, EmbodimentName.AVATAR, EmbodimentName.FURHAT]
+    assert helped == [EmbodimentName.robot("furhat"), EmbodimentName.AVATAR, EmbodimentName.robot("furhat")]
     place.embodiments.close()
 
 
@@ -57,7 +57,7 @@ def test_a_robot_that_is_found_again_does_not_help_whoever_prefers_the_avatar() 
     place = Place()
     place.embodiments.prefer(EmbodimentName.AVATAR)
     place.find_robot()
-    assert place.helper is EmbodimentName.AVATAR
+    assert place.helper == EmbodimentName.AVATAR
     place.embodiments.close()
 
 
@@ -94,7 +94,7 @@ def test_it_stays_quiet_when_another_body_takes_over() -> None:
     body = place.find_robot()
     place.say(1, "Hello")
     place.interface.settle(body)
-    assert place.helper is EmbodimentName.FURHAT
+    assert place.helper == EmbodimentName.robot("furhat")
     assert place.reports.heard == [("failed", 1, WHY)]
     assert "say Hello" not in place.robot.did
     place.embodiments.close()

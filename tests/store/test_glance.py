@@ -24,7 +24,7 @@ def stages(*entered: Stage) -> list[Event]:
 
 def begin(recorder: Recorder, *events: Event) -> None:
     """Record a session with these events."""
-    recorder.begin(Provenance(whole(), 1, EmbodimentName.AVATAR.value, "a test", simulated=False), events)
+    recorder.begin(Provenance(whole(), 1, str(EmbodimentName.AVATAR), "a test", simulated=False), events)
 
 
 def test_the_last_sessions_come_first_with_where_and_how_they_ended(tmp_path: Path) -> None:

@@ -95,7 +95,7 @@ class Result:
         wrong = {
             "the session did not end": self.session.status is not Status.COMPLETED,
             "not all pairs were found": self.session.measures.pairs != 12,
-            "it began with another body": self.session.body not in {"furhat", "furhat-realtime"},
+            "it began with another body": not self.session.body.startswith("robot:"),
             "a sentence was neither heard nor shown": bool(self.unseen),
             "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,
             "the body changed more than once": self.body_changes > 1,

@@ -53,7 +53,7 @@ def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> R
 
 def helps(booth: Booth, name: EmbodimentName) -> bool:
     """Whether this body helps now."""
-    return booth.app.embodiments.current is not None and booth.app.embodiments.current.name is name
+    return booth.app.embodiments.current is not None and booth.app.embodiments.current.name == name
 
 
 def wait_for(qtbot: QtBot, booth: Booth, holds: Callable[[], bool]) -> None:
@@ -80,7 +80,7 @@ def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: Furha
     result = sabotaged(booth, fake, mode, at)
     assert result.body_changes == 1
     changed = next(event for event in result.events if isinstance(event, happened.EmbodimentChanged))
-    assert changed.body is EmbodimentName.AVATAR
+    assert changed.body == EmbodimentName.AVATAR
     assert changed.why.startswith("the robot ")
 
 
@@ -121,7 +121,7 @@ def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake
 def test_a_robot_that_comes_back_helps_the_next_visitor(qtbot: QtBot, booth: Booth, fake: FurhatFake) -> None:
     sabotaged(booth, fake, Mode.RESET, Moment.GAME)
     fake.restart()
-    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.FURHAT))
+    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.robot("furhat")))
     result = sabotaged(booth, fake, Mode.WELL, 1)
     assert result.body_changes == 0
     assert fake.voice == "Matthew"
@@ -130,7 +130,7 @@ def test_a_robot_that_comes_back_helps_the_next_visitor(qtbot: QtBot, booth: Boo
 def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     qtbot: QtBot, booth: Booth, fake: FurhatFake
 ) -> None:
-    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.FURHAT))
+    wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.robot("furhat")))
     fake.mode = Mode.REFUSE
     wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.AVATAR))
     booth.rehearse(seed=1)

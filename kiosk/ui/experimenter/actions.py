@@ -282,10 +282,10 @@ class ActionController:
         if not embodiments.has_robot:
             self.tell("console-robot-none")
             return
-        robot = next(name for name in embodiments.health if name is not EmbodimentName.AVATAR)
-        to_avatar = choice == EmbodimentName.AVATAR.value if choice else not embodiments.prefers_avatar
+        robot = next(name for name in embodiments.health if name != EmbodimentName.AVATAR)
+        to_avatar = choice == str(EmbodimentName.AVATAR) if choice else not embodiments.prefers_avatar
         name = EmbodimentName.AVATAR if to_avatar else robot
-        if self._written(AuditEvent.BODY_CHOSEN, {"body": name.value, "reason": reason}):
+        if self._written(AuditEvent.BODY_CHOSEN, {"body": str(name), "reason": reason}):
             embodiments.prefer(name)
             self.tell("console-next-avatar" if to_avatar else "console-next-robot")
 

@@ -238,7 +238,7 @@ class Panel:
         booth, actions, told = self._booth, self._actions, self._catalogue.text
         under_way = self._under_way
         embodiments = booth.embodiments
-        robot = next((name.value for name in embodiments.health if name is not EmbodimentName.AVATAR), "")
+        robot = next((str(name) for name in embodiments.health if name != EmbodimentName.AVATAR), "")
         return {
             "session": told("console-session-paused") if under_way else told("console-session-none"),
             "underWay": under_way,
@@ -251,11 +251,11 @@ class Panel:
             else AUTOMATIC,
             "embodiments": [
                 {"value": robot, "label": told("console-robot")},
-                {"value": EmbodimentName.AVATAR.value, "label": told("console-avatar")},
+                {"value": str(EmbodimentName.AVATAR), "label": told("console-avatar")},
             ]
             if embodiments.has_robot
             else [],
-            "body": EmbodimentName.AVATAR.value if embodiments.prefers_avatar else robot,
+            "body": str(EmbodimentName.AVATAR) if embodiments.prefers_avatar else robot,
             "languages": [
                 {"value": plan.language, "label": plan.catalogue.text("language-name")}
                 for plan in booth.assigner.study.plans
@@ -378,7 +378,7 @@ class ExperimenterConsole:
         """How everything is now."""
         booth = self._booth
         robot = next(
-            (health for name, health in booth.embodiments.health.items() if name is not EmbodimentName.AVATAR), None
+            (health for name, health in booth.embodiments.health.items() if name != EmbodimentName.AVATAR), None
         )
         width, height = self._window.width(), self._window.height()
         held = booth.window_health()

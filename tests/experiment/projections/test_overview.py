@@ -60,11 +60,11 @@ def test_a_session_that_went_on_after_an_interruption_has_not_ended() -> None:
     driver = driven_to(Stage.PRACTICE)
     cut = [*driver.events, happened.SessionEnded(at_ms=driver.now, status=Status.INTERRUPTED)]
     assert summarise_session(cut).status is Status.INTERRUPTED
-    resumed = Driver.resumed(driver.plan, 5, driver.world, EmbodimentName.FURHAT)
+    resumed = Driver.resumed(driver.plan, 5, driver.world, EmbodimentName.robot("furhat"))
     later = [*cut, *resumed.events[len(driver.events) :]]
     seen = summarise_session(later)
     assert seen.status is None
-    assert seen.resumptions == (happened.SessionResumed(at_ms=driver.now, body=EmbodimentName.FURHAT),)
+    assert seen.resumptions == (happened.SessionResumed(at_ms=driver.now, body=EmbodimentName.robot("furhat")),)
     assert [entered.stage for entered in seen.entered[-2:]] == [Stage.PRACTICE, Stage.PRACTICE]
     resumed.to(Stage.OVER)
     assert summarise_session([*cut, *resumed.events[len(driver.events) :]]).status is Status.COMPLETED

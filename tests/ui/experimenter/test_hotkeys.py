@@ -59,7 +59,7 @@ def undo(assigner: Desk) -> None:
     app.experimenter.panel.close()
     app.runner.dispatch(happened.PauseEnded(at_ms=app.runner.now_ms()))
     app.embodiments.unmute()
-    app.embodiments.prefer(EmbodimentName.FURHAT)
+    app.embodiments.prefer(EmbodimentName.robot("furhat"))
     app.assigner.choose(None, "a test")
     assigner.wait_for_note_to_go()
 
@@ -99,7 +99,7 @@ def check(assigner: Desk, action: Action, stage: Stage) -> None:
         assert assigner.notes[-1][1]["reason"] == "disturbed", where
     if held.effect is ActionEffect.NEXT_SESSION and stage not in EMPTY:
         assert assigner.app.embodiments.current is not None
-        assert assigner.app.embodiments.current.name is EmbodimentName.FURHAT, where
+        assert assigner.app.embodiments.current.name == EmbodimentName.robot("furhat"), where
         assert assigner.stage is stage, where
 
 
@@ -110,7 +110,7 @@ def test_what_was_put_off_holds_for_the_next_visitor(make_assigner: MakeDesk) ->
     assigner.do(Action.BODY)
     assigner.do(Action.END)
     assert assigner.app.embodiments.current is not None
-    assert assigner.app.embodiments.current.name is EmbodimentName.AVATAR
+    assert assigner.app.embodiments.current.name == EmbodimentName.AVATAR
     assigner.do(Action.CONDITION)
     assert assigner.app.assigner.next_session("en").plan.condition is Condition.TOM
 

@@ -1,0 +1,1 @@
+"""Three packages of a lab that adds to Recollect, and what installs them beside it."""
