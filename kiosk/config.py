@@ -518,7 +518,7 @@ class Settings(ConfigModel):
         """List the codes of the languages; a language that is named by a path has its folder's name as its code."""
         return tuple(code_of(name) for name in self.languages)
 
-    def find(self, kind: str, name: str) -> Path:
+    def resolve_asset(self, kind: str, name: str) -> Path:
         """Return the path of what the study file calls by this name, whether it is there or not."""
         found = self.locate(kind, name)
         return self.beside(name) if found is None else found.path

@@ -34,7 +34,7 @@ class Timeouts:
     """For the first frame."""
     end: float = 5.0
     """For a kiosk that was asked to end."""
-    meanwhile: float = 5.0
+    splash: float = 5.0
     """For the calm window."""
     young: float = 10.0
     """A kiosk that dies sooner after its first frame died at once."""
@@ -373,13 +373,13 @@ class Supervisor:
     def __init__(
         self,
         kiosk: Sequence[str],
-        meanwhile: Sequence[str],
+        splash: Sequence[str],
         tell: Callable[[SupervisorEvent], None],
         patience: Timeouts | None = None,
     ) -> None:
         """Keep up the kiosk that this command starts, above the calm window that the other command starts."""
         self._kiosk = kiosk
-        self._meanwhile = meanwhile
+        self._splash = splash
         self._tell = tell
         self._patience = patience or Timeouts()
         self._began = time.monotonic()
@@ -505,12 +505,12 @@ class Supervisor:
             self._calm.close()
             self._calm = None
         try:
-            self._calm = ProcessGroup(self._meanwhile, {})
+            self._calm = ProcessGroup(self._splash, {})
         except OSError:
             self._happened(SupervisorEventKind.NO_MEANWHILE)
             return
         watch = Watchdog(self._calm, self._patience)
-        until = time.monotonic() + self._patience.meanwhile
+        until = time.monotonic() + self._patience.splash
         while not (watch.up or watch.over() or time.monotonic() > until or self._asked_to_end):
             watch.hear()
         if not watch.up:

@@ -84,9 +84,9 @@ def test_a_number_is_written_as_a_number(tmp_path: Path, content: str, given: st
 
 def test_what_a_file_names_by_a_path_lies_beside_it(tmp_path: Path) -> None:
     read = Settings.read(written(tmp_path, ""))
-    assert read.find("cards", "animals") == ASSETS / "cards" / "animals"
-    assert read.find("cards", "toys") == tmp_path / "toys"
-    assert Settings().find("cards", "toys") == Path("toys")
+    assert read.resolve_asset("cards", "animals") == ASSETS / "cards" / "animals"
+    assert read.resolve_asset("cards", "toys") == tmp_path / "toys"
+    assert Settings().resolve_asset("cards", "toys") == Path("toys")
 
 
 @pytest.mark.parametrize("shortcut", ["", "F1", "Shift+F12", "Ctrl+P", "Shift+Ctrl+Alt+Space"])

@@ -237,21 +237,21 @@ def _study(booth: CheckTargets) -> Iterator[Check]:
 def _shown(booth: CheckTargets) -> Iterator[Check]:
     number = str(booth.settings.screen.number if booth.settings else 0)
     remedy = "see that the session has a screen, and run this in it"
-    screens = partial(run_check_process, "screen", program("display", "screens", number), _DISPLAY_S, remedy)
+    screens = partial(run_check_process, "screen", program("_display", "screens", number), _DISPLAY_S, remedy)
     yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.BAD)
     if booth.study is not None and booth.study.own_pictures:
         drawn = partial(found_pictures, booth.study.own_pictures)
         yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.BAD)
     remedy = "install Recollect anew, with the system's packages that packaging/README.md names"
     study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
-    frame = partial(run_check_process, "drawing", program("display", "frame", *study), _DISPLAY_S, remedy)
+    frame = partial(run_check_process, "drawing", program("_display", "frame", *study), _DISPLAY_S, remedy)
     yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.BAD)
 
 
 def found_pictures(files: Sequence[Path]) -> Iterator[CheckResult]:
     """Draw the pictures that do not come with the program."""
     try:
-        faults = tuple(undrawn(program("display", "pictures"), files))
+        faults = tuple(undrawn(program("_display", "pictures"), files))
     except CannotDraw as error:
         yield CheckResult.warning(PICTURES, f"they were not tried: {error}", "see what is said of the drawing")
         return

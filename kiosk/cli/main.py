@@ -42,9 +42,9 @@ _COMMANDS = {
     "policy": "kiosk.cli.learning:policy_group",
 }
 _WORKERS = {
-    "display": "kiosk.cli.run:display_command",
-    "meanwhile": "kiosk.cli.run:splash_command",
-    "voice-worker": "kiosk.cli.run:voice_command",
+    "_display": "kiosk.cli.run:display_command",
+    "_splash": "kiosk.cli.run:splash_command",
+    "_voice": "kiosk.cli.run:voice_command",
 }
 """Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
 

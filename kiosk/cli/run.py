@@ -200,7 +200,7 @@ def keep_command(
         _write_down(happening)
 
     kiosk = program("open", "--unattended", "--data", str(data), *options)
-    supervisor = Supervisor(kiosk, program("meanwhile"), tell, Timeouts(silence=silence))
+    supervisor = Supervisor(kiosk, program("_splash"), tell, Timeouts(silence=silence))
     for ending in (signal.SIGINT, signal.SIGTERM):
         signal.signal(ending, lambda *_: supervisor.end())
     code = supervisor.run()
@@ -237,4 +237,4 @@ def splash_command() -> None:
         sys.exit(BAD_INPUT)
     from kiosk.ui.splash import show_splash
 
-    show_splash([read_catalogue(language).text("meanwhile-line") for language in shipped_languages()])
+    show_splash([read_catalogue(language).text("splash-line") for language in shipped_languages()])

@@ -135,7 +135,7 @@ def replay_command(
 def _check_pictures(plan: SessionConfig) -> None:
     settings = plan.settings
     for deck in (settings.game.deck, settings.practice.deck):
-        if not settings.find("cards", deck).is_dir():
+        if not settings.resolve_asset("cards", deck).is_dir():
             raise UserInputError(f"the pictures of the deck {deck!r} are not here; name the study file with --study")
 
 

@@ -71,7 +71,7 @@ def study_check(context: click.Context, file: Path, *, as_json: bool) -> None:
 def check_pictures(read: StudyConfig) -> list[str]:
     """Raise BadInput if a picture of the study's own cannot be drawn; say so if none can be tried here."""
     try:
-        faults = tuple(undrawn(program("display", "pictures"), read.own_pictures))
+        faults = tuple(undrawn(program("_display", "pictures"), read.own_pictures))
     except CannotDraw as error:
         return [f"the pictures were not tried: {error}"]
     if faults:

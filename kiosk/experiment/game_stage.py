@@ -109,7 +109,7 @@ class GameStage(StageHandler):
             case happened.TimerExpired(timer=Timer.MARK):
                 self._mark(outcome)
             case happened.SpeechFinished(utterance=utterance) if self._holding(utterance):
-                self._settle(outcome)
+                self._release_board(outcome)
             case happened.SpeechFailed(utterance=utterance):
                 self._let_be_read(utterance, outcome)
             case happened.TimerExpired(timer=timer):
@@ -153,10 +153,10 @@ class GameStage(StageHandler):
                 self.game.turn_back()
                 self._help_or_open(outcome)
             case Timer.READING:
-                self._settle(outcome)
+                self._release_board(outcome)
             case Timer.SPEECH_DEADLINE:
                 outcome.effect(do.StopSpeaking())
-                self._settle(outcome)
+                self._release_board(outcome)
             case Timer.MOOD:
                 outcome.effect(do.SetExpression(Mood.IDLE))
             case Timer.FINISH:
@@ -234,7 +234,7 @@ class GameStage(StageHandler):
         given = self._given
         return given if given is not None and given.holds and given.utterance == utterance else None
 
-    def _settle(self, outcome: OutcomeBuilder) -> None:
+    def _release_board(self, outcome: OutcomeBuilder) -> None:
         """The hint has been taken in: see that it is marked, and open the board."""
         if self._given is None or not self._given.holds:
             return

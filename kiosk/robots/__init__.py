@@ -17,4 +17,4 @@ def voice_options(settings: VoiceConfig, language: str, *, probe: bool = False) 
 
 def voice_program(settings: VoiceConfig, language: str, *, probe: bool = False) -> tuple[str, ...]:
     """Return the command that starts the voice's process for a language."""
-    return program("voice-worker", voice_options(settings, language, probe=probe))
+    return program("_voice", voice_options(settings, language, probe=probe))

@@ -462,7 +462,7 @@ def _of_cards(study: StudyConfig) -> Iterator[str]:
     for plan in study.plans:
         boards: dict[str, tuple[str, ...]] = {plan.settings.practice.deck: plan.practice_deck}
         for deck, cards in (boards | {plan.settings.game.deck: plan.deck}).items():
-            folder = plan.settings.find("cards", deck)
+            folder = plan.settings.resolve_asset("cards", deck)
             unnamed = [name for name in cards if not plan.catalogue.names(name)]
             if unnamed:
                 yield (
@@ -546,7 +546,7 @@ def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
     table = study.plans[0].policy
     words = f"{table.name} {table.sha256[:SHORT_SHA]}"
     name = study.settings.assistance.policy
-    card = None if name == NONE else study.settings.find("policies", name).with_suffix(POLICY_CARD)
+    card = None if name == NONE else study.settings.resolve_asset("policies", name).with_suffix(POLICY_CARD)
     if card is None or card.is_file():
         yield CheckResult.good(POLICY, words)
     else:

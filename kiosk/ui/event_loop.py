@@ -258,12 +258,12 @@ def heartbeat(window: QQuickWindow, kiosk: KioskScreen, environment: Mapping[str
             beat.start()
 
     after_first_frame(window, begin)
-    kiosk.unsettled.connect(tell_screen)
+    kiosk.screen_changed.connect(tell_screen)
     try:
         yield
     finally:
         beat.stop()
-        kiosk.unsettled.disconnect(tell_screen)
+        kiosk.screen_changed.disconnect(tell_screen)
         notifier.tell(STOPPING=1)
         notifier.close()
 

@@ -50,7 +50,7 @@ def sound_for(effects: Iterable[Effect]) -> SoundEffect | None:
     return next((sound for sound in SoundEffect if sound in heard), None)
 
 
-SETTLE_MS = 400
+INPUT_GUARD_MS = 400
 """How long a new screen takes no input; the slowest double click that desktops accept by default."""
 
 
@@ -64,8 +64,8 @@ class Renderer:
         self._clock = clock
         self._timer_expired = timer_expired
         self._waits: dict[Timer, TimerWait] = {}
-        self._settling: TimerWait | None = None
-        screens.kiosk.unsettled.connect(self._let_settle)
+        self._input_guard: TimerWait | None = None
+        screens.kiosk.screen_changed.connect(self._start_input_guard)
 
     def begin(self, plan: SessionConfig) -> None:
         """A session begins: everything speaks its language, and tells its contact."""
@@ -182,11 +182,11 @@ class Renderer:
         """The body that helps now."""
         return None if self.embodiments is None else self.embodiments.current
 
-    def _let_settle(self) -> None:
+    def _start_input_guard(self) -> None:
         """Take no input for a moment: the second half of a double click belongs to what was shown before."""
-        if self._settling is not None:
-            self._settling.cancel()
-        self._settling = self._clock.after(SETTLE_MS, self.screens.kiosk.end_input_guard)
+        if self._input_guard is not None:
+            self._input_guard.cancel()
+        self._input_guard = self._clock.after(INPUT_GUARD_MS, self.screens.kiosk.end_input_guard)
 
     def _stop_wait(self, timer: Timer) -> None:
         wait = self._waits.pop(timer, None)

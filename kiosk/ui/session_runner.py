@@ -214,7 +214,7 @@ class BusyWait:
         call()
 
 
-PAUSE_MS = 8_000
+ERROR_SCREEN_MS = 8_000
 """How long the error screen stays before the kiosk tries to go on."""
 
 CLOSING_WAIT_MS = 2_000
@@ -249,7 +249,7 @@ class SessionRunner:
         """When the visitor last did anything to the screen, on the clock; None if they never did."""
         self._idle_since = 0
         self._shut = False
-        self._calm: TimerWait | None = None
+        self._error_screen_wait: TimerWait | None = None
         self._recorder = recorder
         self._clock = clock
         self._assigner = assigner
@@ -262,7 +262,7 @@ class SessionRunner:
         self._session: Session | None = None
         self._record: SessionRecording | None = None
         screens.connect_input(self)
-        screens.kiosk.unsettled.connect(self._note_change)
+        screens.kiosk.screen_changed.connect(self._note_change)
         self._renderer.reset("attract")
 
     @property
@@ -387,12 +387,12 @@ class SessionRunner:
     def pause(self) -> None:
         """Drop the session behind the error screen after a failure, then go on."""
         self._rest("pause")
-        self._stay_calm()
+        self._keep_error_screen()
 
-    def _stay_calm(self) -> None:
-        if self._calm is not None:
-            self._calm.cancel()
-        self._calm = self._clock.after(PAUSE_MS, self.go_on)
+    def _keep_error_screen(self) -> None:
+        if self._error_screen_wait is not None:
+            self._error_screen_wait.cancel()
+        self._error_screen_wait = self._clock.after(ERROR_SCREEN_MS, self.go_on)
 
     def go_on(self) -> None:
         """Leave the error screen; nothing happens while a session is under way."""

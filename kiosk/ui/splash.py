@@ -23,7 +23,7 @@ from kiosk.ui.event_loop import after_first_frame
 # PySide6.QtQuick must be known before a window is asked for, or it comes back as a plain QWindow.
 
 
-QML = Path(__file__).parent / "qml" / "Meanwhile.qml"
+QML = Path(__file__).parent / "qml" / "Splash.qml"
 LOOK_MS = 1000
 """How often it is seen whether the supervisor is still there."""
 

@@ -217,7 +217,7 @@ class EngineVoice(Voice):
         process.errorOccurred.connect(self._lost)
         self._process = process
         manner = voice_options(self._settings, self._language)
-        command = (*self._other, manner) if self._other else program("voice-worker", manner)
+        command = (*self._other, manner) if self._other else program("_voice", manner)
         process.start(command[0], list(command[1:]))
 
     def _send(self, command: dict[str, Any]) -> None:

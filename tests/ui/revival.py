@@ -31,7 +31,7 @@ from kiosk import config
 from kiosk.experiment.events import Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.queries import open_repository
-from kiosk.ui.session_runner import PAUSE_MS
+from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from tests.samples import WITH_PIN
 
 STAGES = ("attract", *(stage for stage in config.STAGES))
@@ -72,7 +72,7 @@ FAULTS: dict[str, Callable[[int], None]] = {
 """What strikes the process of the kiosk."""
 MENDED_INSIDE = {"exception"}
 """What the kiosk itself answers with its own error screen, without being started again."""
-CALM_S = PAUSE_MS / 1000 + 1
+CALM_S = ERROR_SCREEN_MS / 1000 + 1
 
 
 @dataclass(frozen=True)

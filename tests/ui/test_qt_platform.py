@@ -143,7 +143,7 @@ def test_a_check_says_what_to_install_and_does_not_praise_the_drawing(monkeypatc
 
 
 def test_a_check_of_a_screen_that_cannot_be_reached_says_which_one() -> None:
-    done = run("display", "screens", "0", DISPLAY=NOWHERE)
+    done = run("_display", "screens", "0", DISPLAY=NOWHERE)
     assert (done.returncode, done.stderr) == (0, "")
     assert "cannot be reached" in done.stdout
 

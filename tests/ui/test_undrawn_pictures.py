@@ -28,7 +28,7 @@ def test_every_picture_is_tried_and_those_that_cannot_be_drawn_are_told(tmp_path
     for name, content in pictures.items():
         (tmp_path / f"{name}.svg").write_text(content, "utf-8")
     files = [*(tmp_path / f"{name}.svg" for name in pictures), tmp_path / "none.svg"]
-    said = list(undrawn(program("display", "pictures"), files, within_s=2))
+    said = list(undrawn(program("_display", "pictures"), files, within_s=2))
     told = {file.stem: [each for each in said if f"{file} cannot be drawn: " in each] for file in files}
     assert {name for name, sentences in told.items() if sentences} == {"b", "c", "d", "e", "none"}
     assert all(len(sentences) <= 1 for sentences in told.values())
@@ -38,7 +38,7 @@ def test_every_picture_is_tried_and_those_that_cannot_be_drawn_are_told(tmp_path
 
 def test_the_shipped_pictures_can_be_drawn() -> None:
     files = [*sorted((ASSETS / "cards").rglob("*.svg")), *sorted((ASSETS / "scales").rglob("*.svg"))]
-    assert list(undrawn(program("display", "pictures"), files)) == []
+    assert list(undrawn(program("_display", "pictures"), files)) == []
 
 
 def test_a_picture_that_ends_the_process_is_told_and_the_next_one_is_tried(tmp_path: Path) -> None:

@@ -82,21 +82,21 @@ class HealthInputs:
 
 def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
     """Every line, in the order in which a person looks."""
-    told = catalogue.text
+    translate = catalogue.text
     return (
         _robot(state, catalogue),
         _voice(state, catalogue),
         _disk(state, catalogue),
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
-        HealthLine(told("console-policy"), _policy(study)),
-        HealthLine(told("console-study"), f"{study.settings.title} · {study.settings.sha256[:SHORT_SHA]}"),
+        HealthLine(translate("console-policy"), _policy(study)),
+        HealthLine(translate("console-study"), f"{study.settings.title} · {study.settings.sha256[:SHORT_SHA]}"),
         HealthLine(
-            told("console-pin-line-name"),
-            told("console-pin-set" if state.has_pin else "console-pin-none"),
+            translate("console-pin-line-name"),
+            translate("console-pin-set" if state.has_pin else "console-pin-none"),
             state.has_pin,
         ),
-        HealthLine(told("console-screen"), state.screen, state.screen_well),
+        HealthLine(translate("console-screen"), state.screen, state.screen_well),
     )
 
 
@@ -137,15 +137,15 @@ def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
 
 
 def _database(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
-    name, told = catalogue.text("console-database"), catalogue.text
+    name, translate = catalogue.text("console-database"), catalogue.text
     if state.audit_error:
         return HealthLine(name, state.audit_error, is_ok=False)
     if state.last_backup is None:
-        return HealthLine(name, told("console-backup-none"))
+        return HealthLine(name, translate("console-backup-none"))
     if state.last_backup.file is None:
-        return HealthLine(name, told("console-backup-failed", why=state.last_backup.why), is_ok=False)
+        return HealthLine(name, translate("console-backup-failed", why=state.last_backup.why), is_ok=False)
     minutes = max(0, state.clocks.now_ms - state.last_backup.at_ms) // MS_PER_MINUTE
-    return HealthLine(name, told("console-backup-made", ago=ago(minutes, catalogue)))
+    return HealthLine(name, translate("console-backup-made", ago=ago(minutes, catalogue)))
 
 
 def ago(minutes: int, catalogue: Catalogue) -> str:
@@ -181,29 +181,29 @@ def _policy(study: StudyConfig) -> str:
 
 DEVIATIONS_SHOWN = 5
 
-Told = Callable[..., str]
+Translate = Callable[..., str]
 
 
 def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, *, played: bool) -> Row:
     """Every list of the panel that follows from the records; while somebody plays, none tells of a condition."""
-    told = _discreet(catalogue.text) if played else catalogue.text
+    translate = _discreet(catalogue.text) if played else catalogue.text
     visits = {why.value: number for why, number in seen.counts.visits.items()}
     cells = {} if played else seen.counts.cells
     return {
-        "cells": [_cell(condition, cell, told) for condition, cell in cells.items()],
-        "visits": told("console-visits", **visits),
-        "sessions": [_session(session, told) for session in seen.sessions],
-        "deviations": [_deviation(noted, told) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
-        "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, told),
-        "resumable": [_resumable(session, told) for session in seen.resumable],
+        "cells": [_cell(condition, cell, translate) for condition, cell in cells.items()],
+        "visits": translate("console-visits", **visits),
+        "sessions": [_session(session, translate) for session in seen.sessions],
+        "deviations": [_deviation(noted, translate) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
+        "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, translate),
+        "resumable": [_resumable(session, translate) for session in seen.resumable],
     }
 
 
-def _discreet(told: Told) -> Told:
+def _discreet(translate: Translate) -> Translate:
     """The same words, but for the names of conditions: from those before, the one of now could be guessed."""
 
     def tell(message: str, **what: str | int) -> str:
-        return told("console-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
+        return translate("console-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
 
     return tell
 
@@ -211,17 +211,17 @@ def _discreet(told: Told) -> Told:
 _OF_CONDITIONS = ("console-condition-", "console-automatic")
 
 
-def condition_name(condition: Condition | None, told: Told) -> str:
+def condition_name(condition: Condition | None, translate: Translate) -> str:
     """What a condition is called in the panel; None is the list's."""
-    return told(
+    return translate(
         "console-automatic" if condition is None else f"console-condition-{condition.name.lower().replace('_', '-')}"
     )
 
 
-def _cell(condition: Condition, cell: CountCell, told: Told) -> Row:
+def _cell(condition: Condition, cell: CountCell, translate: Translate) -> Row:
     done, quota = cell.fates[Disposition.CONSUMED], cell.quota
     return {
-        "name": condition_name(condition, told),
+        "name": condition_name(condition, translate),
         "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED] or ""),
         "share": min(1.0, done / quota) if quota else 0.0,
         "counts": [
@@ -236,69 +236,69 @@ def _cell(condition: Condition, cell: CountCell, told: Told) -> Row:
     }
 
 
-def _session(session: SnapshotSession, told: Told) -> Row:
+def _session(session: SnapshotSession, translate: Translate) -> Row:
     return {
         "participant": session.participant or "-",
         "when": _time(datetime.fromisoformat(session.started_at)),
-        "condition": condition_name(session.condition, told),
-        "stage": told(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-",
-        "status": told(f"console-status-{session.status.value if session.status else 'running'}"),
-        "robot": told("console-robot-lost") if session.robot_lost else "",
+        "condition": condition_name(session.condition, translate),
+        "stage": translate(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-",
+        "status": translate(f"console-status-{session.status.value if session.status else 'running'}"),
+        "robot": translate("console-robot-lost") if session.robot_lost else "",
         "odd": session.robot_lost or session.status in (Status.ABANDONED, Status.INTERRUPTED, Status.STOPPED),
     }
 
 
-def _resumable(session: SnapshotSession, told: Told) -> Row:
-    stage = told(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-"
+def _resumable(session: SnapshotSession, translate: Translate) -> Row:
+    stage = translate(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-"
     when = _time(datetime.fromisoformat(session.started_at))
     return {
         "number": str(session.number),
-        "label": told("console-resume-one", participant=session.participant, when=when, stage=stage),
+        "label": translate("console-resume-one", participant=session.participant, when=when, stage=stage),
     }
 
 
-def _deviation(noted: SnapshotAuditEvent, told: Told) -> Row:
+def _deviation(noted: SnapshotAuditEvent, translate: Translate) -> Row:
     when = datetime.fromtimestamp(noted.wall_ms / MS_PER_SECOND).astimezone()
     reason = str(noted.body.get("reason") or "")
     return {
         "when": f"{when:%H:%M}",
-        "words": told(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, told)),
-        "reason": _reason(reason, told),
+        "words": translate(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, translate)),
+        "reason": _reason(reason, translate),
     }
 
 
-def _more(number: int, told: Told) -> str:
+def _more(number: int, translate: Translate) -> str:
     """How many are not shown; nothing if all are."""
-    return told("console-deviations-more", number=number) if number > 0 else ""
+    return translate("console-deviations-more", number=number) if number > 0 else ""
 
 
-def _what(noted: SnapshotAuditEvent, told: Told) -> str:
+def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
     """The one thing that a note is about, in words."""
     body: dict[str, Any] = noted.body
     match noted.kind:
         case AuditEvent.CONDITION_CHOSEN:
             named = {condition.value: condition for condition in Condition}
-            return condition_name(named.get(body.get("condition", "")), told)
+            return condition_name(named.get(body.get("condition", "")), translate)
         case AuditEvent.VOLUME_CHANGED:
             return f"{body.get('volume', 0):.0%}"
         case AuditEvent.SOUND_CHANGED:
-            return told("console-quiet-on" if body.get("quiet") else "console-quiet-off")
+            return translate("console-quiet-on" if body.get("quiet") else "console-quiet-off")
         case AuditEvent.SESSION_ABORTED | AuditEvent.KIOSK_LEFT:
             stage = str(body.get("stage", ""))
-            return told(f"console-stage-{_kebab(stage)}") if stage else ""
+            return translate(f"console-stage-{_kebab(stage)}") if stage else ""
         case AuditEvent.ROOM_CHANGED:
-            return told(f"console-room-{body.get('level', 'enough')}")
+            return translate(f"console-room-{body.get('level', 'enough')}")
     of = {AuditEvent.BODY_CHOSEN: "body", AuditEvent.LANGUAGE_CHOSEN: "language", AuditEvent.SESSION_RESUMED: "session"}
     of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why"}
     value = body.get(of.get(noted.kind, ""), "")
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def _reason(reason: str, told: Told) -> str:
+def _reason(reason: str, translate: Translate) -> str:
     """A reason of the list in the panel's language, one in the experimenter's words as it is."""
     for each in DeviationReason:
         if reason == each.value:
-            return told(f"console-reason-{each.name.lower()}")
+            return translate(f"console-reason-{each.name.lower()}")
     return reason.removeprefix(f"{DeviationReason.OTHER.value}: ")
 
 

@@ -58,7 +58,7 @@ Window {
         width: root.wide ? root.width * 0.715 : root.width
         height: root.wide ? root.room : root.room * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
-        enabled: root.kiosk.settled && root.kiosk.bare
+        enabled: root.kiosk.takesInput && root.kiosk.bare
 
         AttractView {
             anchors.fill: parent
@@ -155,7 +155,7 @@ Window {
         anchors.fill: parent
         visible: root.kiosk.asksStillThere
         focus: visible
-        enabled: root.kiosk.settled
+        enabled: root.kiosk.takesInput
         title: root.kiosk.words["still-there-title"]
         line: root.kiosk.words["still-there-line"]
         button: root.kiosk.words["still-there-yes"]

@@ -263,7 +263,7 @@ class IdleLife:
         self._clock = clock
         self._rng = rng
         self._greeting = ""
-        kiosk.unsettled.connect(self._mind_visitor)
+        kiosk.screen_changed.connect(self._mind_visitor)
         self._pause()
 
     @property

@@ -61,16 +61,16 @@ class ScreenSet:
     def of(cls, study: StudyConfig, owner: QObject) -> ScreenSet:
         """The screens of a study, all of them empty; they live as long as ``owner``."""
         catalogues = [plan.catalogue for plan in study.plans]
-        first, find = catalogues[0], study.settings.find
+        first, resolve = catalogues[0], study.settings.resolve_asset
         return cls(
             kiosk=KioskScreen(first, owner),
-            attract=AttractScreen(_pictures(study, partial(find, "cards")), catalogues, owner),
+            attract=AttractScreen(_pictures(study, partial(resolve, "cards")), catalogues, owner),
             about=AboutScreen(owner),
             consent=ConsentScreen(owner),
             age=AgeScreen(first, owner),
-            form=FormScreen(first, partial(find, "scales"), owner),
+            form=FormScreen(first, partial(resolve, "scales"), owner),
             introduction=IntroductionScreen(owner),
-            board=BoardScreen(first, partial(find, "cards"), owner),
+            board=BoardScreen(first, partial(resolve, "cards"), owner),
             result=ResultScreen(first, owner),
             debrief=DebriefScreen(first, owner),
             thanks=ThanksScreen(owner),

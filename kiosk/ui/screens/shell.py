@@ -25,7 +25,7 @@ class KioskScreen(QObject):
     """Another language is spoken; apart from ``changed``, because all texts follow."""
     confirmed = Signal()
     """The visitor said that they are still there."""
-    unsettled = Signal()
+    screen_changed = Signal()
     """Something else is shown than a moment ago."""
 
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
@@ -35,7 +35,7 @@ class KioskScreen(QObject):
         self._asks_still_there = False
         self._paused = self._behind_panel = self._waits = False
         self._leaving = False
-        self._settled = True
+        self._takes_input = True
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Show every fixed text in this language."""
@@ -43,37 +43,37 @@ class KioskScreen(QObject):
         self.spoken.emit()
 
     def show(self, screen: str) -> None:
-        """Show the screen of this name; it takes no input until ``settle``."""
+        """Show the screen of this name; it takes no input until ``end_input_guard``."""
         self._screen = screen
-        self._unsettle()
+        self._start_input_guard()
 
     def end_input_guard(self) -> None:
         """Take input: whoever clicked twice on the last screen has let go by now."""
-        self._settled = True
+        self._takes_input = True
         self.changed.emit()
 
     def ask_still_there(self, *, asks: bool) -> None:
         """Ask over whatever is shown, or stop asking."""
         if asks != self._asks_still_there:
             self._asks_still_there = asks
-            self._unsettle()
+            self._start_input_guard()
 
     def pause(self, *, paused: bool) -> None:
         """Cover everything with a calm word, or take it away."""
         if paused != self._paused:
             self._paused = paused
-            self._unsettle()
+            self._start_input_guard()
 
     def wait(self, *, waits: bool) -> None:
         """Ask the visitor for a moment, over whatever is shown, or let them go on."""
         if waits != self._waits:
             self._waits = waits
-            self._unsettle()
+            self._start_input_guard()
 
     def step_back(self, steps_back: bool) -> None:  # noqa: FBT001 - it is what is set
         """Leave input to the experimenter's panel, or take it again."""
         self._behind_panel = steps_back
-        self._unsettle()
+        self._start_input_guard()
 
     def clear(self) -> None:
         """Nothing of a session lies over the screen."""
@@ -89,7 +89,7 @@ class KioskScreen(QObject):
     @property
     def takes_input(self) -> bool:
         """Whether what is shown can be tapped."""
-        return self._settled
+        return self._takes_input
 
     @property
     def waits_for_answer(self) -> bool:
@@ -132,9 +132,9 @@ class KioskScreen(QObject):
         return not self.covered
 
     @Property(bool, notify=changed)
-    def settled(self) -> bool:
+    def takesInput(self) -> bool:  # noqa: N802 - QML's convention
         """Whether what is shown can be tapped."""
-        return self._settled
+        return self._takes_input
 
     @Property(bool, notify=changed)
     def leaving(self) -> bool:
@@ -151,10 +151,10 @@ class KioskScreen(QObject):
         """The visitor is still there."""
         self.confirmed.emit()
 
-    def _unsettle(self) -> None:
-        self._settled = False
+    def _start_input_guard(self) -> None:
+        self._takes_input = False
         self.changed.emit()
-        self.unsettled.emit()
+        self.screen_changed.emit()
 
 
 @QmlElement

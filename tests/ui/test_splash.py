@@ -25,7 +25,7 @@ from kiosk.ui.splash import _window
 LONG = 20.0
 """Seconds; nothing here takes as long unless it fails."""
 
-LINES = [Catalogue(ASSETS / "sentences" / language).text("meanwhile-line") for language in shipped_languages()]
+LINES = [Catalogue(ASSETS / "sentences" / language).text("splash-line") for language in shipped_languages()]
 
 
 def texts(item: QQuickItem) -> Iterator[QQuickItem]:
@@ -55,7 +55,7 @@ def test_every_language_says_it_and_nothing_is_cut_off(qtbot: QtBot, size: tuple
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no Unix sockets")
 def test_it_tells_when_it_is_there_and_goes_with_whoever_listens(tmp_path: Path) -> None:
     listener = NotifySocketListener(tmp_path)
-    with subprocess.Popen(program("meanwhile"), env=os.environ | listener.environment) as window:
+    with subprocess.Popen(program("_splash"), env=os.environ | listener.environment) as window:
         assert listener.hear(LONG) == {"READY": "1"}
         listener.close()
         assert window.wait(LONG) == 0

@@ -13,7 +13,7 @@ from kiosk.experiment.events import Event, Status
 from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from kiosk.ui.session_runner import PAUSE_MS
+from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 
@@ -161,6 +161,6 @@ def test_a_session_whose_first_event_cannot_be_recorded_has_not_begun(
 def test_a_second_failure_has_a_calm_screen_as_long_as_the_first(booth: Booth) -> None:
     clock, runner = booth.app.clock, booth.app.runner
     runner.pause()
-    clock.after(PAUSE_MS - 1, runner.pause)
+    clock.after(ERROR_SCREEN_MS - 1, runner.pause)
     booth.wait_until(lambda: booth.screen == "attract")
-    assert clock.now_ms() == PAUSE_MS - 1 + PAUSE_MS
+    assert clock.now_ms() == ERROR_SCREEN_MS - 1 + ERROR_SCREEN_MS

@@ -1,3 +1,3 @@
 ### What stands on the screen while the kiosk is started again, in every language at once.
 
-meanwhile-line = Volvemos enseguida
+splash-line = Back in a moment

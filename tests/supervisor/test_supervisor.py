@@ -16,8 +16,8 @@ from kiosk.supervisor import LEFT, REFUSED, Supervisor, SupervisorEvent, Supervi
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the actors know Unix only")
 
 LONGEST_PAUSE = 0.01
-PATIENCE = Timeouts(silence=0.5, start=5, end=0.3, meanwhile=5, young=0, longest_pause=LONGEST_PAUSE, tick=0.02)
-HASTE = Timeouts(silence=0.5, start=0.5, end=0.3, meanwhile=5, young=0, longest_pause=LONGEST_PAUSE, tick=0.02)
+PATIENCE = Timeouts(silence=0.5, start=5, end=0.3, splash=5, young=0, longest_pause=LONGEST_PAUSE, tick=0.02)
+HASTE = Timeouts(silence=0.5, start=0.5, end=0.3, splash=5, young=0, longest_pause=LONGEST_PAUSE, tick=0.02)
 
 Listening = Callable[[Supervisor, SupervisorEvent], None]
 
