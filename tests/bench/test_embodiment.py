@@ -1,6 +1,6 @@
 """How long anybody waits for a body: before a robot is asked, until the avatar takes over, until the board is open.
 
-``pytest tests/bench/test_embodiment.py -s`` prints medians and 99th percentiles; the fake robot runs in the same process.
+``pytest -s tests/bench/test_embodiment.py`` prints medians and 99th percentiles. The fake robot runs in this process.
 """
 
 from __future__ import annotations

@@ -148,7 +148,7 @@ def test_a_check_of_a_screen_that_cannot_be_reached_says_which_one() -> None:
     assert "cannot be reached" in done.stdout
 
 
-@pytest.mark.parametrize("command", ["open", "display screens 0", "display frame"])
+@pytest.mark.parametrize("command", ["open", "_display screens 0", "_display frame"])
 def test_a_library_that_qt_itself_lacks_ends_in_a_sentence(command: str, tmp_path: Path) -> None:
     # As the linker refuses Qt where libegl1 is not installed.
     lacking = """
