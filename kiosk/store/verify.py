@@ -54,11 +54,8 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
     flaws: list[Flaw] = []
     with closing(open_as_it_is(folder)) as connection:
         connection.execute("BEGIN")
-        schema: int = connection.execute("PRAGMA user_version").fetchone()[0]
-        for done, (check, (since, look)) in enumerate(_LOOKS.items()):
+        for done, (check, look) in enumerate(_LOOKS.items()):
             tell(done, len(_LOOKS))
-            if schema < since:
-                continue
             try:
                 flaws += [Flaw(check, where, what) for where, what in look(connection)]
             except (sqlite3.Error, ValueError) as error:
@@ -220,18 +217,18 @@ def _finished(connection: sqlite3.Connection) -> _Found:
         )
 
 
-_LOOKS: dict[Verification, tuple[int, Callable[[sqlite3.Connection], _Found]]] = {
-    Verification.FILE: (1, _file),
-    Verification.REFERENCES: (1, _references),
-    Verification.SCHEMA: (1, _schema),
-    Verification.RECEIPTS: (1, _receipts),
-    Verification.SOURCES: (1, _sources),
-    Verification.NUMBERING: (1, _numbering),
-    Verification.TIME: (1, _time),
-    Verification.READABLE: (1, _readable),
-    Verification.PARTICIPANTS: (2, _participants),
-    Verification.PLACES: (2, _places),
-    Verification.WITHDRAWN: (2, _withdrawn),
-    Verification.FINISHED: (3, _finished),
+_LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
+    Verification.FILE: _file,
+    Verification.REFERENCES: _references,
+    Verification.SCHEMA: _schema,
+    Verification.RECEIPTS: _receipts,
+    Verification.SOURCES: _sources,
+    Verification.NUMBERING: _numbering,
+    Verification.TIME: _time,
+    Verification.READABLE: _readable,
+    Verification.PARTICIPANTS: _participants,
+    Verification.PLACES: _places,
+    Verification.WITHDRAWN: _withdrawn,
+    Verification.FINISHED: _finished,
 }
-"""Every check, with the schema since which there is something to look at."""
+"""What looks for the flaws of each check."""

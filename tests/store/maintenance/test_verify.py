@@ -96,7 +96,7 @@ def test_it_says_how_far_it_is(day: Path) -> None:
             "step 1: has no receipt, or that of another",
             ["UPDATE migration SET sha256 = 'x' WHERE number = 1"],
         ),
-        (Verification.RECEIPTS, "step 2: has no receipt", ["DELETE FROM migration WHERE number = 2"]),
+        (Verification.RECEIPTS, "step 1: has no receipt", ["DELETE FROM migration WHERE number = 1"]),
         (Verification.RECEIPTS, "step 99: has a receipt", ["INSERT INTO migration VALUES (99, '', '', '')"]),
         (Verification.REFERENCES, "points at nothing in source", ["DELETE FROM source"]),
         (
