@@ -86,7 +86,12 @@ class Hint:
 
     def followed_by(self, flipped: Position) -> bool:
         """Whether flipping this card follows the hint: it is the hinted card, or lies in the hinted row or column."""
-        return self.row in (None, flipped.row) and self.column in (None, flipped.column)
+        return points_to(self.row, self.column, flipped)
+
+
+def points_to(row: int | None, column: int | None, place: Position) -> bool:
+    """Tell whether a hint that names this row, column or both points to a place; one that names neither does not."""
+    return (row, column) != (None, None) and row in (None, place.row) and column in (None, place.column)
 
 
 class TargetRule(Enum):

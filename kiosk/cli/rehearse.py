@@ -28,8 +28,9 @@ from kiosk.cli.options import (
 from kiosk.config import NO_ROBOT, STAGES
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, Stage
-from kiosk.experiment.projections import count_embodiment_changes, count_speech
+from kiosk.experiment.projections import count_speech
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.experiment.session_state import SessionState
 from kiosk.robots.registry import check_robot
 from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
@@ -222,7 +223,7 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
 
     with open_repository(data) as there:
         played = there.sessions()[-stored:] if stored else []
-        changes = sum(count_embodiment_changes(there.events(session.id)) for session in played)
+        changes = sum(len(SessionState.from_events(there.events(session.id)).body_changes) for session in played)
     ends = Counter(session.status.value if session.status else "running" for session in played)
     return {"ends": dict(ends), "body_changes": changes}
 
@@ -254,10 +255,11 @@ def _last_session(data: Path, longest_gap_ms: float | None) -> dict[str, Any]:
 
 
 def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
+    state = SessionState.from_events(events)
     return {
         "longest_gap_ms": round(longest_gap_ms, 1),
-        "body_changes": count_embodiment_changes(events),
-        "utterances": asdict(count_speech(events)),
+        "body_changes": len(state.body_changes),
+        "utterances": asdict(count_speech(state)),
     }
 
 

@@ -8,7 +8,15 @@ from functools import partial
 from random import Random
 
 from kiosk import UserInputError
-from kiosk.assistance.assistant import Decision, Explanation, Policy, decide, explain_decision, game_after
+from kiosk.assistance.assistant import (
+    Decision,
+    Explanation,
+    Policy,
+    decide,
+    explain_decision,
+    game_after,
+    table_before_flip,
+)
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import Action, State
 from kiosk.assistance.wording import Catalogue, Wording
@@ -17,6 +25,7 @@ from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
+from kiosk.experiment.session_state import DealtBoard
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Board, Concentration, Position
 
@@ -81,6 +90,22 @@ class DecisionContext:
     target: Position | None = None
     seed: int = 0
 
+    @classmethod
+    def before(cls, flip: int, game: DealtBoard, plan: SessionConfig) -> DecisionContext:
+        """Rebuild the moment before a flip (from 1) of a game that was played; the flip need not have come."""
+        before, hint = game.decisions.get(flip - 1), game.hints.get(flip)
+        flips = tuple(each.event.position for number, each in game.flips.items() if number < flip)
+        return cls(
+            board=game.board,
+            flips=flips,
+            last=before.action if before else Action.NO_HELP,
+            condition=plan.condition,
+            rule=TargetRule(plan.settings.assistance.target_rule),
+            policy=table_before_flip(plan.policy, plan.settings.assistance.step, Concentration(game.board), flips),
+            catalogue=plan.catalogue,
+            target=hint.given.target if hint else None,
+        )
+
     def explained(self) -> Explanation:
         """The decision of this moment, laid open; raises BadInput if there can be no such moment."""
         game, chance = game_after(self.board, self.flips), Random(self.seed)
@@ -102,3 +127,27 @@ class DecisionContext:
             )
         state = State.of(game, self.last)
         return Decision(state, self.policy.gate.decide(game), self.policy.row(state), Action.NO_HELP, None)
+
+
+def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) -> bool:
+    """Tell whether a decision comes out as it was recorded for this flip, in all that was recorded of it."""
+    return _is_same_decision(game, flip, explanation.decision) and _is_same_hint(game, flip, explanation)
+
+
+def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
+    stored, state = game.decisions.get(flip), today.state
+    return stored is None or (stored.game, stored.last, stored.outcome, stored.gate, stored.action) == (
+        *(state.game, state.last, state.outcome),
+        *(today.gate_decision, today.action),
+    )
+
+
+def _is_same_hint(game: DealtBoard, flip: int, explanation: Explanation) -> bool:
+    hint, today = game.hints.get(flip), explanation.decision.hint
+    if hint is None or today is None:
+        return hint is None and today is None
+    stored = hint.given
+    return (stored.seen, stored.mate_seen, stored.reason, stored.row, stored.column) == (
+        *(today.target.seen, today.target.mate_seen, today.target.reason),
+        *(today.row, today.column),
+    ) and (stored.target in explanation.candidates and stored.sentence in explanation.sentences)

@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 
 from kiosk.assistance.policy import Action, FlipInMove, GateDecision
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Event, SessionEvent, Stage, WorldEvent
+from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, Stage, WorldEvent
 from kiosk.experiment.labels import fold_name, read_as
 from kiosk.experiment.session_config import SessionKind
 
@@ -351,6 +351,12 @@ FOLLOWED = Variable(
 )
 SENTENCE = Variable("sentence", "What was said and shown, in the session's language; a sentence of the program.")
 UTTERANCE = Variable("utterance", "The number of the sentence in its session.", ColumnKind.WHOLE)
+BODY = Variable(
+    "body",
+    "What helped with voice and face: when the session began; of a sentence, in this attempt to say it.",
+    levels=enum_levels(EmbodimentKind),
+)
+ROBOT = Variable("robot", "Which robot that was, by the name of its driver.", empty="the avatar helped")
 SIMULATED = Variable("simulated", "Whether a program sat there instead of a person.", ColumnKind.TRUTH)
 TRIAL = Variable("trial", "Whether the kiosk had no PIN, so that the session is none of the study's.", ColumnKind.TRUTH)
 

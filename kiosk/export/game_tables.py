@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import Action, FlipInMove, MoveOutcome, Phase
 from kiosk.experiment.events import AssistanceDecided
+from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
     ACTION,
     AT,
@@ -30,7 +31,6 @@ from kiosk.export.columns import (
     enum_levels,
     make_columns,
 )
-from kiosk.export.records import BoardFlip, BoardHint, DealtBoard, boards
 from kiosk.store.session_records import SessionRecord
 
 
@@ -62,18 +62,18 @@ class _Decision:
 
 
 def _cards(kept: SessionRecord) -> Iterator[_Card]:
-    for dealt in boards(kept):
+    for dealt in kept.state.boards:
         for place, picture in enumerate(dealt.event.cards):
             yield _Card(kept, dealt, *divmod(place, dealt.event.columns), picture)
 
 
 def _flips(kept: SessionRecord) -> Iterator[_Flip]:
-    for dealt in boards(kept):
+    for dealt in kept.state.boards:
         yield from (_Flip(kept, dealt, flip) for flip in dealt.flips.values())
 
 
 def _decisions(kept: SessionRecord) -> Iterator[_Decision]:
-    for dealt in boards(kept):
+    for dealt in kept.state.boards:
         yield from (_Decision(kept, dealt, decision) for decision in dealt.decisions.values())
 
 
@@ -196,7 +196,7 @@ class _Hint:
 
 
 def _hints(kept: SessionRecord) -> Iterator[_Hint]:
-    for dealt in boards(kept):
+    for dealt in kept.state.boards:
         yield from (_Hint(kept, dealt, hint) for hint in dealt.hints.values())
 
 

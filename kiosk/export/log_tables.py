@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import Enum
 
-from kiosk.experiment.events import (
-    HintGiven,
-    SentenceRepeated,
-    SentenceRequested,
-    SpeechFailed,
-    SpeechFinished,
-    SpeechStarted,
-)
+from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
     AT,
+    BODY,
     PARTICIPANT,
+    ROBOT,
     SENTENCE,
     STAGE,
     UTTERANCE,
@@ -88,52 +82,31 @@ def events_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Logge
     )
 
 
-class SentencePurpose(Enum):
-    """What a sentence was for."""
-
-    HINT = "hint"
-    SPEECH = "speech"
-    REPEAT = "repeat"
-
-
-@dataclass
-class _Said:
-    """A sentence and what became of it, in ms."""
-
+@dataclass(frozen=True)
+class _Attempt:
     kept: SessionRecord
-    record: EventRecord
-    utterance: int
-    sentence: str
-    purpose: SentencePurpose
-    started_ms: int | None = None
-    finished_ms: int | None = None
-    failed_ms: int | None = None
+    said: SpokenSentence
+    number: int
+    what: SpeechAttempt
 
 
-def _sentences(kept: SessionRecord) -> Iterator[_Said]:
-    said: dict[int, _Said] = {}
-    for record in kept.records:
-        match record.event:
-            case HintGiven(utterance=number, sentence=sentence):
-                said[number] = _Said(kept, record, number, sentence, SentencePurpose.HINT)
-            case SentenceRequested(utterance=number, sentence=sentence):
-                said[number] = _Said(kept, record, number, sentence, SentencePurpose.SPEECH)
-            case SentenceRepeated(utterance=number, of=before):
-                sentence = said[before].sentence if before in said else ""
-                said[number] = _Said(kept, record, number, sentence, SentencePurpose.REPEAT)
-            case SpeechStarted(utterance=number, at_ms=at_ms) if number in said:
-                said[number].started_ms = at_ms
-            case SpeechFinished(utterance=number, at_ms=at_ms) if number in said:
-                said[number].finished_ms = at_ms
-            case SpeechFailed(utterance=number, at_ms=at_ms) if number in said:
-                said[number].failed_ms = at_ms
-    yield from said.values()
+def _attempts(kept: SessionRecord) -> Iterator[_Attempt]:
+    for said in kept.state.sentences:
+        yield from (_Attempt(kept, said, number, attempt) for number, attempt in enumerate(said.attempts, 1))
 
 
-_SENTENCE_COLUMNS: tuple[Column[_Said], ...] = make_columns(
+_SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
     (PARTICIPANT, lambda row: row.kept.name),
-    (UTTERANCE, lambda row: row.utterance),
-    (STAGE, lambda row: row.record.stage.value),
+    (UTTERANCE, lambda row: row.said.utterance),
+    (
+        Variable(
+            "attempt",
+            "Which attempt to say the sentence, from 1; where a robot is lost in mid-sentence, the avatar begins anew.",
+            ColumnKind.WHOLE,
+        ),
+        lambda row: row.number,
+    ),
+    (STAGE, lambda row: row.said.stage.value),
     (
         Variable(
             "purpose",
@@ -145,19 +118,21 @@ _SENTENCE_COLUMNS: tuple[Column[_Said], ...] = make_columns(
                 repeat="the experimenter had the last sentence said again",
             ),
         ),
-        lambda row: row.purpose.value,
+        lambda row: row.said.purpose.value,
     ),
-    (AT, lambda row: row.record.at_ms),
-    (SENTENCE, lambda row: row.sentence),
+    (SENTENCE, lambda row: row.said.sentence),
+    (BODY, lambda row: row.what.body.kind.value if row.what.body else None),
+    (ROBOT, lambda row: row.what.body.driver or None if row.what.body else None),
+    (AT, lambda row: row.what.at_ms),
     (
         Variable(
             "started_ms",
             "When the voice began, from the session's first event.",
             ColumnKind.WHOLE,
             "ms",
-            empty="no voice said it",
+            empty="the voice did not begin",
         ),
-        lambda row: row.started_ms,
+        lambda row: row.what.started_ms,
     ),
     (
         Variable(
@@ -165,26 +140,27 @@ _SENTENCE_COLUMNS: tuple[Column[_Said], ...] = make_columns(
             "When the voice had said it to its end, from the session's first event.",
             ColumnKind.WHOLE,
             "ms",
-            empty="it was not said to its end, and stayed to be read",
+            empty="it was not said to its end in this attempt",
         ),
-        lambda row: row.finished_ms,
+        lambda row: row.what.finished_ms,
     ),
     (
         Variable(
             "failed_ms",
-            "When a voice failed to say it, from the session's first event; another may have said it all the same.",
+            "When the voice failed or the robot was lost, from the session's first event; the next attempt may have "
+            "succeeded.",
             ColumnKind.WHOLE,
             "ms",
-            empty="no voice failed",
+            empty="the voice did not fail",
         ),
-        lambda row: row.failed_ms,
+        lambda row: row.what.failed_ms,
     ),
 )
 
 SENTENCES = Table(
     "sentences",
-    "One row for every sentence that was said or shown in the bubble.",
-    ("participant_id", "utterance"),
+    "One row for every attempt to say a sentence. A sentence that no voice said to its end stayed to be read.",
+    ("participant_id", "utterance", "attempt"),
     _SENTENCE_COLUMNS,
-    _sentences,
+    _attempts,
 )

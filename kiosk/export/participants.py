@@ -8,18 +8,10 @@ from dataclasses import dataclass, field, fields
 from enum import Enum
 from functools import cached_property, partial
 
-from kiosk.experiment.events import EmbodimentKind, EmbodimentName, PracticeEnd, PracticeFinished, Stage, Status
+from kiosk.experiment.events import EmbodimentName, PracticeEnd, Stage, Status
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.labels import fold_name
-from kiosk.experiment.projections import (
-    ItemResponse,
-    Measures,
-    ScaleScore,
-    SessionSummary,
-    item_responses,
-    measure,
-    summarise_session,
-)
+from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.questionnaire import (
     Integer,
     Item,
@@ -33,9 +25,12 @@ from kiosk.experiment.questionnaire import (
 )
 from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.session_state import ItemResponse, SessionState
 from kiosk.export.columns import (
+    BODY,
     CONDITION,
     PARTICIPANT,
+    ROBOT,
     Cell,
     Column,
     ColumnKind,
@@ -103,16 +98,16 @@ class ParticipantFlow:
         """Count a session that is in the data set."""
         self.seen[FlowQuantity.EXPORTED, str(kept.row["condition"])] += 1
         if kept.status is not Status.COMPLETED:
-            self.seen[FlowQuantity.ENDED_AT, last_stage(summarise_session(kept.events)).value] += 1
+            self.seen[FlowQuantity.ENDED_AT, last_stage(kept.state).value] += 1
 
     def left_out(self, kept: SessionRecord, why: FlowQuantity) -> None:
         """Count one that is not."""
         self.seen[why, str(kept.row["condition"])] += 1
 
 
-def last_stage(session: SessionSummary) -> Stage:
+def last_stage(session: SessionState) -> Stage:
     """The last stage that was more than the end."""
-    return session.last or Stage.ATTRACT
+    return session.last_stage or Stage.ATTRACT
 
 
 @dataclass(frozen=True)
@@ -176,31 +171,31 @@ class Person:
 
     kept: SessionRecord
 
-    @cached_property
-    def overview(self) -> SessionSummary:
-        """What became of the session."""
-        return summarise_session(self.kept.events)
+    @property
+    def body(self) -> EmbodimentName:
+        """What helped when the session began."""
+        return EmbodimentName.from_text(self.kept.row["body"])
+
+    @property
+    def state(self) -> SessionState:
+        """What the session came to."""
+        return self.kept.state
 
     @cached_property
     def measures(self) -> Measures:
         """What was measured in the game."""
-        return measure(self.kept.events)
+        return measure_game(self.state)
 
     @cached_property
     def about_you(self) -> dict[str, ItemResponse]:
         """What was answered about the visitor, by item."""
         asked_first = session_questionnaires(self.kept)[:1]
-        return {answer.item: answer for answer in item_responses(self.kept.events, asked_first)}
+        return {answer.item: answer for answer in item_responses(self.state, asked_first)}
 
     @cached_property
     def scores(self) -> dict[tuple[str, str], ScaleScore]:
         """The scales, by questionnaire and name."""
         return {(score.questionnaire, score.scale): score for score in scores_table(self.kept)}
-
-    @property
-    def practice(self) -> PracticeEnd | None:
-        """How the practice ended; None if it did not."""
-        return next((event.how for event in self.kept.events if isinstance(event, PracticeFinished)), None)
 
 
 def _measured(
@@ -308,7 +303,7 @@ def consent_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[P
 
 
 def _agreed_to(purpose: str, row: Person) -> Cell:
-    return None if row.kept.consent is None else purpose in row.kept.consent.purposes
+    return None if row.state.consent is None else purpose in row.state.consent.purposes
 
 
 def about_you_columns(
@@ -543,21 +538,15 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
         ),
         lambda row: row.kept.row["place"],
     ),
-    (
-        Variable("body", "What helped with voice and face when the session began.", levels=enum_levels(EmbodimentKind)),
-        lambda row: EmbodimentName.from_text(row.kept.row["body"]).kind.value,
-    ),
-    (
-        Variable("robot", "Which robot that was, by the name of its driver.", empty="the avatar helped"),
-        lambda row: EmbodimentName.from_text(row.kept.row["body"]).driver or None,
-    ),
+    (BODY, lambda row: row.body.kind.value),
+    (ROBOT, lambda row: row.body.driver or None),
     (
         Variable(
             "body_changes",
             "How often another body had to take over; who went on after a cut is in the events.",
             ColumnKind.WHOLE,
         ),
-        lambda row: len(row.overview.body_changes),
+        lambda row: len(row.state.body_changes),
     ),
     (
         Variable(
@@ -575,7 +564,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
     ),
     (
         Variable("last_stage", "The last stage that the session reached.", levels=enum_levels(Stage)),
-        lambda row: last_stage(row.overview).value,
+        lambda row: last_stage(row.state).value,
     ),
     (
         Variable(
@@ -583,15 +572,15 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
             "Whether every pair of the game was found and the last one looked at; with that its place is consumed.",
             ColumnKind.TRUTH,
         ),
-        lambda row: row.overview.game_completed,
+        lambda row: row.state.game_completed,
     ),
     (
         Variable("resumed", "How often the session was cut off and gone on with.", ColumnKind.WHOLE),
-        lambda row: len(row.overview.resumptions),
+        lambda row: len(row.state.resumptions),
     ),
     (
         Variable("pauses", "How often the experimenter paused the session.", ColumnKind.WHOLE),
-        lambda row: len(row.overview.pauses),
+        lambda row: len(row.state.pauses),
     ),
     (
         Variable(
@@ -605,7 +594,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
             ),
             empty="there was none, or it was not ended",
         ),
-        lambda row: row.practice.value if row.practice else None,
+        lambda row: row.state.practice_end.value if row.state.practice_end else None,
     ),
     (
         Variable(
@@ -622,7 +611,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
             "The version of the information sheet that the visitor agreed to.",
             empty="no consent was asked for on the screen",
         ),
-        lambda row: row.kept.consent.version if row.kept.consent else None,
+        lambda row: row.state.consent.version if row.state.consent else None,
     ),
 )
 

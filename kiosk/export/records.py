@@ -4,30 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
 from kiosk.experiment.events import (
     AbortRequested,
-    AssistanceDecided,
-    BoardDealt,
-    BoardUnlocked,
-    CardFlipped,
     EmbodimentChanged,
-    HintGiven,
-    HintHighlighted,
-    PauseEnded,
-    PauseRequested,
     ResponseGiven,
     RobotDisconnected,
     SpeechFailed,
-    Stage,
-    Timer,
-    TimerExpired,
 )
 from kiosk.experiment.information import Purpose
-from kiosk.experiment.projections import CARDS_IN_A_MOVE, followed
 from kiosk.experiment.questionnaire import Item, Questionnaire, Rating, ShortText, differences, summed
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.store.session_records import EventRecord, SessionRecord
@@ -233,107 +221,3 @@ def is_free_text(answer: ResponseGiven, kept: SessionRecord) -> bool:
     asked = (kept.plan.about_you, *kept.plan.questionnaires)
     items = [item for questionnaire in asked for item in questionnaire.items if item.id == answer.item]
     return not items or any(isinstance(item, ShortText) for item in items)
-
-
-@dataclass
-class BoardHint:
-    """A hint, when it was marked, and when the board opened again, in ms; None if that never came."""
-
-    given: HintGiven
-    marked_ms: int | None = None
-    opened_ms: int | None = None
-
-
-@dataclass(frozen=True)
-class BoardFlip:
-    """A flip, and how long the visitor took for it while the board could be tapped, in ms."""
-
-    event: CardFlipped
-    decision_ms: int
-
-
-@dataclass
-class DealtBoard:
-    """One board that was dealt; ``number`` counts from 1 in the session. What came before each flip goes by its number.
-
-    The measures leave out all boards but the game's.
-    """
-
-    number: int
-    stage: Stage
-    event: BoardDealt
-    flips: dict[int, BoardFlip] = field(default_factory=dict)
-    hints: dict[int, BoardHint] = field(default_factory=dict)
-    decisions: dict[int, AssistanceDecided] = field(default_factory=dict)
-
-    def followed(self, hint: BoardHint) -> bool | None:
-        """Whether the flip that the hint was for went where it pointed; None if there was no such flip."""
-        flip = self.flips.get(hint.given.flip)
-        return None if flip is None else followed(hint.given, flip.event)
-
-    def move_matched(self, flip: int) -> bool | None:
-        """Whether the move of this flip ended in a match; None if it did not end."""
-        last = self.flips.get(flip + flip % CARDS_IN_A_MOVE)
-        return None if last is None else last.event.matched
-
-
-class _Hand:
-    """Since when the board could be tapped, less the pauses."""
-
-    def __init__(self) -> None:
-        self._since = 0
-        self._paused_at: int | None = None
-
-    def open(self, at_ms: int) -> None:
-        self._since = at_ms
-
-    def pause(self, at_ms: int) -> None:
-        self._paused_at = at_ms
-
-    def go_on(self, at_ms: int) -> None:
-        if self._paused_at is not None:
-            self._since += at_ms - max(self._paused_at, self._since)
-        self._paused_at = None
-
-    def spent(self, at_ms: int) -> int:
-        return at_ms - self._since
-
-
-def boards(kept: SessionRecord) -> Iterator[DealtBoard]:
-    """Every board of a session, in their order."""
-    dealt: DealtBoard | None = None
-    hand = _Hand()
-    for record in kept.records:
-        match record.event:
-            case BoardDealt() as event:
-                if dealt is not None:
-                    yield dealt
-                dealt = DealtBoard(dealt.number + 1 if dealt else 1, record.stage, event)
-                hand.open(event.at_ms)
-            case PauseRequested(at_ms=at_ms):
-                hand.pause(at_ms)
-            case PauseEnded(at_ms=at_ms):
-                hand.go_on(at_ms)
-            case _ if dealt is not None:
-                _take(dealt, record.event, hand)
-    if dealt is not None:
-        yield dealt
-
-
-def _take(dealt: DealtBoard, event: object, hand: _Hand) -> None:
-    """Add what one event tells of a board."""
-    match event:
-        case CardFlipped(at_ms=at_ms, number=number):
-            dealt.flips[number] = BoardFlip(event, hand.spent(at_ms))
-            hand.open(at_ms)
-        case AssistanceDecided(flip=flip):
-            dealt.decisions[flip] = event
-        case HintGiven(flip=flip):
-            dealt.hints[flip] = BoardHint(event)
-        case HintHighlighted(at_ms=at_ms, flip=flip) if flip in dealt.hints:
-            dealt.hints[flip].marked_ms = at_ms
-        case BoardUnlocked(at_ms=at_ms) if dealt.hints:
-            next(reversed(dealt.hints.values())).opened_ms = at_ms
-            hand.open(at_ms)
-        case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
-            hand.open(at_ms)

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kiosk.experiment.events import QuestionnairePageShown
-from kiosk.experiment.projections import ItemResponse, ScaleScore
-from kiosk.experiment.projections import item_responses as answers_in
-from kiosk.experiment.projections import scale_scores as scores_in
+from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
 from kiosk.experiment.questionnaire import KINDS, Item, Questionnaire, Rating, ShortText
+from kiosk.experiment.session_state import ItemResponse
 from kiosk.export.columns import (
     PARTICIPANT,
     Cell,
@@ -55,25 +53,16 @@ class _Answer:
 
 
 def _answers(kept: SessionRecord) -> Iterator[_Answer]:
-    places = _places(kept)
     given = {
-        (answer.questionnaire, answer.item): answer for answer in answers_in(kept.events, session_questionnaires(kept))
+        (answer.questionnaire, answer.item): answer
+        for answer in item_responses(kept.state, session_questionnaires(kept))
     }
     for questionnaire in session_questionnaires(kept):
+        places = {item: place for place, item in enumerate(kept.state.shown_items.get(questionnaire.id, ()), 1)}
         for item in questionnaire.items:
             key = (questionnaire.id, item.id)
             if key in given:
-                yield _Answer(kept, questionnaire, item, places.get(key), given[key])
-
-
-def _places(kept: SessionRecord) -> dict[tuple[str, str], int]:
-    """At which place each item came in its questionnaire, from 1."""
-    shown: dict[str, list[str]] = {}
-    for event in kept.events:
-        if isinstance(event, QuestionnairePageShown):
-            come = shown.setdefault(event.questionnaire, [])
-            come += [item for item in event.items if item not in come]
-    return {(asked, item): place for asked, items in shown.items() for place, item in enumerate(items, 1)}
+                yield _Answer(kept, questionnaire, item, places.get(item.id), given[key])
 
 
 def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
@@ -172,7 +161,8 @@ class _Score:
 
 def scores_table(kept: SessionRecord) -> tuple[ScaleScore, ...]:
     """The scales of a session's questionnaires."""
-    return scores_in(answers_in(kept.events, session_questionnaires(kept)), session_questionnaires(kept))
+    questionnaires = session_questionnaires(kept)
+    return scale_scores(item_responses(kept.state, questionnaires), questionnaires)
 
 
 def _scores(kept: SessionRecord) -> Iterator[_Score]:

@@ -4,40 +4,34 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import sqlite_utils
 
 from kiosk import UserInputError
-from kiosk.assistance.assistant import Decision, Explanation, table_before_flip
-from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.assistant import Explanation
+from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import (
-    AssistanceDecided,
-    BoardDealt,
-    CardFlipped,
     Event,
-    HintGiven,
     SessionEnded,
     Stage,
-    StageEntered,
     Status,
     from_record,
 )
 from kiosk.experiment.information import Information
-from kiosk.experiment.projections import Measures, measure, of_the_game
+from kiosk.experiment.projections import Measures, measure_game
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.randomisation import AllocationSource
-from kiosk.experiment.replay import DecisionContext
+from kiosk.experiment.replay import DecisionContext, agrees_with_record
 from kiosk.experiment.session_config import SessionConfig, SessionKind
-from kiosk.game import Board, Concentration, Position
+from kiosk.experiment.session_state import SessionState
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_of
 
@@ -168,7 +162,9 @@ class SessionRepository:
         rows = self._database["event"].rows_where(
             f"session = ? AND type IN ({wanted})", [row["id"], *_SUMMARISED], order_by="seq"
         )
-        events = [_event({"at_ms": r["at_ms"], "type": r["type"]} | json.loads(r["body"])) for r in rows]
+        state = SessionState.from_events(
+            _event({"at_ms": row["at_ms"], "type": row["type"]} | json.loads(row["body"])) for row in rows
+        )
         participant = participant_of(self._database.conn, row["id"])
         return StoredSession(
             row["id"],
@@ -177,10 +173,10 @@ class SessionRepository:
             row["body"],
             self._status(row["id"]),
             SessionKind(row["simulated"]),
-            measure(events),
+            measure_game(state),
             participant.name if participant else None,
             participant.code if participant else None,
-            _stage(events),
+            state.last_stage,
             AllocationSource(row["allotted"]) if row["allotted"] else None,
         )
 
@@ -202,12 +198,6 @@ def open_repository(folder: Path) -> Iterator[SessionRepository]:
             raise unreadable(error, folder) from error
 
 
-def _stage(events: list[Event]) -> Stage | None:
-    """The last stage that was more than the end."""
-    entered = [event.stage for event in events if isinstance(event, StageEntered) and event.stage is not Stage.OVER]
-    return entered[-1] if entered else None
-
-
 def _event(record: dict[str, Any]) -> Event:
     return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
 
@@ -217,86 +207,15 @@ def explain_stored_decision(archive: SessionRepository, number: int, flip: int) 
 
     Raises BadInput if there was none, or if it comes out otherwise today than it was recorded.
     """
-    game = _Recorded.of(of_the_game(archive.events(number)), f"session {number}")
-    explanation = _moment(archive, number, game, flip).explained()
-    if not game.agrees(flip, explanation):
-        raise UserInputError(f"flip {flip} of {game.where} comes out otherwise today than it was decided then")
-    hint = game.hints.get(flip)
-    return replace(explanation, spoken=hint.sentence if hint else None)
-
-
-def _moment(archive: SessionRepository, number: int, game: _Recorded, flip: int) -> DecisionContext:
+    game = SessionState.from_events(archive.events(number)).game
+    if game is None:
+        raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")
     plan = archive.plan(number)
-    game.check_reached(flip, helped=plan.condition is not Condition.NO_ASSISTANCE)
-    before, hint = game.decisions.get(flip - 1), game.hints.get(flip)
-    flips = tuple(game.flips[: flip - 1])
-    return DecisionContext(
-        board=game.board,
-        flips=flips,
-        last=before.action if before else Action.NO_HELP,
-        condition=plan.condition,
-        rule=TargetRule(plan.settings.assistance.target_rule),
-        policy=table_before_flip(plan.policy, plan.settings.assistance.step, Concentration(game.board), flips),
-        catalogue=plan.catalogue,
-        target=hint.target if hint else None,
-    )
-
-
-@dataclass
-class _Recorded:
-    """What was recorded of the session's game: a board, its flips, and by flip number the decisions and hints."""
-
-    where: str
-    board: Board
-    flips: list[Position] = field(default_factory=list)
-    decisions: dict[int, AssistanceDecided] = field(default_factory=dict)
-    hints: dict[int, HintGiven] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, events: Iterable[Event], where: str) -> _Recorded:
-        """The game among the events of its stage; raises BadInput if none was dealt."""
-        game = None
-        for event in events:
-            if isinstance(event, BoardDealt):
-                game = cls(where, Board(event.rows, event.columns, event.cards))
-            elif game is not None:
-                game.take(event)
-        if game is None:
-            raise UserInputError(f"in {where} no game was dealt, so there is nothing to explain")
-        return game
-
-    def take(self, event: Event) -> None:
-        """Add what one event tells of the game."""
-        match event:
-            case CardFlipped(position=position):
-                self.flips.append(position)
-            case AssistanceDecided(flip=flip):
-                self.decisions[flip] = event
-            case HintGiven(flip=flip):
-                self.hints[flip] = event
-
-    def check_reached(self, flip: int, *, helped: bool) -> None:
-        """Raise BadInput if nothing was decided before this flip, or, where nobody helps, it never came."""
-        if flip in self.decisions or (not helped and flip <= len(self.flips)):
-            return
-        raise UserInputError(f"{self.where} has {len(self.flips)} flips; nothing was decided about a flip {flip}")
-
-    def agrees(self, flip: int, explanation: Explanation) -> bool:
-        """Whether the explanation is what was recorded, in all that was recorded of it."""
-        return self._same_decision(flip, explanation.decision) and self._same_hint(flip, explanation)
-
-    def _same_decision(self, flip: int, today: Decision) -> bool:
-        stored, state = self.decisions.get(flip), today.state
-        return stored is None or (stored.game, stored.last, stored.outcome, stored.gate, stored.action) == (
-            *(state.game, state.last, state.outcome),
-            *(today.gate_decision, today.action),
-        )
-
-    def _same_hint(self, flip: int, explanation: Explanation) -> bool:
-        stored, today = self.hints.get(flip), explanation.decision.hint
-        if stored is None or today is None:
-            return stored is None and today is None
-        return (stored.seen, stored.mate_seen, stored.reason, stored.row, stored.column) == (
-            *(today.target.seen, today.target.mate_seen, today.target.reason),
-            *(today.row, today.column),
-        ) and (stored.target in explanation.candidates and stored.sentence in explanation.sentences)
+    helped = plan.condition is not Condition.NO_ASSISTANCE
+    if flip not in game.decisions and (helped or flip > len(game.flips)):
+        raise UserInputError(f"session {number} has {len(game.flips)} flips; nothing was decided about a flip {flip}")
+    explanation = DecisionContext.before(flip, game, plan).explained()
+    if not agrees_with_record(explanation, game, flip):
+        raise UserInputError(f"flip {flip} of session {number} comes out otherwise today than it was decided then")
+    hint = game.hints.get(flip)
+    return replace(explanation, spoken=hint.given.sentence if hint else None)

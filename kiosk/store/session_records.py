@@ -16,9 +16,10 @@ from typing import Any
 import sqlite_utils
 
 from kiosk import UserInputError
-from kiosk.experiment.events import ConsentGiven, Event, SessionEnded, Stage, StageEntered, Status, from_record
+from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_record
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.queries import SessionRepository
 
@@ -78,14 +79,15 @@ class SessionRecord:
         return tuple(record.event for record in self.records if record.event is not None)
 
     @cached_property
-    def consent(self) -> ConsentGiven | None:
-        """What was agreed to, if anything was asked."""
-        return next((event for event in self.events if isinstance(event, ConsentGiven)), None)
+    def state(self) -> SessionState:
+        """What the session came to."""
+        return SessionState.from_events(self.events, EmbodimentName.from_text(self.row["body"]))
 
     @property
     def publishable(self) -> bool:
         """Whether nobody said no to publishing: it was agreed to, or not asked, or there is nobody to say no."""
-        if self.kind is SessionKind.SIMULATED or self.consent is None or PUBLISHING in self.consent.purposes:
+        consent = self.state.consent
+        if self.kind is SessionKind.SIMULATED or consent is None or PUBLISHING in consent.purposes:
             return True
         # Where the sheet cannot be read, nobody knows what was offered.
         offered = self.plan.information.consent.purposes if self.plan else None
@@ -188,11 +190,7 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
 
 def _told(records: list[dict[str, Any]]) -> Iterator[EventRecord]:
     """The records with the stage that each fell into."""
-    stage = Stage.ATTRACT
-    for record in records:
-        event = _event(record)
-        if isinstance(event, StageEntered):
-            stage = event.stage
+    for record, (stage, event) in zip(records, with_stages(map(_event, records)), strict=True):
         fields = {key: value for key, value in record.items() if key not in _ABOUT_THE_RECORD}
         yield EventRecord(record["seq"], record["at_ms"], record["origin"], record["type"], fields, stage, event)
 

@@ -10,7 +10,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer
-from kiosk.experiment.projections import count_embodiment_changes
+from kiosk.experiment.session_state import SessionState
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import SPEECH_TIME, Driver, Voice, driven_to, replay, with_memory
 from tests.experiment.table import a_pair
@@ -68,7 +68,7 @@ def test_a_session_that_loses_its_robot_goes_on_to_its_end_and_can_be_replayed(l
     lose(driver)
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
-    assert count_embodiment_changes(driver.events) == 1
+    assert len(SessionState.from_events(driver.events).body_changes) == 1
     assert replay(driver.plan, 3, driver.world) == [step.outcome for step in driver.steps]
 
 

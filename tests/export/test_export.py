@@ -11,7 +11,14 @@ from pathlib import Path
 import pytest
 
 from kiosk import StoreFailed, UserInputError
-from kiosk.experiment.events import NotRecordedReason, SessionStarted
+from kiosk.experiment.events import (
+    NotRecordedReason,
+    RobotDisconnected,
+    SentenceRequested,
+    SessionStarted,
+    SpeechStarted,
+    Stage,
+)
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset
@@ -20,6 +27,7 @@ from kiosk.export.participants import ParticipantFlow
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.session_records import SessionRecord
+from tests.experiment.driver import Voice, driven_to
 from tests.export.conftest import FEW, rows_of
 from tests.export.psych_ds import issues
 from tests.export.visitors import COMMIT, store, study_plan, unsharing, visitor
@@ -197,6 +205,28 @@ def test_of_an_event_that_cannot_be_read_no_field_is_told_unless_texts_are_asked
         first = rows_of(tmp_path / f"with-{len(extras)}", "events")[0]
         told[len(extras)] = (first["type"], first["fields"])
     assert told == {0: ("NameTyped", "{}"), 1: ("NameTyped", '{"name": "Zaphod"}')}
+
+
+def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for_the_avatar(tmp_path: Path) -> None:
+    driver = driven_to(Stage.INTRODUCTION, study_plan(), voice=Voice.IS_SILENT)
+    asked_ms = driver.noted(SentenceRequested)[0].at_ms
+    driver.spend(100)
+    driver.send(SpeechStarted(at_ms=driver.now, utterance=1))
+    driver.spend(600)
+    driver.send(RobotDisconnected(at_ms=driver.now, why="the plug"))
+    driver.spend(200)
+    driver.send(SpeechStarted(at_ms=driver.now, utterance=1))
+    driver.to(Stage.OVER)
+    with Recorder(tmp_path / "data") as recorder:
+        recorder.begin(Provenance(driver.plan, 5, "robot:furhat", COMMIT, simulated=False), driver.events)
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    robot, avatar, *_ = rows_of(tmp_path / "out", "sentences")
+    assert robot["sentence"] == avatar["sentence"]
+    times = ("attempt", "body", "robot", "at_ms", "started_ms", "finished_ms", "failed_ms")
+    begun, lost, anew = (str(asked_ms + later) for later in (100, 700, 900))
+    assert tuple(robot[name] for name in times) == ("1", "robot", "furhat", str(asked_ms), begun, "", lost)
+    assert tuple(avatar[name] for name in times[:5]) == ("2", "avatar", "", lost, anew)
+    assert avatar["failed_ms"] == ""
 
 
 def test_its_files_are_closed_whatever_goes_wrong(few: Path, tmp_path: Path) -> None:

@@ -10,8 +10,9 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, Status, WorldEvent
-from kiosk.experiment.projections import SpeechCounts, count_embodiment_changes, count_speech
+from kiosk.experiment.projections import SpeechCounts, count_speech
 from kiosk.experiment.session import Session
+from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import SessionRepository, StoredSession
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
@@ -82,12 +83,12 @@ class Result:
     @property
     def utterances(self) -> SpeechCounts:
         """What became of its sentences."""
-        return count_speech(self.events)
+        return count_speech(SessionState.from_events(self.events))
 
     @property
     def body_changes(self) -> int:
         """How often the body changed."""
-        return count_embodiment_changes(self.events)
+        return len(SessionState.from_events(self.events).body_changes)
 
     def faults(self) -> list[str]:
         """Whatever must not be; nothing, if all is well."""

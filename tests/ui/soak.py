@@ -19,7 +19,7 @@ from pathlib import Path
 import click
 
 from kiosk.experiment.events import Status
-from kiosk.experiment.projections import count_embodiment_changes
+from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from tests.ui.fault_matrix import Robot, kiosk_with_robot
@@ -84,7 +84,7 @@ def main() -> int:
             ended = Counted.now()
         with open_repository(data) as stored:
             played = stored.sessions()[WARM_UP:]
-            changes = sum(count_embodiment_changes(stored.events(session.id)) for session in played)
+            changes = sum(len(SessionState.from_events(stored.events(session.id)).body_changes) for session in played)
     robot.close()
     embodiments = Counter(session.body for session in played)
     completed = sum(session.status is Status.COMPLETED for session in played)

@@ -10,7 +10,8 @@ from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import Action, FlipInMove
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Stage
-from kiosk.experiment.projections import Measures, followed, measure
+from kiosk.experiment.projections import Measures, measure
+from kiosk.experiment.session_state import BoardHint
 from kiosk.game import Position
 from tests.experiment.driver import Driver, Voice, at_random
 from tests.samples import plan
@@ -59,9 +60,12 @@ def paused(since: int, until: int) -> list[Event]:
     return [happened.PauseRequested(at_ms=since), happened.PauseEnded(at_ms=until)]
 
 
+DEALT = happened.BoardDealt(at_ms=0, rows=4, columns=6, cards=("owl",) * 24)
+
+
 def measured(game: list[Event]) -> Measures:
     """The measures of a session whose game went like this."""
-    return measure([entered(Stage.GAME), *game])
+    return measure([entered(Stage.GAME), DEALT, *game])
 
 
 def test_nothing_measures_nothing() -> None:
@@ -184,15 +188,17 @@ def test_what_happened_in_other_stages_does_not_matter() -> None:
     around: list[Event] = [
         happened.SessionStarted(at_ms=0),
         entered(Stage.PRACTICE),
+        DEALT,
         *practice,
         entered(Stage.GAME, 50),
+        DEALT,
         *game,
         happened.SpeechFinished(at_ms=350, utterance=1),
         entered(Stage.QUESTIONS, 400),
         happened.ResponseGiven(at_ms=400, item="enjoyed", value=5),
     ]
     assert measure(around) == measured(game)
-    assert measure([entered(Stage.PRACTICE), *practice]) == Measures()
+    assert measure([entered(Stage.PRACTICE), DEALT, *practice]) == Measures()
 
 
 # Pauses
@@ -233,7 +239,7 @@ def test_a_pause_that_nobody_ended_lasts_to_the_last_match() -> None:
 
 def test_a_pause_from_the_practice_into_the_game_takes_nothing_from_its_clock() -> None:
     before: list[Event] = [entered(Stage.PRACTICE), happened.PauseRequested(at_ms=100), entered(Stage.GAME, 200)]
-    assert measure([*before, happened.PauseEnded(at_ms=900), *GAME]) == measured(GAME)
+    assert measure([*before, DEALT, happened.PauseEnded(at_ms=900), *GAME]) == measured(GAME)
 
 
 @given(st.lists(st.tuples(st.integers(0, 9000), st.integers(0, 9000)), max_size=4))
@@ -262,9 +268,7 @@ def test_pauses_take_as_much_from_a_clock_as_the_moments_in_which_they_lasted(sp
     ],
 )
 def test_following_is_going_where_the_hint_pointed(action: Action, place: tuple[int, int], *, expected: bool) -> None:
-    flipped = flip(1, 1, position=Position(*place))
-    assert isinstance(flipped, happened.CardFlipped)
-    assert followed(hint(0, 1, action), flipped) is expected
+    assert BoardHint(hint(0, 1, action)).followed_by(Position(*place)) is expected
 
 
 @pytest.mark.parametrize("voice", Voice)

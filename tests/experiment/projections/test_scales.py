@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Stage
-from kiosk.experiment.projections import ItemResponse, ScaleScore, item_responses, scale_scores
+from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
 from kiosk.experiment.questionnaire import Integer, Slider, TextPage
+from kiosk.experiment.session_state import ItemResponse, SessionState
 from tests.samples import likert, questionnaire
 
 REVERSED = {"SOC3", "AC2"}
@@ -130,4 +131,4 @@ def test_events_lead_to_scores() -> None:
     for number, (item, value) in enumerate({"SOC1": 4, "SOC2": 5, "SOC3": 2, "SOC4": 3}.items()):
         events.append(happened.QuestionnairePageShown(at_ms=number, questionnaire="social", items=(item,)))
         events.append(happened.ResponseGiven(at_ms=number, item=item, value=value))
-    assert scale_scores(item_responses(events, [SOCIAL]), [SOCIAL])[0].total == 16
+    assert scale_scores(item_responses(SessionState.from_events(events), [SOCIAL]), [SOCIAL])[0].total == 16

@@ -1,0 +1,440 @@
+"""Read the events of a session once into its state, from which every number and table follows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TypeVar
+
+from kiosk.assistance.mentaliser import points_to
+from kiosk.assistance.policy import Action
+from kiosk.experiment.events import (
+    AssistanceDecided,
+    BoardDealt,
+    BoardUnlocked,
+    CardFlipped,
+    ConsentGiven,
+    EmbodimentChanged,
+    EmbodimentName,
+    Event,
+    GameFinished,
+    HintGiven,
+    HintHighlighted,
+    PauseEnded,
+    PauseRequested,
+    PracticeEnd,
+    PracticeFinished,
+    QuestionnairePageShown,
+    ResponseGiven,
+    RobotDisconnected,
+    SentenceRepeated,
+    SentenceRequested,
+    SessionEnded,
+    SessionResumed,
+    SpeechFailed,
+    SpeechFinished,
+    SpeechStarted,
+    Stage,
+    StageEntered,
+    Status,
+    Timer,
+    TimerExpired,
+)
+from kiosk.experiment.questionnaire import Answer
+from kiosk.game import Board, Position
+
+CARDS_IN_A_MOVE = 2
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A stretch of a session, in ms from its first event; ``until_ms`` is None while it lasts."""
+
+    since_ms: int
+    until_ms: int | None = None
+
+
+def elapsed_ms(begin_ms: int, end_ms: int, without: Iterable[Interval] = ()) -> int:
+    """Measure the time between two moments in ms, less these intervals; where they overlap they count once."""
+    spent, reached = end_ms - begin_ms, begin_ms
+    for interval in sorted(without, key=lambda each: each.since_ms):
+        until_ms = end_ms if interval.until_ms is None else min(interval.until_ms, end_ms)
+        spent -= max(0, until_ms - max(interval.since_ms, reached))
+        reached = max(reached, until_ms)
+    return spent
+
+
+@dataclass(frozen=True)
+class StageVisit:
+    """A stage, and when it began, in ms; a stage that was resumed is there again."""
+
+    stage: Stage
+    at_ms: int
+
+
+@dataclass(frozen=True)
+class BoardFlip:
+    """A flip, and how long the visitor took for it while the board could be tapped, in ms without pauses."""
+
+    event: CardFlipped
+    decision_ms: int
+
+
+@dataclass(frozen=True)
+class BoardHint:
+    """A hint, when it was marked, and when the board opened again, in ms; None if that never came."""
+
+    given: HintGiven
+    marked_ms: int | None = None
+    opened_ms: int | None = None
+
+    def followed_by(self, flip: Position) -> bool:
+        """Tell whether flipping this card follows the hint."""
+        given = self.given
+        return given.action is not Action.NO_HELP and points_to(given.row, given.column, flip)
+
+
+@dataclass(frozen=True)
+class DealtBoard:
+    """One board that was dealt; flips, hints and decisions go by the number of the flip, from 1.
+
+    ``number`` counts the boards of a session from 1. The measures leave out all boards but the game's.
+    """
+
+    number: int
+    stage: Stage
+    event: BoardDealt
+    flips: Mapping[int, BoardFlip]
+    hints: Mapping[int, BoardHint]
+    decisions: Mapping[int, AssistanceDecided]
+
+    @property
+    def board(self) -> Board:
+        """The cards as they lay."""
+        return Board(self.event.rows, self.event.columns, self.event.cards)
+
+    def followed(self, hint: BoardHint) -> bool | None:
+        """Tell whether the flip that the hint was for went where it pointed; None if there was no such flip."""
+        flip = self.flips.get(hint.given.flip)
+        return None if flip is None else hint.followed_by(flip.event.position)
+
+    def move_matched(self, flip: int) -> bool | None:
+        """Tell whether the move of this flip ended in a match; None if it did not end."""
+        last = self.flips.get(flip + flip % CARDS_IN_A_MOVE)
+        return None if last is None else last.event.matched
+
+
+class SentencePurpose(Enum):
+    """What a sentence was for."""
+
+    HINT = "hint"
+    SPEECH = "speech"
+    REPEAT = "repeat"
+
+
+@dataclass(frozen=True)
+class SpeechAttempt:
+    """One body's attempt to say a sentence, in ms; what did not happen is None.
+
+    ``body`` is None where it helped from the beginning and nothing says which one that was. An attempt that neither
+    finished nor failed was cut short: the visitor or a deadline went on, or the session ended.
+    """
+
+    body: EmbodimentName | None
+    at_ms: int
+    started_ms: int | None = None
+    finished_ms: int | None = None
+    failed_ms: int | None = None
+
+
+@dataclass(frozen=True)
+class SpokenSentence:
+    """A sentence, and every attempt to say it: a robot's that was lost, then the avatar's."""
+
+    utterance: int
+    purpose: SentencePurpose
+    stage: Stage
+    sentence: str
+    attempts: tuple[SpeechAttempt, ...]
+
+
+@dataclass(frozen=True)
+class ItemResponse:
+    """One item of a session; times in ms since its page was shown, without pauses.
+
+    ``value`` is None where nothing was answered, or nothing was left of it. ``first_ms`` and ``last_ms`` are the times
+    of the first and the last answer, also of one that was taken back; None where there was none. ``changes`` counts
+    the answers that differ from the one before; the first is no change.
+    """
+
+    questionnaire: str
+    item: str
+    value: Answer | None = None
+    first_ms: int | None = None
+    last_ms: int | None = None
+    changes: int = 0
+
+    def answered(self, value: Answer | None, after_ms: int) -> ItemResponse:
+        """Add one more answer."""
+        value = effective_answer(value)
+        first = after_ms if self.first_ms is None else self.first_ms
+        changed = self.first_ms is not None and value != self.value
+        return replace(self, value=value, first_ms=first, last_ms=after_ms, changes=self.changes + changed)
+
+
+def effective_answer(value: Answer | None) -> Answer | None:
+    """Give an answer, or None for one that says nothing: an empty text, or none of the options."""
+    return None if value in {"", ()} else value
+
+
+@dataclass(frozen=True)
+class SessionState:
+    """What a session came to, from all its events.
+
+    ``responses`` go by questionnaire and item, each since its stage began last; ``shown_items`` are the items of a
+    questionnaire in the order in which they came. ``body_changes`` are those within the session; which body helps
+    after a resumption stands in ``resumptions``. A pause ends with whatever ends its session or goes on with it.
+    ``status`` is how it ended; None while it has not, also where it went on after an interruption.
+    """
+
+    stages: tuple[StageVisit, ...]
+    pauses: tuple[Interval, ...]
+    boards: tuple[DealtBoard, ...]
+    sentences: tuple[SpokenSentence, ...]
+    responses: Mapping[tuple[str, str], ItemResponse]
+    shown_items: Mapping[str, tuple[str, ...]]
+    consent: ConsentGiven | None
+    practice_end: PracticeEnd | None
+    game_completed: bool
+    body_changes: tuple[EmbodimentChanged, ...]
+    resumptions: tuple[SessionResumed, ...]
+    status: Status | None
+
+    @classmethod
+    def from_events(cls, events: Iterable[Event], body: EmbodimentName | None = None) -> SessionState:
+        """Read the events in their order; ``body`` is the one that helped when the session began."""
+        course, board, asked, speech = _Course(), _Boards(), _Responses(), _Speech(body)
+        for stage, event in with_stages(events):
+            course.take(event)
+            board.take(event, stage, course.pauses)
+            asked.take(event, course.pauses)
+            speech.take(event, stage)
+        return cls(
+            stages=tuple(course.stages),
+            pauses=tuple(course.pauses),
+            boards=tuple(board.dealt),
+            sentences=tuple(speech.sentences.values()),
+            responses=asked.given,
+            shown_items={asked: tuple(items) for asked, items in asked.shown.items()},
+            consent=course.consent,
+            practice_end=course.practice_end,
+            game_completed=course.game_completed,
+            body_changes=tuple(course.body_changes),
+            resumptions=tuple(course.resumptions),
+            status=course.status,
+        )
+
+    @property
+    def last_stage(self) -> Stage | None:
+        """The stage that it is in, or was in last before its end; None if it never came to one."""
+        return next((visit.stage for visit in reversed(self.stages) if visit.stage is not Stage.OVER), None)
+
+    @property
+    def game(self) -> DealtBoard | None:
+        """The board of the game; the practice's does not count. None if none was dealt."""
+        return next((dealt for dealt in reversed(self.boards) if dealt.stage is Stage.GAME), None)
+
+
+_AnyEvent = TypeVar("_AnyEvent", bound=Event | None)
+
+
+def with_stages(events: Iterable[_AnyEvent]) -> Iterator[tuple[Stage, _AnyEvent]]:
+    """Go through the events, each with the stage that it fell into; None is an event that cannot be read."""
+    stage = Stage.ATTRACT
+    for event in events:
+        if isinstance(event, StageEntered):
+            stage = event.stage
+        yield stage, event
+
+
+class _Course:
+    """How a session went on: its stages, pauses and changes, and how it ended."""
+
+    def __init__(self) -> None:
+        self.stages: list[StageVisit] = []
+        self.pauses: list[Interval] = []
+        self.body_changes: list[EmbodimentChanged] = []
+        self.resumptions: list[SessionResumed] = []
+        self.consent: ConsentGiven | None = None
+        self.practice_end: PracticeEnd | None = None
+        self.game_completed = False
+        self.status: Status | None = None
+
+    def take(self, event: Event) -> None:
+        self.status = event.status if isinstance(event, SessionEnded) else None
+        self._pause(event)
+        match event:
+            case StageEntered(stage=stage, at_ms=at_ms):
+                self.stages.append(StageVisit(stage, at_ms))
+            case ConsentGiven() if self.consent is None:
+                self.consent = event
+            case PracticeFinished(how=how) if self.practice_end is None:
+                self.practice_end = how
+            case GameFinished():
+                self.game_completed = True
+            case EmbodimentChanged():
+                self.body_changes.append(event)
+            case SessionResumed():
+                self.resumptions.append(event)
+
+    def _pause(self, event: Event) -> None:
+        lasting = bool(self.pauses) and self.pauses[-1].until_ms is None
+        match event:
+            case PauseRequested(at_ms=at_ms) if not lasting:
+                self.pauses.append(Interval(at_ms))
+            case PauseEnded(at_ms=at_ms) | SessionEnded(at_ms=at_ms) | SessionResumed(at_ms=at_ms) if lasting:
+                self.pauses[-1] = replace(self.pauses[-1], until_ms=at_ms)
+
+
+class _Boards:
+    """The boards, and since when the last one can be tapped."""
+
+    def __init__(self) -> None:
+        self.dealt: list[DealtBoard] = []
+        self._flips: dict[int, BoardFlip] = {}
+        self._hints: dict[int, BoardHint] = {}
+        self._decisions: dict[int, AssistanceDecided] = {}
+        self._open_since = 0
+
+    def take(self, event: Event, stage: Stage, pauses: Iterable[Interval]) -> None:
+        match event:
+            case BoardDealt():
+                self._flips, self._hints, self._decisions = {}, {}, {}
+                number = len(self.dealt) + 1
+                self.dealt.append(DealtBoard(number, stage, event, self._flips, self._hints, self._decisions))
+            case CardFlipped(number=number, at_ms=at_ms):
+                self._flips[number] = BoardFlip(event, elapsed_ms(self._open_since, at_ms, pauses))
+            case AssistanceDecided(flip=flip):
+                self._decisions[flip] = event
+            case HintGiven() | HintHighlighted() | BoardUnlocked():
+                self._take_hint(event)
+        match event:
+            case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
+                self._open_since = event.at_ms
+
+    def _take_hint(self, event: HintGiven | HintHighlighted | BoardUnlocked) -> None:
+        match event:
+            case HintGiven(flip=flip):
+                self._hints[flip] = BoardHint(event)
+            case HintHighlighted(flip=flip, at_ms=at_ms) if flip in self._hints:
+                self._hints[flip] = replace(self._hints[flip], marked_ms=at_ms)
+            case BoardUnlocked(at_ms=at_ms) if self._hints:
+                flip, last = next(reversed(self._hints.items()))
+                self._hints[flip] = replace(last, opened_ms=at_ms)
+
+
+class _Responses:
+    """What was answered in each stage since it was entered last, and what was shown."""
+
+    def __init__(self) -> None:
+        self.shown: dict[str, list[str]] = {}
+        self._by_stage: dict[Stage, dict[tuple[str, str], ItemResponse]] = {}
+        self._here: dict[tuple[str, str], ItemResponse] = {}
+        self._questionnaire = ""
+        self._shown_ms = 0
+
+    @property
+    def given(self) -> dict[tuple[str, str], ItemResponse]:
+        return {key: response for given in self._by_stage.values() for key, response in given.items()}
+
+    def take(self, event: Event, pauses: Iterable[Interval]) -> None:
+        match event:
+            case StageEntered(stage=stage):
+                self._here = self._by_stage[stage] = {}
+                self._questionnaire = ""
+            case QuestionnairePageShown(questionnaire=questionnaire, items=items, at_ms=at_ms):
+                self._questionnaire, self._shown_ms = questionnaire, at_ms
+                shown = self.shown.setdefault(questionnaire, [])
+                shown += [item for item in items if item not in shown]
+            case ResponseGiven(item=item, value=value, at_ms=at_ms):
+                key = (self._questionnaire, item)
+                after_ms = elapsed_ms(self._shown_ms, at_ms, pauses)
+                self._here[key] = self._here.get(key, ItemResponse(*key)).answered(value, after_ms)
+
+
+class _Speech:
+    """The sentences, and which of them is being said by which body."""
+
+    def __init__(self, body: EmbodimentName | None) -> None:
+        self.sentences: dict[int, SpokenSentence] = {}
+        self._body = body
+        self._hinted_flip: int | None = None
+        self._under_way: int | None = None
+        self._broken_off: int | None = None
+
+    def take(self, event: Event, stage: Stage) -> None:
+        self._request(event, stage)
+        self._report(event)
+        match event:
+            case StageEntered() | TimerExpired(timer=Timer.SPEECH_DEADLINE):
+                self._under_way = None
+            case CardFlipped(number=flip) if flip == self._hinted_flip:
+                self._under_way = None
+            case RobotDisconnected(at_ms=at_ms) if self._under_way is not None:
+                self._broken_off = self._under_way
+                self._fail(self._under_way, at_ms)
+            case EmbodimentChanged(body=body, at_ms=at_ms):
+                self._body = body
+                self._say_again(at_ms)
+            case SessionResumed(body=body):
+                self._body = body
+
+    def _request(self, event: Event, stage: Stage) -> None:
+        match event:
+            case HintGiven(utterance=number, sentence=sentence, flip=flip):
+                self._hinted_flip = flip
+                self._begin(number, SentencePurpose.HINT, stage, sentence, event.at_ms)
+            case SentenceRequested(utterance=number, sentence=sentence):
+                self._begin(number, SentencePurpose.SPEECH, stage, sentence, event.at_ms)
+            case SentenceRepeated(utterance=number, of=before):
+                sentence = self.sentences[before].sentence if before in self.sentences else ""
+                self._begin(number, SentencePurpose.REPEAT, stage, sentence, event.at_ms)
+
+    def _begin(self, number: int, purpose: SentencePurpose, stage: Stage, sentence: str, at_ms: int) -> None:
+        attempts = (SpeechAttempt(self._body, at_ms),)
+        self.sentences[number] = SpokenSentence(number, purpose, stage, sentence, attempts)
+        self._under_way = number
+
+    def _report(self, event: Event) -> None:
+        match event:
+            case SpeechStarted(utterance=number, at_ms=at_ms) if number in self.sentences:
+                self._set_last(number, replace(self._last(number), started_ms=at_ms))
+            case SpeechFinished(utterance=number, at_ms=at_ms) if number in self.sentences:
+                self._set_last(number, replace(self._last(number), finished_ms=at_ms))
+                self._stop(number)
+            case SpeechFailed(utterance=number, at_ms=at_ms) if number in self.sentences:
+                self._fail(number, at_ms)
+
+    def _fail(self, number: int, at_ms: int) -> None:
+        self._set_last(number, replace(self._last(number), failed_ms=at_ms))
+        self._stop(number)
+
+    def _stop(self, number: int) -> None:
+        if self._under_way == number:
+            self._under_way = None
+
+    def _last(self, number: int) -> SpeechAttempt:
+        return self.sentences[number].attempts[-1]
+
+    def _set_last(self, number: int, attempt: SpeechAttempt) -> None:
+        said = self.sentences[number]
+        self.sentences[number] = replace(said, attempts=(*said.attempts[:-1], attempt))
+
+    def _say_again(self, at_ms: int) -> None:
+        """Begin anew with the sentence that was broken off, if one was."""
+        number, self._broken_off = self._broken_off, None
+        if number is not None:
+            said = self.sentences[number]
+            self.sentences[number] = replace(said, attempts=(*said.attempts, SpeechAttempt(self._body, at_ms)))
+            self._under_way = number
