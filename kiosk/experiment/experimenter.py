@@ -186,16 +186,16 @@ class AuditEvent(Enum):
     BODY_CHOSEN = "BodyChosen"
     LANGUAGE_CHOSEN = "LanguageChosen"
     VOLUME_CHANGED = "VolumeChanged"
-    SOUND_CHANGED = "MuteChanged"
+    MUTE_CHANGED = "MuteChanged"
     SESSION_ABORTED = "SessionAborted"
     SESSION_RESUMED = "SessionResumed"
     PIN_REFUSED = "PinRefused"
     PIN_ACCEPTED = "PinAccepted"
     PANEL_OPENED = "PanelOpened"
-    KIOSK_LEFT = "KioskLeft"
+    APPLICATION_QUIT = "ApplicationQuit"
     BACKUP_MADE = "BackupMade"
     BACKUP_FAILED = "BackupFailed"
-    ROOM_CHANGED = "RoomChanged"
+    DISK_SPACE_CHANGED = "DiskSpaceChanged"
 
 
 DEVIATIONS = frozenset(
@@ -204,13 +204,13 @@ DEVIATIONS = frozenset(
         AuditEvent.BODY_CHOSEN,
         AuditEvent.LANGUAGE_CHOSEN,
         AuditEvent.VOLUME_CHANGED,
-        AuditEvent.SOUND_CHANGED,
+        AuditEvent.MUTE_CHANGED,
         AuditEvent.SESSION_ABORTED,
         AuditEvent.SESSION_RESUMED,
         AuditEvent.PIN_REFUSED,
-        AuditEvent.KIOSK_LEFT,
+        AuditEvent.APPLICATION_QUIT,
         AuditEvent.BACKUP_FAILED,
-        AuditEvent.ROOM_CHANGED,
+        AuditEvent.DISK_SPACE_CHANGED,
     }
 )
 """What a day's protocol has to tell; the rest is routine."""

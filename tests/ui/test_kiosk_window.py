@@ -227,7 +227,7 @@ def test_what_keeps_awake_is_asked_for_after_the_first_frame(qtbot: QtBot, monke
     from kiosk.ui import keep_awake  # noqa: PLC0415 - what is asked for is put in its place
 
     asked = FakeWay("the desktop", None)
-    monkeypatch.setattr(keep_awake, "ways", lambda: iter([asked]))
+    monkeypatch.setattr(keep_awake, "all_inhibitors", lambda: iter([asked]))
     owner, window = QObject(), QQuickWindow()
     booth = KioskWindow(window, 0, owner)
     assert "not held off yet" in booth.health[1].message

@@ -65,7 +65,7 @@ def test_a_fault_in_the_window_ends_the_rehearsal_that_is_under_way(
     def fail(*_: object) -> None:
         raise KeyError("unicorn")
 
-    monkeypatch.setattr(BoardScreen, "turn_up", fail)
+    monkeypatch.setattr(BoardScreen, "reveal", fail)
     with pytest.raises(UiTimeout, match="a fault in Recollect, KeyError: 'unicorn'"):
         booth.rehearse(seed=1)
     caplog.clear()

@@ -312,7 +312,7 @@ class ActionController:
     def _quiet(self, _choice: str, _reason: str) -> None:
         embodiments = self._booth.embodiments
         quiet = not embodiments.is_muted
-        if not self._written(AuditEvent.SOUND_CHANGED, {"quiet": quiet}):
+        if not self._written(AuditEvent.MUTE_CHANGED, {"quiet": quiet}):
             return
         runner = self._booth.runner
         runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), quiet=quiet))
@@ -379,7 +379,7 @@ class ActionController:
 
     def _leave(self, _choice: str, reason: str) -> None:
         # A disk that takes nothing keeps nobody here.
-        self._write.record(AuditEvent.KIOSK_LEFT, {"stage": self.stage.value, "reason": reason})
+        self._write.record(AuditEvent.APPLICATION_QUIT, {"stage": self.stage.value, "reason": reason})
         self._booth.leave()
 
     # The panel

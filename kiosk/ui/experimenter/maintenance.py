@@ -185,6 +185,6 @@ class MaintenanceScheduler:
                 free_mib,
                 "; nobody can begin" if level is SpaceLevel.REFUSE else "",
             )
-            self._write(AuditEvent.ROOM_CHANGED, {"level": level.value, "free_mib": free_mib})
+            self._write(AuditEvent.DISK_SPACE_CHANGED, {"level": level.value, "free_mib": free_mib})
             self._shut(shut=level is SpaceLevel.REFUSE)
         self.changed()

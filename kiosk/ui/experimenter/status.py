@@ -281,12 +281,12 @@ def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
             return condition_name(named.get(body.get("condition", "")), translate)
         case AuditEvent.VOLUME_CHANGED:
             return f"{body.get('volume', 0):.0%}"
-        case AuditEvent.SOUND_CHANGED:
+        case AuditEvent.MUTE_CHANGED:
             return translate("console-quiet-on" if body.get("quiet") else "console-quiet-off")
-        case AuditEvent.SESSION_ABORTED | AuditEvent.KIOSK_LEFT:
+        case AuditEvent.SESSION_ABORTED | AuditEvent.APPLICATION_QUIT:
             stage = str(body.get("stage", ""))
             return translate(f"console-stage-{_kebab(stage)}") if stage else ""
-        case AuditEvent.ROOM_CHANGED:
+        case AuditEvent.DISK_SPACE_CHANGED:
             return translate(f"console-room-{body.get('level', 'enough')}")
     of = {AuditEvent.BODY_CHOSEN: "body", AuditEvent.LANGUAGE_CHOSEN: "language", AuditEvent.SESSION_RESUMED: "session"}
     of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why"}

@@ -269,7 +269,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assigner.shortcut(Action.PANEL)
     assert assigner.panel.is_open
     lines = assigner.panel.property("health")["lines"]
-    assert [line["words"] for line in lines if line["name"] == "PIN"] == [
+    assert [line["message"] for line in lines if line["name"] == "PIN"] == [
         "none is set: every session is a trial, and anybody who knows the keys can do everything"
     ]
 

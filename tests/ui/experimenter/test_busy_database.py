@@ -113,7 +113,7 @@ def test_leaving_waits_for_nobody_but_what_is_left_is_written_while_it_closes(
     assert kinds(assigner) == []
     other.execute("ROLLBACK")
     assigner.close()
-    assert kinds(assigner) == ["PinAccepted", "PinAccepted", "KioskLeft"]
+    assert kinds(assigner) == ["PinAccepted", "PinAccepted", "ApplicationQuit"]
 
 
 def test_activity_told_meanwhile_does_not_shorten_the_idle_time_of_the_next_stage(

@@ -258,7 +258,7 @@ def test_a_session_does_not_go_on_where_that_cannot_be_noted_and_can_once_it_can
 ) -> None:
     assigner = cut_off(make_assigner)
     with monkeypatch.context() as patch:
-        patch.setattr(Recorder, "note", refuse_to_write)
+        patch.setattr(Recorder, "add_audit_event", refuse_to_write)
         ask_to_go_on(assigner)
         assert assigner.noted == "It could not be written down, so nothing was changed"
         assert assigner.stage is Stage.ATTRACT
@@ -286,7 +286,7 @@ def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
     assigner: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     turned: list[float] = []
-    monkeypatch.setattr(assigner.app.voice, "turn", turned.append)
+    monkeypatch.setattr(assigner.app.voice, "set_volume", turned.append)
     assigner.go_to(Stage.ABOUT)
     assigner.open_panel()
     assigner.click("volume-0.4")
@@ -302,7 +302,7 @@ def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
 
 def test_what_the_disk_does_not_take_is_not_done_and_said(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     assigner.open_panel()
-    monkeypatch.setattr(Recorder, "note", refuse_to_write)
+    monkeypatch.setattr(Recorder, "add_audit_event", refuse_to_write)
     assigner.click("condition-notom")
     assigner.type("1")
     assert assigner.app.assigner.chosen is None

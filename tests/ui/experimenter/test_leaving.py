@@ -62,7 +62,7 @@ def test_with_a_pin_no_key_leaves_the_kiosk_or_opens_the_panel(
         assigner.wait_until(lambda: assigner.card.asks_for is AuthorisationStep.NOTHING)
     assert not assigner.app.window.close()
     assert (left, assigner.panel.is_open, assigner.app.window.isVisible()) == ([], False, True)
-    assert {"KioskLeft", "PanelOpened"}.isdisjoint(kind for kind, _ in assigner.notes)
+    assert {"ApplicationQuit", "PanelOpened"}.isdisjoint(kind for kind, _ in assigner.notes)
 
 
 @pytest.mark.parametrize("panel", ["", "the panel is open"])

@@ -195,7 +195,7 @@ def test_little_room_is_told_once_and_no_room_lets_nobody_begin_until_there_is_s
     assert place.notes == []
     place.room = LITTLE
     place.wait(3)
-    assert place.notes == [(AuditEvent.ROOM_CHANGED, {"level": "warn", "free_mib": 300})]
+    assert place.notes == [(AuditEvent.DISK_SPACE_CHANGED, {"level": "warn", "free_mib": 300})]
     assert not any(place.shut)
     place.room = NONE
     place.wait(1)
@@ -204,7 +204,7 @@ def test_little_room_is_told_once_and_no_room_lets_nobody_begin_until_there_is_s
     place.room = PLENTY
     place.wait(1)
     assert not place.shut[-1]
-    assert place.kinds == [AuditEvent.ROOM_CHANGED] * 3
+    assert place.kinds == [AuditEvent.DISK_SPACE_CHANGED] * 3
 
 
 def test_a_disk_that_nobody_can_look_at_stops_nobody(caplog: pytest.LogCaptureFixture) -> None:

@@ -107,7 +107,7 @@ def test_the_wait_is_whole_however_long_the_check_took() -> None:
 def test_a_check_that_fails_counts_as_a_wrong_pin_and_locks_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
     door = Door()
     with monkeypatch.context() as patch:
-        patch.setattr("kiosk.ui.experimenter.authorisation.matches", lambda *_: 1 / 0)
+        patch.setattr("kiosk.ui.experimenter.authorisation.pin_matches", lambda *_: 1 / 0)
         with pytest.raises(ZeroDivisionError):
             door.lock.check_pin("2580", door.tell)
     assert door.heard == [AuditEvent.PIN_REFUSED, False]

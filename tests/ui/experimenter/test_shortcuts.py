@@ -48,7 +48,7 @@ def done(assigner: Desk, action: Action, witness: Witness) -> bool:
         Action.PAUSE: lambda: bool(app.screens.kiosk.property("paused")),
         Action.END: lambda: assigner.stage is Stage.ATTRACT and witness.saw(happened.AbortRequested),
         Action.NEXT: lambda: assigner.stage is Stage.ATTRACT is not witness.stage,
-        Action.LEAVE: lambda: assigner.notes[-1][0] == "KioskLeft",
+        Action.LEAVE: lambda: assigner.notes[-1][0] == "ApplicationQuit",
     }
     return seen[action]()
 
@@ -229,4 +229,4 @@ def test_leaving_ends_the_kiosk(make_assigner: MakeDesk) -> None:
     # If it does not end, the test does not hang.
     QTimer.singleShot(10_000, assigner.app.window, assigner.app.quit)
     assigner.app.run()
-    assert assigner.notes == [("KioskLeft", {"stage": "attract", "reason": ""})]
+    assert assigner.notes == [("ApplicationQuit", {"stage": "attract", "reason": ""})]

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Settings
+from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
 from kiosk.study.loader import read_study
@@ -42,6 +43,13 @@ def test_all_is_well_in_one_line_of_every_language(language: str) -> None:
     found = health_lines(WELL, STUDY, CATALOGUES[language])
     assert len(found) == 9
     assert health_summary(found, CATALOGUES[language]) == HealthLine("", CATALOGUES[language].text("console-all-well"))
+
+
+@pytest.mark.parametrize("language", CATALOGUES)
+@pytest.mark.parametrize("noted", [each for each in AuditEvent if each in DEVIATIONS])
+def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, language: str) -> None:
+    name = noted.name.lower().replace("_", "-")
+    assert "game" in CATALOGUES[language].text(f"console-note-{name}", what="game")
 
 
 @pytest.mark.parametrize(
