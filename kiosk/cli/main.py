@@ -42,9 +42,9 @@ _COMMANDS = {
     "policy": "kiosk.cli.learning:policy_group",
 }
 _WORKERS = {
-    "_display": "kiosk.cli.run:display_command",
-    "_splash": "kiosk.cli.run:splash_command",
-    "_voice": "kiosk.cli.run:voice_command",
+    "_display": "kiosk.cli.workers:display_command",
+    "_splash": "kiosk.cli.workers:splash_command",
+    "_voice": "kiosk.cli.workers:voice_command",
 }
 """Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import signal
-import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from random import SystemRandom
@@ -16,27 +15,20 @@ import click
 
 from kiosk import UserInputError, program
 from kiosk.cli.composition import check_pin, code_commit, log_into, read_settings
-from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import (
     data_option,
     json_option,
-    read_catalogue,
     robot_host_option,
     robot_port_option,
-    shipped_languages,
     site_option,
     study_option,
 )
 from kiosk.experiment.session_config import kind_of
-from kiosk.preflight import CheckResult
 from kiosk.robots.registry import check_robot
-from kiosk.robots.tts_worker import run_tts_worker
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts, guarded
 from kiosk.ui.app import App
-from kiosk.ui.checks import to_json
-from kiosk.ui.qt_platform import missing_library, obstacle
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.window import RunMode, WindowMode, check_screen
 
@@ -95,67 +87,6 @@ def _open(
         with App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app:
             app.run()
     return {"data": str(data), "sessions": recorder.sessions_begun, "interrupted_before": list(recorder.recovered)}
-
-
-# Qt is loaded by the look itself: where the system lacks a library that it needs, that is what is found.
-# ruff: noqa: PLC0415
-
-
-@click.group(hidden=True)
-def display_command() -> None:
-    """Look at the display and print what was found; a check starts it."""
-
-
-@display_command.command()
-@click.argument("number", type=int)
-def screens_command(number: int) -> None:
-    """Look at the screens, of which the kiosk is to cover this one."""
-
-    def look() -> Iterable[CheckResult]:
-        from kiosk.ui.checks import screens_check as look_at
-
-        return look_at(number)
-
-    _print("screen", look)
-
-
-@display_command.command()
-def pictures() -> None:
-    """Draw the pictures that are named on standard input."""
-    from kiosk.ui.checks import draw as draw_pictures
-
-    draw_pictures(sys.stdin, sys.stdout)
-
-
-@display_command.command()
-@study_option
-def frame_command(study: Path | None) -> None:
-    """Draw the kiosk where nobody sees it."""
-
-    def look() -> Iterable[CheckResult]:
-        from kiosk.ui.checks import frame_check as draw
-
-        return draw(read_study(read_settings(study)))
-
-    _print("drawing", look)
-
-
-def _print(what: str, look: Callable[[], Iterable[CheckResult]]) -> None:
-    try:
-        found = to_json(look())
-    except ImportError as error:
-        missing = missing_library(error)
-        if missing is None:
-            raise
-        found = to_json([CheckResult.bad(what, missing.words, missing.remedy)])
-    click.echo(found)
-
-
-@click.command(hidden=True)
-@click.argument("options")
-def voice_command(options: str) -> None:
-    """Be the voice, in a process of its own; the kiosk starts it."""
-    run_tts_worker(json.loads(options))
 
 
 _TROUBLE = {
@@ -227,14 +158,3 @@ def _write_down(happening: SupervisorEvent) -> None:
         away = "" if happening.away_s is None else f" ({happening.away_s:.1f} s)"
         detail = f": {happening.detail}" if happening.detail else ""
         _log.warning("start %d of the kiosk: %s%s%s", happening.start, happening.what.value, detail, away)
-
-
-@click.command(hidden=True)
-def splash_command() -> None:
-    """Show the calm window that lies underneath the kiosk; the supervisor starts it."""
-    if obstacle() is not None:
-        # The kiosk, which meets it as well, says what to do.
-        sys.exit(BAD_INPUT)
-    from kiosk.ui.splash import show_splash
-
-    show_splash([read_catalogue(language).text("splash-line") for language in shipped_languages()])

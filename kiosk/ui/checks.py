@@ -13,18 +13,20 @@ from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 from time import monotonic, perf_counter
-from typing import IO
-
-from PySide6.QtCore import QEventLoop
-from PySide6.QtGui import QGuiApplication, QScreen
+from typing import IO, TYPE_CHECKING
 
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import CheckResult, Severity
-from kiosk.ui.keep_awake import ANSWER_MS, all_inhibitors
-from kiosk.ui.kiosk_window import KeepAwake, numbered_screens
 from kiosk.ui.qt_platform import obstacle
-from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from kiosk.units import MS_PER_SECOND
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QScreen
+
+    from kiosk.ui.window import Window
+
+# Qt is loaded by the checks themselves: where the system lacks a library that it needs, that is what is found.
+# ruff: noqa: PLC0415
 
 DISPLAY, DESKTOP, LIT = "screen", "desktop", "kept lit"
 
@@ -37,6 +39,10 @@ _PLUG_IN = "plug one in, and run this in the booth's own session"
 
 def screens_check(number: int) -> Iterator[CheckResult]:
     """Everything about the screen of a number and what surrounds it."""
+    from PySide6.QtGui import QGuiApplication
+
+    from kiosk.ui.kiosk_window import numbered_screens
+
     found = obstacle()
     if found is not None:
         yield CheckResult.bad(DISPLAY, found.words, _PLUG_IN if found.of_the_screen else found.remedy)
@@ -62,9 +68,11 @@ def covered_screen_check(there: list[QScreen], number: int) -> CheckResult:
 
 
 def _window_manager() -> str:
+    from PySide6.QtGui import QGuiApplication
+
     if QGuiApplication.platformName() != "xcb":
         return "which places the windows itself"
-    from kiosk.ui.x11 import window_manager  # noqa: PLC0415 - only where there is an X server
+    from kiosk.ui.x11 import window_manager  # only where there is an X server
 
     name = window_manager()
     return f"windows are placed by {name}" if name else "nobody places the windows, so the kiosk does"
@@ -72,6 +80,11 @@ def _window_manager() -> str:
 
 def _lit() -> CheckResult:
     """Ask all that can hold off the screen saver, wait for an answer, and take it back."""
+    from PySide6.QtCore import QEventLoop
+
+    from kiosk.ui.keep_awake import ANSWER_MS, all_inhibitors
+    from kiosk.ui.kiosk_window import KeepAwake
+
     awake = KeepAwake(all_inhibitors())
     end = monotonic() + ANSWER_MS / MS_PER_SECOND
     loop = QEventLoop()
@@ -95,6 +108,10 @@ SLOW_MS = 50.0
 
 def frame_check(study: StudyConfig) -> Iterator[CheckResult]:
     """Open the kiosk's window off the screen, and draw its first page several times."""
+    from PySide6.QtCore import QEventLoop
+
+    from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+
     found = obstacle()
     if found is not None and not found.of_the_screen:
         yield CheckResult.bad(WHAT, found.words, found.remedy)
@@ -223,7 +240,7 @@ class _Child:
 def draw(source: IO[str], out: IO[str]) -> None:
     """Be the process: draw one file after another, and say what came of each."""
     _limit_memory()
-    from PySide6.QtGui import QGuiApplication  # noqa: PLC0415 - not before memory is limited
+    from PySide6.QtGui import QGuiApplication  # not before memory is limited
 
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     print(_READY, file=out, flush=True)
@@ -234,8 +251,8 @@ def draw(source: IO[str], out: IO[str]) -> None:
 
 def _why_not(file: str) -> str:
     """Say why a file cannot be drawn; nothing if it can."""
-    from PySide6.QtCore import QSize  # noqa: PLC0415
-    from PySide6.QtGui import QImage, QImageReader  # noqa: PLC0415
+    from PySide6.QtCore import QSize
+    from PySide6.QtGui import QImage, QImageReader
 
     reader = QImageReader(file, b"svg")
     reader.setScaledSize(QSize(_SIZE, _SIZE))
@@ -249,7 +266,7 @@ def _why_not(file: str) -> str:
 def _limit_memory() -> None:
     """Let a picture that grows without end fail; there is no such limit on Windows."""
     if sys.platform != "win32":
-        import resource  # noqa: PLC0415
+        import resource
 
         with suppress(ValueError, OSError):
             resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
