@@ -24,13 +24,20 @@ from kiosk.experiment.condition import Condition, target_rule
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
 from kiosk.training.rewards import Reward
-from kiosk.training.simulated_players import ChancePlayer, Counting, MemoryPlayer, SimulatedPlayer, TextPlayer
+from kiosk.training.simulated_players import (
+    ChancePlayer,
+    Counting,
+    MemoryPlayer,
+    PopulationPlayer,
+    SimulatedPlayer,
+    TextPlayer,
+)
 
 STOPPED = 130
 """The exit code after Ctrl-C."""
 GATES = {"on": Gate(), "off": NO_GATE}
 _PLAYERS: dict[str, SimulatedPlayer] = {
-    player.name: player for player in (ChancePlayer(), MemoryPlayer(), TextPlayer())
+    player.name: player for player in (ChancePlayer(), MemoryPlayer(), TextPlayer(), PopulationPlayer())
 }
 
 
@@ -72,23 +79,43 @@ player_options = _options(
     ),
     click.option("--counting", type=_choice(Counting), help="Text player: what NF counts (since_match)."),
     click.option("--follow", type=float, help="The chance to follow a hint (1)."),
+    click.option("--lapse", type=float, help="Memory player, people: the chance to take any card (0)."),
+    click.option("--forgetting-mean", type=float, help="People: the mean of the logit of forgetting (-1.4)."),
+    click.option("--forgetting-spread", type=float, help="People: the SD of the logit of forgetting (.5)."),
+    click.option(
+        "--people",
+        type=click.Path(path_type=Path, dir_okay=False),
+        help="The people of this file, which recollect calibrate wrote.",
+    ),
 )
 
 
-def player_from_options(base: SimulatedPlayer, player: str | None, **given: Any) -> SimulatedPlayer:
+def player_from_options(
+    base: SimulatedPlayer, player: str | None, people: Path | None = None, **given: Any
+) -> SimulatedPlayer:
     """The player that the options describe; what they leave out is as in ``base`` or in that player's nature."""
+    if people is not None:
+        if player not in {None, PopulationPlayer.name}:
+            raise UserInputError(f"the people of {people} are no {player} player: leave out --player, or --people")
+        base, player = PopulationPlayer.load(people), None
     start = base if player in (None, base.name) else _PLAYERS[player or ""]
     wanted = {name: value for name, value in given.items() if value is not None}
     known = {field.name for field in fields(start)}  # type: ignore[arg-type]  # every player is a dataclass
     foreign = sorted(wanted.keys() - known)
     if foreign:
-        raise UserInputError(f"the {start.name} player has no --{foreign[0]}")
+        raise UserInputError(f"the {start.name} player has no --{foreign[0].replace('_', '-')}")
     if "counting" in wanted:
         wanted["counting"] = Counting(wanted["counting"])
     if isinstance(start, TextPlayer) and "forgetting" in wanted:
         wanted["forgetting"] = _one_number(wanted["forgetting"])
     seated: SimulatedPlayer = replace(start, **wanted)  # type: ignore[type-var]  # as above
     return seated
+
+
+_PLAYER_OPTIONS = (
+    *("player", "people", "threshold", "forgetting", "counting", "follow"),
+    *("lapse", "forgetting_mean", "forgetting_spread"),
+)
 
 
 def _one_number(forgetting: tuple[float, float]) -> float:
@@ -170,7 +197,7 @@ def recipe_of(reward: Reward, **options: Any) -> Recipe:
         "decisions": Decisions,
         "target": TargetRule,
     }
-    seated = {name: options.pop(name) for name in ("player", "threshold", "forgetting", "counting", "follow")}
+    seated = {name: options.pop(name) for name in _PLAYER_OPTIONS}
     given = {name: value for name, value in options.items() if value is not None}
     for name, kind in kinds.items():
         if name in given:
@@ -195,7 +222,11 @@ def train_command_line(recipe: Recipe, name: str) -> str:
     if recipe.gate != base.gate:
         words["gate"] = "off"
     return " ".join(
-        ["recollect train", *(f"--{key} {value}" for key, value in words.items()), f"--name {shlex.quote(name)}"]
+        [
+            "recollect train",
+            *(f"--{key.replace('_', '-')} {value}" for key, value in words.items()),
+            f"--name {shlex.quote(name)}",
+        ]
     )
 
 

@@ -37,6 +37,7 @@ _COMMANDS = {
     "withdraw": "kiosk.cli.data:withdraw_command",
     "merge": "kiosk.cli.data:merge_command",
     "export": "kiosk.cli.data:export_command",
+    "calibrate": "kiosk.cli.calibrate:calibrate_command",
     "train": "kiosk.cli.learning:train_command",
     "simulate": "kiosk.cli.learning:simulate_command",
     "policy": "kiosk.cli.learning:policy_group",

@@ -6,10 +6,11 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
-from itertools import count
+from dataclasses import asdict, replace
+from itertools import count, repeat
 from math import isfinite
 from pathlib import Path
+from random import Random
 from time import monotonic
 from typing import Any
 
@@ -36,6 +37,7 @@ from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.supervisor import guarded
+from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import (
     ProcessUsage,
@@ -47,7 +49,7 @@ from kiosk.ui.rehearsal import (
     rehearse_day,
 )
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, UiTimeout
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 LARGEST_SEED = 2**63 - 1
@@ -94,6 +96,11 @@ leaves_option = click.option(
     show_default=True,
     help="More than one is a day at the booth: visitors of every kind, and a robot that comes and goes.",
 )
+@click.option(
+    "--people",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Draw each visitor's memory from this file, which recollect calibrate wrote.",
+)
 @click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
 @rehearsal_data_option
 @study_option
@@ -108,6 +115,7 @@ def rehearse(
     visitor: str,
     leaves_in: str,
     sessions: int,
+    people: Path | None,
     shots: Path | None,
     data: Path,
     study: Path | None,
@@ -126,12 +134,16 @@ def rehearse(
     _check(prepared, speed, language)
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
+    memories = _memories(people, seed)
     if sessions > 1:
-        _rehearse_day(prepared, mode, data, seed, sessions, as_json=as_json)
+        visitors = draw_visitors(sessions, seed, prepared.languages)
+        characters = tuple(replace(visitor, memory=next(memories)) for visitor in visitors)
+        _rehearse_day(prepared, mode, data, seed, characters, as_json=as_json)
         return
     if shots is not None:
         make_folder(shots)
-    character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language or prepared.languages[0])
+    language = language or prepared.languages[0]
+    character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
     fixed = Condition.from_name(condition or prepared.settings.assistance.condition)
     origin = RunContext(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
     with (
@@ -152,6 +164,14 @@ def rehearse(
         begun = recorder.sessions_begun
     told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
+
+
+def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:
+    """The memories of the visitors to come: all alike, or drawn from a file of people."""
+    if people is None:
+        return repeat(MemoryTraits())
+    population, rng = PopulationPlayer.load(people), Random(f"{seed}/people")
+    return (MemoryTraits(population.draw(rng), population.follow, population.lapse) for _ in count())
 
 
 def _check(study: StudyConfig, speed: float | None, language: str | None) -> None:
@@ -189,9 +209,10 @@ def _stuck_in_words() -> Iterator[None]:
         raise click.ClickException(f"the rehearsal cannot go on: {stuck}") from stuck
 
 
-def _rehearse_day(study: StudyConfig, mode: RunMode, data: Path, seed: int, sessions: int, *, as_json: bool) -> None:
+def _rehearse_day(
+    study: StudyConfig, mode: RunMode, data: Path, seed: int, visitors: tuple[BehaviourProfile, ...], *, as_json: bool
+) -> None:
     """Visitors of every kind, one after another, in one process."""
-    visitors = tuple(draw_visitors(sessions, seed, study.languages))
     seeds = count(seed)
     origin = RunContext(code_commit(), simulated=True, seed=lambda: next(seeds))
     robot = None if _has_robot(study) else FlakyRobot(seed)
@@ -202,7 +223,7 @@ def _rehearse_day(study: StudyConfig, mode: RunMode, data: Path, seed: int, sess
         App(mode, recorder, ConditionAssigner(study, recorder, origin), robot, beat) as app,
     ):
         holdings: list[ProcessUsage] = []
-        with _stuck_in_words(), progress_bar("sessions", sessions, hidden=as_json) as tell:
+        with _stuck_in_words(), progress_bar("sessions", len(visitors), hidden=as_json) as tell:
             for holding in rehearse_day(app, seed, visitors, data):
                 holdings.append(holding)
                 tell(len(holdings))

@@ -191,6 +191,9 @@ MARKED = (
 )
 """How texts stand in cells, and how to undo it; for the readers of every layout."""
 
+CODEBOOK_VERSION = "1"
+"""The version of tables and columns, which every data set names; it changes when a column is renamed or removed."""
+
 CONTEXT = {"@context": "https://schema.org/", "@type": "Dataset"}
 """How schema.org is named, as Psych-DS asks for."""
 

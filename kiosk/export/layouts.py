@@ -288,6 +288,7 @@ class PsychDs(Layout):
             "description": readme_text.dataset_abstract(study, self.contents.extras),
             "keywords": list(readme_text.KEYWORDS),
             "inLanguage": list(study.languages),
+            "schemaVersion": columns.CODEBOOK_VERSION,
         }
 
 

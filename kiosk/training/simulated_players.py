@@ -5,9 +5,14 @@ A player is a frozen description; ``numbers`` turns it into the plain numbers th
 
 from __future__ import annotations
 
+import json
+import math
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Protocol
+from pathlib import Path
+from random import Random
+from statistics import NormalDist
+from typing import Any, ClassVar, Protocol, Self
 
 from kiosk import UserInputError
 from kiosk.training.arguments import check_between, one_of
@@ -42,10 +47,16 @@ CHANCE, MEMORY, TEXT = range(3)
 # A player's whole numbers: its kind, and for each number of pairs left the flips after which a sure match may come.
 KIND, TOTAL, WAKES = 0, 1, 2
 NEVER = 1_000_000
-# A player's other numbers: chance to follow a hint, range of forgetting, then how much is kept at each age.
+# A player's other numbers: chance to follow a hint, range of forgetting, then how much is kept at each age, the chance
+# of a lapse, and, if the player is drawn from a population, the forgetting of each of its people.
 FOLLOW, LOW, HIGH, KEPT = range(4)
 LONGEST = 256
 """Ages, in flips or moves, beyond which nothing more is forgotten; by then nothing is left to forget."""
+LAPSE = KEPT + LONGEST
+PEOPLE = LAPSE + 1
+POPULATION = 500
+"""People by whom a population is represented: the middles of as many equal parts of its distribution."""
+LARGEST_LOGIT = 20.0
 ENDLESS_FROM = 0.05
 """With all flips counted, a player of the paper's text who forgets this much or more may never finish."""
 
@@ -93,7 +104,7 @@ class ChancePlayer:
     def numbers(self) -> tuple[Ints, Floats]:
         """The numbers that the rules play with."""
         wakes = [NEVER] + [self._wakes(left) for left in range(1, PAIRS + 1)]
-        return [CHANCE, 0, *wakes], [self.follow, 0.0, 0.0, *[0.0] * LONGEST]
+        return [CHANCE, 0, *wakes], [self.follow, 0.0, 0.0, *[0.0] * (LONGEST + 1)]
 
     def _wakes(self, left: int) -> int:
         unseen, flips = 1.0, 0
@@ -109,12 +120,14 @@ class ChancePlayer:
 class MemoryPlayer:
     """Remembers each card seen with chance (1 - d)^age, age in flips; takes a recalled pair, else looks at a new card.
 
-    ``forgetting``: d, or the range from which it is drawn anew for every game.
+    ``forgetting``: d, or the range from which it is drawn anew for every game. ``lapse``: the chance to turn up any
+    closed card, whatever is recalled or hinted.
     """
 
     name: ClassVar[str] = "memory"
     forgetting: tuple[float, float] = (0.2, 0.2)
     follow: float = 1.0
+    lapse: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse what is not a chance, or a range from high to low."""
@@ -124,15 +137,85 @@ class MemoryPlayer:
         check_between("forgetting", self.forgetting[0], 0, 1)
         check_between("forgetting", self.forgetting[1], self.forgetting[0], 1)
         check_between("follow", self.follow, 0, 1)
+        check_between("lapse", self.lapse, 0, 1)
 
     def parameters(self) -> dict[str, Any]:
         """What a policy file says about this player."""
         low, high = self.forgetting
-        return {"name": self.name, "forgetting": low if low == high else [low, high], "follow": self.follow}
+        # Without lapses there is no word of them, so that the hashes of tables that know none stay as they are.
+        lapses = {"lapse": self.lapse} if self.lapse else {}
+        return {"name": self.name, "forgetting": low if low == high else [low, high], "follow": self.follow, **lapses}
 
     def numbers(self) -> tuple[Ints, Floats]:
         """The numbers that the rules play with."""
-        return [MEMORY, 0, *[NEVER] * (PAIRS + 1)], [self.follow, *self.forgetting, *[0.0] * LONGEST]
+        kept = [0.0] * LONGEST
+        return [MEMORY, 0, *[NEVER] * (PAIRS + 1)], [self.follow, *self.forgetting, *kept, self.lapse]
+
+
+PEOPLE_FORMAT = "recollect-people-1"
+
+
+@dataclass(frozen=True, slots=True)
+class PopulationPlayer:
+    """A memory player drawn anew for every game from a population, such as ``recollect calibrate`` finds.
+
+    The logit of the forgetting d is normal with mean ``forgetting_mean`` and SD ``forgetting_spread``; ``follow`` and
+    ``lapse`` are those of a memory player, and the same for all.
+    """
+
+    name: ClassVar[str] = "people"
+    forgetting_mean: float = -1.4
+    forgetting_spread: float = 0.5
+    follow: float = 0.9
+    lapse: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what is not a distribution or a chance."""
+        check_between("forgetting_mean", self.forgetting_mean, -LARGEST_LOGIT, LARGEST_LOGIT)
+        check_between("forgetting_spread", self.forgetting_spread, 0, LARGEST_LOGIT)
+        check_between("follow", self.follow, 0, 1)
+        check_between("lapse", self.lapse, 0, 1)
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read the file that ``recollect calibrate --out`` writes; raises UserInputError with one sentence."""
+        try:
+            document = json.loads(path.read_text("utf-8"))
+        except OSError as error:
+            raise UserInputError(f"the file of people {path} cannot be read: {error.strerror}") from error
+        except (ValueError, RecursionError) as error:
+            raise UserInputError(f"the file of people {path} is not JSON: {error}") from error
+        if not isinstance(document, dict) or document.get("format") != PEOPLE_FORMAT:
+            raise UserInputError(f"{path} is not a file of people: recollect calibrate --out writes one")
+        given = {name: document.get(name) for name in cls.__slots__}
+        missing = [name for name, value in given.items() if value is None]
+        if missing:
+            raise UserInputError(f"the file of people {path} lacks {missing[0]!r}")
+        try:
+            return cls(**given)  # type: ignore[arg-type]  # what is not a number is refused on the next line
+        except UserInputError as error:
+            raise UserInputError(f"the file of people {path} cannot be used: {error}") from error
+
+    def draw(self, rng: Random) -> float:
+        """The forgetting of one person of the population, drawn with ``rng``."""
+        return _inverse_logit(rng.gauss(self.forgetting_mean, self.forgetting_spread))
+
+    def parameters(self) -> dict[str, Any]:
+        """What a policy file says about this player."""
+        own = {"forgetting_mean": self.forgetting_mean, "forgetting_spread": self.forgetting_spread}
+        return {"name": self.name, **own, "follow": self.follow, "lapse": self.lapse}
+
+    def numbers(self) -> tuple[Ints, Floats]:
+        """The numbers that the rules play with."""
+        normal = NormalDist()
+        middles = [normal.inv_cdf((number + 0.5) / POPULATION) for number in range(POPULATION)]
+        people = [_inverse_logit(self.forgetting_mean + self.forgetting_spread * middle) for middle in middles]
+        odds = [self.follow, 0.0, 0.0, *[0.0] * LONGEST, self.lapse, *people]
+        return [MEMORY, 0, *[NEVER] * (PAIRS + 1)], odds
+
+
+def _inverse_logit(logit: float) -> float:
+    return 1 / (1 + math.exp(-logit))
 
 
 class Counting(Enum):
@@ -176,14 +259,17 @@ class TextPlayer:
     def numbers(self) -> tuple[Ints, Floats]:
         """The numbers that the rules play with."""
         total = int(self.counting is Counting.TOTAL)
-        return [TEXT, total, *[NEVER] * (PAIRS + 1)], [self.follow, *[self.forgetting] * 2, *[0.0] * LONGEST]
+        return [TEXT, total, *[NEVER] * (PAIRS + 1)], [self.follow, *[self.forgetting] * 2, *[0.0] * (LONGEST + 1)]
 
 
 @compiled_rule
 def prepare(game: Ints, odds: Floats) -> None:
     """Before a game: draw how forgetful the player is, and lay out what is kept after how many flips."""
     keeps = 1.0 - odds[LOW]
-    if odds[HIGH] > odds[LOW]:
+    people = len(odds) - PEOPLE
+    if people > 0:
+        keeps = 1.0 - odds[PEOPLE + below(game, people)]
+    elif odds[HIGH] > odds[LOW]:
         keeps -= (odds[HIGH] - odds[LOW]) * unit(game)
     elif odds[KEPT] > 0.0:
         return
@@ -321,6 +407,8 @@ def choose(game: Ints, player: Ints, odds: Floats, action: int, target: int) -> 
     """
     if player[KIND] == MEMORY and game[FIRST] == NOWHERE:
         remember(game, odds)
+    if odds[LAPSE] > 0.0 and unit(game) < odds[LAPSE]:
+        return pick(game, mark_line(game, NO_HELP, NOWHERE, 2))
     follows = action != NO_HELP and (odds[FOLLOW] >= 1.0 or unit(game) < odds[FOLLOW])
     if follows and action == SUG_CARD:
         return target

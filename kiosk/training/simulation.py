@@ -11,18 +11,22 @@ from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import Action, QTable
 from kiosk.training.arguments import one_of, whole
-from kiosk.training.simulated_players import SimulatedPlayer, choose, prepare
+from kiosk.training.simulated_players import KEPT, SimulatedPlayer, choose, prepare
 from kiosk.training.vectorised_game import (
     ACTIONS,
+    CARDS,
     COLUMNS,
     ENDLESS,
     FIRST,
     FLIPS,
     HELP,
+    LAST,
+    MATE,
     NO_HELP,
     NOWHERE,
     PAIRS,
     PAIRS_FOUND,
+    POINTED,
     SUG_CARD,
     SUG_COL,
     TARGET,
@@ -108,7 +112,7 @@ def take(table: GameTable, action: int) -> int:
     second = game[FIRST] != NOWHERE
     target = pick(game, mark_candidates(game, table.plan[TARGET])) if action != NO_HELP else NOWHERE
     place = choose(game, table.player, table.odds, action, target)
-    game[HELP] = action
+    game[HELP], game[POINTED] = action, target
     tally[T_FLIPS] += 1
     if action != NO_HELP:
         tally[T_SECOND if second else T_FIRST] += 1
@@ -273,6 +277,53 @@ def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
         tallies.extend(_batch(table, q, min(BATCH, games - len(tallies))))
         progress(len(tallies))
     return GameResults(tuple(tallies))
+
+
+RECORD = 3
+"""Numbers that are recorded of a flip: the place, the action, and the place that the hint pointed at."""
+
+
+@compiled_rule
+def record(table: GameTable, q: Floats, log: Ints) -> int:
+    """Play one game under the frozen table, write every flip into ``log``, and return the number of flips."""
+    start(table)
+    game = table.game
+    while playing(game):
+        action = greedy(q, state(game)) if is_open(game, table.plan) else NO_HELP
+        take(table, action)
+        at = (game[FLIPS] - 1) * RECORD
+        for place in range(CARDS):
+            if game[LAST + place] == game[FLIPS]:
+                log[at] = place
+        log[at + 1], log[at + 2] = action, game[POINTED]
+    return game[FLIPS]
+
+
+class RecordedGame(NamedTuple):
+    """A simulated game flip by flip: the mate of every place, and of each flip the place, the action, and its target.
+
+    ``forgetting`` is the d of the memory player who played it.
+    """
+
+    mates: tuple[int, ...]
+    flips: tuple[tuple[int, int, int], ...]
+    forgetting: float
+
+
+def record_games(
+    policy: QTable, player: SimulatedPlayer, target: TargetRule, games: int, seed: int
+) -> Iterator[RecordedGame]:
+    """Play games as ``simulate_games`` does, and yield them flip by flip; fixed by ``seed``."""
+    table = lay(player, gate_plan(policy.gate, one_of("target", target, TargetRule)), seed)
+    q = floats([value for row in policy.values for value in row])
+    log = ints([0] * (ENDLESS * RECORD))
+    for _ in range(games):
+        flips = int(record(table, q, log))
+        refuse_endless(flips)
+        numbers = [int(number) for number in log[: flips * RECORD]]
+        each = tuple((numbers[at], numbers[at + 1], numbers[at + 2]) for at in range(0, len(numbers), RECORD))
+        mates = tuple(int(mate) for mate in table.game[MATE : MATE + CARDS])
+        yield RecordedGame(mates, each, 1 - float(table.odds[KEPT + 1]))
 
 
 def _batch(table: GameTable, q: Floats, games: int) -> Iterator[tuple[int, ...]]:

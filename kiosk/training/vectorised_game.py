@@ -82,8 +82,8 @@ ENDLESS = 5_000
 
 # One game is one row of whole numbers: five blocks with a number per place, then single numbers.
 MATE, FOUND, COUNT, LAST, MARK, RECALL = (block * CARDS for block in range(6))
-FLIPS, LAST_MATCH, PAIRS_FOUND, FIRST, MATCHED, HELP, RANDOM = range(6 * CARDS, 6 * CARDS + 7)
-GAME = 6 * CARDS + 7
+FLIPS, LAST_MATCH, PAIRS_FOUND, FIRST, MATCHED, HELP, RANDOM, POINTED = range(6 * CARDS, 6 * CARDS + 8)
+GAME = 6 * CARDS + 8
 NOWHERE = -1
 
 # The plan holds for many games: the gate, and where a first-card hint points.
@@ -155,6 +155,7 @@ def deal(game: Ints) -> None:
         game[MATE + one], game[MATE + other] = other, one
     game[FLIPS] = game[LAST_MATCH] = game[PAIRS_FOUND] = 0
     game[FIRST], game[MATCHED], game[HELP] = NOWHERE, 1, NO_HELP
+    game[POINTED] = NOWHERE
 
 
 @compiled_rule

@@ -209,7 +209,7 @@ class Rehearsal:
         self._language = visitor.language or app.screens.resting.language
         chance = Random(f"{seed}/visitor")
         self._chance = chance
-        self._visitor = SimulatedParticipant(chance)
+        self._visitor = SimulatedParticipant(chance, visitor.memory)
         self._hand = hand(app.window, self.pulse.aside)
         self._filling = FormFiller(self._hand, chance, hasty=visitor.manner is BehaviourKind.HASTY)
         self._page: object = None

@@ -201,9 +201,6 @@ class FormFiller:
             yield partial(self._click, "key-space" if letter == " " else f"key-{letter}")
 
 
-FORGETTING = 0.15
-FOLLOWING = 0.9
-"""How often it follows a hint; the study's people did in .86 (noToM) and .92 (ToM) of the cases."""
 THINKING_MS = (500, 1_600)
 
 
@@ -223,12 +220,25 @@ class BehaviourKind(Enum):
 
 
 @dataclass(frozen=True)
+class MemoryTraits:
+    """How a visitor plays: the chance to forget a card per flip, to follow a hint, and to take any card at all.
+
+    The study's people followed in .86 (noToM) and .92 (ToM) of the cases.
+    """
+
+    forgetting: float = 0.15
+    following: float = 0.9
+    lapse: float = 0.0
+
+
+@dataclass(frozen=True)
 class BehaviourProfile:
     """A visitor's manner, where one who leaves does so, and the language they choose: by default the study's first."""
 
     manner: BehaviourKind = BehaviourKind.COMPLETES
     leaves_in: Stage = Stage.GAME
     language: str = ""
+    memory: MemoryTraits = MemoryTraits()
 
 
 @dataclass(frozen=True)
@@ -251,9 +261,10 @@ class BoardView:
 class SimulatedParticipant:
     """One visitor, for one session; everything it does follows from ``rng`` and what it sees."""
 
-    def __init__(self, rng: Random) -> None:
+    def __init__(self, rng: Random, memory: MemoryTraits) -> None:
         """Remember nothing yet."""
         self._rng = rng
+        self._memory = memory
         self._seen: dict[Position, tuple[str, int]] = {}
         self._recalled: dict[Position, str] = {}
         self._flips = 0
@@ -277,8 +288,10 @@ class SimulatedParticipant:
         if view.first is None:
             self._recalled = self._recall()
         self._flips += 1
+        if self._memory.lapse and self._rng.random() < self._memory.lapse:
+            return self._rng.choice(view.closed)
         recalled = {position: picture for position, picture in self._recalled.items() if position in view.closed}
-        choice = view.marked if view.marked and self._rng.random() < FOLLOWING else view.closed
+        choice = view.marked if view.marked and self._rng.random() < self._memory.following else view.closed
         wanted = _mates(view.first, recalled) if view.first else _pairs(recalled)
         return self._rng.choice(
             [p for p in choice if p in wanted] or [p for p in choice if p not in recalled] or list(choice)
@@ -294,7 +307,7 @@ class SimulatedParticipant:
         return {
             position: picture
             for position, (picture, flip) in self._seen.items()
-            if self._rng.random() < (1 - FORGETTING) ** (self._flips - flip)
+            if self._rng.random() < (1 - self._memory.forgetting) ** (self._flips - flip)
         }
 
 

@@ -26,7 +26,16 @@ CONTEXTS = {
 THING = {"name", "description", "additionalType", "identifier", "url", "sameAs"}
 SLOTS = {
     "Dataset": THING
-    | {"variableMeasured", "measurementTechnique", "keywords", "inLanguage", "encodingFormat", "license", "author"}
+    | {
+        "variableMeasured",
+        "measurementTechnique",
+        "keywords",
+        "inLanguage",
+        "schemaVersion",
+        "encodingFormat",
+        "license",
+        "author",
+    }
     | {"citation", "funder", "creator", "datePublished", "version"},
     "PropertyValue": THING
     | {"maxValue", "measurementTechnique", "minValue", "propertyID", "unitCode", "unitText", "value", "valueReference"},
