@@ -38,6 +38,7 @@ _COMMANDS = {
     "merge": "kiosk.cli.data:merge_command",
     "export": "kiosk.cli.data:export_command",
     "calibrate": "kiosk.cli.calibrate:calibrate_command",
+    "plan": "kiosk.cli.plan:plan_group",
     "train": "kiosk.cli.learning:train_command",
     "simulate": "kiosk.cli.learning:simulate_command",
     "policy": "kiosk.cli.learning:policy_group",
