@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from random import Random
-from threading import Lock
+from threading import Event, Lock
 from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
@@ -18,22 +18,34 @@ from kiosk.robots.embodiment import (
     Utterance,
 )
 
-FAILS = 0.02
-"""How often a call fails while it is up: about every second session loses it."""
+FAILS = 0.015
+"""How often a call fails before anything is done, while the robot is up."""
+
+BREAKS_OFF = 0.03
+"""How often a sentence is broken off after it began; with the calls, about every second session loses the robot."""
+
+BREAKS_OFF_AFTER_S = 0.1
+"""How long after its beginning; the robot takes no time for other sentences."""
 
 RETURNS = 0.5
 """How often it is found again when it is looked for."""
 
 
 class FlakyRobot(RobotDriver):
-    """Goes and comes back as a seed says; which call comes first is left to the threads."""
+    """Goes and comes back as a seed says; which call comes first is left to the threads.
+
+    Which sentences it breaks off follows from the seed and their order alone.
+    """
 
     name: ClassVar[str] = "simulated"
     capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
 
-    def __init__(self, seed: int) -> None:
-        """Up, until it is asked for the first time."""
+    def __init__(self, seed: int, *, fails: float = FAILS, breaks_off: float = BREAKS_OFF) -> None:
+        """Up, until it is asked for the first time; calls and sentences fail with these probabilities."""
         self._chance = Random(f"{seed}/robot")
+        self._speech = Random(f"{seed}/robot/speech")
+        self._fails = fails
+        self._breaks_off = breaks_off
         self._lock = Lock()
 
     def connect(self) -> Capabilities:
@@ -47,9 +59,15 @@ class FlakyRobot(RobotDriver):
         self._try(f"speak {language}")
 
     def say(self, saying: Utterance) -> None:
-        """Say it all at once."""
+        """Say it all at once, or begin and break off; raises RobotError in mid-sentence."""
+        breaks_off = self._speech.random() < self._breaks_off
         self._try("say")
         saying.started()
+        if breaks_off:
+            cut = Event()
+            saying.on_cancel(cut.set)
+            fault = FailureKind.CUT if cut.wait(BREAKS_OFF_AFTER_S) else FailureKind.DROPPED
+            raise RobotError(fault, "say", "in mid-sentence")
 
     def stop_speech(self) -> None:
         """Be silent."""
@@ -70,7 +88,7 @@ class FlakyRobot(RobotDriver):
     def close(self) -> None:
         """Nothing is open."""
 
-    def _try(self, doing: str, fails: float = FAILS) -> None:
+    def _try(self, doing: str, fails: float | None = None) -> None:
         with self._lock:
-            if self._chance.random() < fails:
+            if self._chance.random() < (self._fails if fails is None else fails):
                 raise RobotError(self._chance.choice(list(FailureKind)), doing)
