@@ -16,6 +16,7 @@ from kiosk.analysis import memory_likelihood as ml
 from kiosk.analysis.calibrate import GRID, STEP, Calibration, Interval, fit, read_games
 from kiosk.analysis.calibration_checks import CalibrationChecks, RankCheck, calibration_page, check_calibration
 from kiosk.analysis.memory_likelihood import FOLLOW, FREE, LAPSE, NO_FLIP, PlayedGame
+from kiosk.analysis.plan import TEMPLATE
 from kiosk.analysis.simulated_study import StudyCell, simulate_participants, write_dataset
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import QTable
@@ -138,6 +139,25 @@ def test_the_command_writes_people_that_simulate_and_train_read(tmp_path: Path) 
     again = tmp_path / "again.json"
     CliRunner().invoke(recollect, [*command.split()[1:], "--out", str(again)])
     assert again.read_text() == table.read_text()
+
+
+def test_the_page_of_calibration_gives_the_numbers_of_its_example(tmp_path: Path) -> None:
+    plan, study = tmp_path / "plan.toml", tmp_path / "example"
+    plan.write_text(TEMPLATE.replace("n_per_arm = 56", "n_per_arm = 28"))
+    made = CliRunner().invoke(recollect, ["plan", "simulate", str(plan), "--out", str(study)])
+    assert made.exit_code == 0, made.output
+    done = CliRunner().invoke(recollect, ["calibrate", str(study), "--json"])
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    page = (Path(__file__).parents[2] / "docs" / "calibrate.md").read_text("utf-8")
+    for name, label in (
+        ("forgetting_mean", "forgetting, mean of the logit"),
+        ("forgetting_spread", "forgetting, spread of the logit"),
+        ("follow", "following"),
+    ):
+        each = found["intervals"][name]
+        line = f"{label:<34}{each['value']:>7.3f}   95 % interval {each['low']:.3f} to {each['high']:.3f}"
+        assert line in page
 
 
 def test_too_few_games_are_refused(tmp_path: Path) -> None:

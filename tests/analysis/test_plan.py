@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +18,7 @@ from scipy import stats
 from kiosk import UserInputError
 from kiosk.analysis import power
 from kiosk.analysis.plan import TEMPLATE, StudyPlan
-from kiosk.analysis.sequential import bayes_factors, boundaries
+from kiosk.analysis.sequential import bayes_factors, boundaries, nominal_levels
 from kiosk.assistance.policy import QTable
 from kiosk.cli.main import recollect
 from kiosk.store.plans import frozen_plans
@@ -47,6 +52,15 @@ def test_the_bounds_are_those_of_the_published_tables() -> None:
     looks = [14, 28, 42, 56]
     assert boundaries(looks, 0.05, "obrien-fleming") == pytest.approx([4.3326, 2.9631, 2.3590, 2.0141], abs=1e-3)
     assert boundaries(looks, 0.05, "pocock") == pytest.approx([2.3683, 2.3675, 2.3582, 2.3500], abs=1e-3)
+
+
+def test_the_page_of_plans_gives_the_levels_of_its_four_looks() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "plan.md").read_text("utf-8")
+    for spending in ("obrien-fleming", "pocock"):
+        row = re.search(rf"^\| `{spending}` \|(.*)\|$", page, re.MULTILINE)
+        assert row is not None
+        levels = nominal_levels([14, 28, 42, 56], 0.05, spending)
+        assert [cell.strip() for cell in row[1].split("|")] == [f"{level:.5f}" for level in levels]
 
 
 def test_the_bayes_factors_are_those_of_bayes_factor_in_r() -> None:
@@ -124,6 +138,28 @@ def test_any_number_of_workers_gives_the_same_numbers_and_a_killed_run_goes_on(p
     assert np.array_equal(whole, again, equal_nan=True)
     with pytest.raises(UserInputError, match="belongs to another plan"):
         power.run(job(plan, sizes=(21,)), tmp_path / "one")
+
+
+def test_a_dask_cluster_of_two_workers_gives_the_same_numbers(plan: Path, tmp_path: Path) -> None:
+    here = [sys.executable, "-m"]
+    address = tmp_path / "scheduler.json"
+    scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
+    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--nworkers", "2"]
+    with ExitStack() as stack:
+        for words in (scheduler, worker):
+            started = subprocess.Popen(
+                [*words, "--scheduler-file", str(address)], cwd=tmp_path, stderr=subprocess.DEVNULL
+            )
+            stack.callback(started.wait)
+            stack.callback(started.terminate)
+            deadline = time.monotonic() + 60
+            while not address.exists() and time.monotonic() < deadline:
+                time.sleep(0.05)
+        host = json.loads(address.read_text())["address"]
+        asked = ("plan", "power", str(plan), "--n", "20", "--studies", "100", "--json")
+        told = json.loads(run(*asked, "--scheduler", host, "--store", str(tmp_path / "cluster")))
+    alone = json.loads(run(*asked, "--workers", "1", "--store", str(tmp_path / "alone")))
+    assert told["rows"] == alone["rows"]
 
 
 def test_without_an_effect_tests_keep_their_level_and_with_one_power_grows(plan: Path, tmp_path: Path) -> None:
