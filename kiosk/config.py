@@ -119,29 +119,35 @@ MOST_ENTRIES = 50
 class Timing(ConfigModel):
     """When things happen in a session; all times in milliseconds."""
 
-    turn_back: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
-    mark_delay: Annotated[
+    mismatch_shown_ms: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
+    highlight_delay_ms: Annotated[
         Delay,
         Field(description="From the start of a spoken hint to its mark; never later than its end."),
     ] = 3500
-    mark_delay_silent: Annotated[Delay, Field(description="The same for a hint that is only shown as text.")] = 600
-    reading: Annotated[PerCharacter, Field(description="Time to read a sentence without voice, per character.")] = 55
-    reading_least: Annotated[Milliseconds, Field(description="The least time to read any sentence.")] = 1500
-    speech_deadline: Annotated[
+    highlight_delay_silent_ms: Annotated[
+        Delay, Field(description="The same for a hint that is only shown as text.")
+    ] = 600
+    reading_ms_per_char: Annotated[
+        PerCharacter, Field(description="Time to read a sentence without voice, per character.")
+    ] = 55
+    reading_min_ms: Annotated[Milliseconds, Field(description="The least time to read any sentence.")] = 1500
+    speech_deadline_ms_per_char: Annotated[
         PerCharacter, Field(description="The longest that a spoken sentence may hold up the game, per character.")
     ] = 130
-    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
-    mood: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
-    finish: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
-    thanks: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = 12_000
+    speech_deadline_min_ms: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
+    mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
+    finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
+    thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = (
+        12_000
+    )
 
     def reading_time(self, sentence: str) -> int:
         """How long a sentence is shown for reading, in ms."""
-        return max(self.reading_least, self.reading * len(sentence))
+        return max(self.reading_min_ms, self.reading_ms_per_char * len(sentence))
 
     def speech_time(self, sentence: str) -> int:
         """How long a spoken sentence may hold up the game, in ms."""
-        return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+        return max(self.speech_deadline_min_ms, self.speech_deadline_ms_per_char * len(sentence))
 
 
 class Idle(ConfigModel):
@@ -179,17 +185,17 @@ class Practice(ConfigModel):
     rows: Annotated[Lines, Field(description="Rows of its board.")] = 3
     columns: Annotated[Lines, Field(description="Columns of its board.")] = 4
     deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
-    longest: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
+    max_duration_ms: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
 
 
 class Allocation(ConfigModel):
     """Who gets which condition: permuted blocks, from a list that is fixed before the first visitor."""
 
-    quotas: Annotated[
+    target_n: Annotated[
         dict[str, Annotated[int, Field(ge=1, le=10_000)]],
         Field(description="How many completed games each condition shall have, per site; empty: no allocation."),
     ] = {"tom": 28, "notom": 28}
-    block: Annotated[
+    block_size: Annotated[
         int, Field(ge=1, le=1000, description="How many visitors make a block, in which every condition has its share.")
     ] = 8
     seed: Annotated[
@@ -277,13 +283,15 @@ Side = Literal["left", "right"]
 class Screen(ConfigModel):
     """The window."""
 
-    number: Annotated[int, Field(ge=0, le=63, description="Which screen it covers; 0 is the primary one.")] = 0
+    display: Annotated[int, Field(ge=0, le=63, description="Which screen it covers; 0 is the primary one.")] = 0
     text_size: Annotated[float, Field(ge=0.5, le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
     contrast: Annotated[
         Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
     ] = "normal"
-    board: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = "left"
+    board_side: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = (
+        "left"
+    )
 
 
 NO_ROBOT = "none"
@@ -310,28 +318,28 @@ class RobotConfig(ConfigModel):
         dict[str, Any], Field(description="What only this driver knows, by its own names; see the driver's page.")
     ] = {}
     voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
-    connect_deadline: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
-    answer_deadline: Annotated[Milliseconds, Field(description="The longest that any answer but speech may take.")] = (
-        1500
-    )
-    speech_deadline: Annotated[
+    connect_deadline_ms: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
+    answer_deadline_ms: Annotated[
+        Milliseconds, Field(description="The longest that any answer but speech may take.")
+    ] = 1500
+    speech_deadline_ms_per_char: Annotated[
         PerCharacter, Field(description="The longest that it may take to say a sentence, per character.")
     ] = 110
-    speech_deadline_least: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 3500
-    look_every: Annotated[Milliseconds, Field(description="While it speaks, how often to see if it still answers.")] = (
-        1000
-    )
-    probe_every: Annotated[Milliseconds, Field(description="Between sessions, how often to see if it is well.")] = (
+    speech_deadline_min_ms: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 3500
+    heartbeat_ms: Annotated[
+        Milliseconds, Field(description="While it speaks, how often to see if it still answers.")
+    ] = 1000
+    health_check_ms: Annotated[Milliseconds, Field(description="Between sessions, how often to see if it is well.")] = (
         10_000
     )
-    retry_first: Annotated[Milliseconds, Field(description="The first pause before a lost robot is tried again.")] = (
-        2000
-    )
-    retry_longest: Annotated[Milliseconds, Field(description="The longest such pause; each is twice the last.")] = (
+    backoff_initial_ms: Annotated[
+        Milliseconds, Field(description="The first pause before a lost robot is tried again.")
+    ] = 2000
+    backoff_max_ms: Annotated[Milliseconds, Field(description="The longest such pause; each is twice the last.")] = (
         120_000
     )
     gestures: Annotated[bool, Field(description="Whether it shows moods with its face.")] = True
-    attend: Annotated[bool, Field(description="Whether it looks at the player, and at the hinted place.")] = True
+    gaze: Annotated[bool, Field(description="Whether it looks at the player, and at the hinted place.")] = True
     axes: Annotated[
         str,
         Field(
@@ -358,7 +366,7 @@ class RobotConfig(ConfigModel):
 
     def speech_time(self, sentence: str) -> int:
         """How long it may take to say a sentence, in ms."""
-        return max(self.speech_deadline_least, self.speech_deadline * len(sentence))
+        return max(self.speech_deadline_min_ms, self.speech_deadline_ms_per_char * len(sentence))
 
 
 class Keys(ConfigModel):
@@ -368,15 +376,15 @@ class Keys(ConfigModel):
     condition: Annotated[str, Field(description="Chooses the next visitor's condition, one after another.")] = (
         "Ctrl+Shift+C"
     )
-    body: Annotated[str, Field(description="Lets the robot or the avatar help from the next session on.")] = (
+    embodiment: Annotated[str, Field(description="Lets the robot or the avatar help from the next session on.")] = (
         "Ctrl+Shift+B"
     )
-    again: Annotated[str, Field(description="Says the last sentence again.")] = "Ctrl+Shift+A"
-    quiet: Annotated[str, Field(description="Makes the voice and the sounds silent, or heard again.")] = "Ctrl+Shift+M"
+    repeat: Annotated[str, Field(description="Says the last sentence again.")] = "Ctrl+Shift+A"
+    mute: Annotated[str, Field(description="Makes the voice and the sounds silent, or heard again.")] = "Ctrl+Shift+M"
     pause: Annotated[str, Field(description="Stops the session for a while, and lets it go on.")] = "Ctrl+Shift+Space"
-    end: Annotated[str, Field(description="Ends the session, with a reason.")] = "Ctrl+Shift+E"
+    abort: Annotated[str, Field(description="Ends the session, with a reason.")] = "Ctrl+Shift+E"
     next: Annotated[str, Field(description="Gets ready for the next visitor at once.")] = "Ctrl+Shift+N"
-    leave: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
+    quit: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
 
     @field_validator("*")
     @classmethod
@@ -400,7 +408,7 @@ class Keys(ConfigModel):
 class ExperimenterConfig(ConfigModel):
     """Who may change a running study."""
 
-    pin: Annotated[
+    pin_hash: Annotated[
         str,
         Field(
             exclude=True,
@@ -416,7 +424,7 @@ class ExperimenterConfig(ConfigModel):
     ] = 60
     backups: Annotated[int, Field(ge=1, le=1000, description="How many backups are kept.")] = 24
 
-    @field_validator("pin")
+    @field_validator("pin_hash")
     @classmethod
     def _hash_the_pin(cls, pin: str) -> str:
         # It is not repeated: it may be the PIN itself.
@@ -460,14 +468,14 @@ class Settings(ConfigModel):
     game: Game = Game()
     practice: Practice = Practice()
     assistance: AssistanceConfig = AssistanceConfig()
-    allocation: Allocation = Allocation()
+    randomisation: Allocation = Allocation()
     consent: ConsentConfig = ConsentConfig()
     timing: Timing = Timing()
-    idle: Idle = Idle()
+    idle_ms: Idle = Idle()
     voice: VoiceConfig = VoiceConfig()
     robot: RobotConfig = RobotConfig()
     screen: Screen = Screen()
-    keys: Keys = Keys()
+    shortcuts: Keys = Keys()
     experimenter: ExperimenterConfig = ExperimenterConfig()
 
     _file: Path | None = PrivateAttr(None)

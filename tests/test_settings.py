@@ -33,8 +33,8 @@ def refusal(file: Path) -> str:
 def test_an_empty_study_file_sets_what_the_study_set(tmp_path: Path) -> None:
     read = Settings.read(written(tmp_path, ""))
     assert read.model_dump() == Settings().model_dump()
-    assert (read.game.rows, read.game.columns, read.allocation.quotas) == (4, 6, {"tom": 28, "notom": 28})
-    assert (read.assistance.target_rule, read.timing.mark_delay) == ("most_flipped", 3500)
+    assert (read.game.rows, read.game.columns, read.randomisation.target_n) == (4, 6, {"tom": 28, "notom": 28})
+    assert (read.assistance.target_rule, read.timing.highlight_delay_ms) == ("most_flipped", 3500)
 
 
 def test_a_study_file_sets_what_it_names_and_nothing_else(tmp_path: Path) -> None:
@@ -66,12 +66,12 @@ def test_a_file_in_another_encoding_is_refused(tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_set_is_refused_by_name_and_all_of_it(tmp_path: Path) -> None:
-    file = written(tmp_path, "colour = 1\n[game]\nrows = 0\n[timing]\nmark_delay = -1")
+    file = written(tmp_path, "colour = 1\n[game]\nrows = 0\n[timing]\nhighlight_delay_ms = -1")
     with pytest.raises(UserInputError) as refused:
         Settings.read(file)
     assert [sentence.removeprefix(f"the study file {file}: ") for sentence in refused.value.sentences] == [
         "game.rows must be from 1 to 12, but it is 0",
-        "timing.mark_delay must be from 0 to 60000 ms, but it is -1",
+        "timing.highlight_delay_ms must be from 0 to 60000 ms, but it is -1",
         f"there is no key 'colour'; there are {', '.join(Settings.model_fields)}",
     ]
 
@@ -101,7 +101,7 @@ def test_what_a_visitor_may_type_is_no_experimenters_key(shortcut: str) -> None:
 
 
 def test_keys_that_are_switched_off_do_not_stand_twice() -> None:
-    assert Keys(panel="", condition="").body == Keys().body
+    assert Keys(panel="", condition="").embodiment == Keys().embodiment
 
 
 def sections() -> list[type[BaseModel]]:
@@ -125,7 +125,7 @@ def test_settings_are_told_apart_by_their_hash() -> None:
 
 
 def test_settings_come_back_from_what_is_kept_of_them() -> None:
-    kept = Settings(languages=("it",), timing=Timing(mood=1))
+    kept = Settings(languages=("it",), timing=Timing(mood_ms=1))
     assert Settings.model_validate_json(kept.model_dump_json()) == kept
 
 

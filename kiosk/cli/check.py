@@ -231,11 +231,11 @@ def _study(booth: CheckTargets) -> Iterator[Check]:
         yield Check(loader.POLICY, partial(loader.policy_check, booth.study))
     if booth.settings is not None:
         yield Check(loader.PIN, partial(loader.pin_check, booth.settings.experimenter))
-        yield Check(loader.KEYS, partial(loader.shortcuts_check, booth.settings.keys))
+        yield Check(loader.KEYS, partial(loader.shortcuts_check, booth.settings.shortcuts))
 
 
 def _shown(booth: CheckTargets) -> Iterator[Check]:
-    number = str(booth.settings.screen.number if booth.settings else 0)
+    number = str(booth.settings.screen.display if booth.settings else 0)
     remedy = "see that the session has a screen, and run this in it"
     screens = partial(run_check_process, "screen", program("_display", "screens", number), _DISPLAY_S, remedy)
     yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.BAD)
@@ -290,7 +290,7 @@ def _kept(booth: CheckTargets) -> Iterator[Check]:
         kind = kind_of(booth.settings)
         yield Check(
             store_checks.LIST,
-            partial(store_checks.allocation_check, folder, booth.site, booth.settings.allocation, kind),
+            partial(store_checks.allocation_check, folder, booth.site, booth.settings.randomisation, kind),
         )
         yield Check(store_checks.FORMS, partial(store_checks.forms, folder, booth.study.plans[0]))
     yield Check(store_checks.WHAT, partial(store_checks.clock_check, folder, now, code_made()))

@@ -102,7 +102,7 @@ def set_pin_command(*, as_json: bool) -> None:
     if _ask("The same again") != chosen:
         raise UserInputError("the two PINs are not the same; nothing was changed")
     line = hash_pin(chosen, secrets.token_bytes(SALT_BYTES))
-    click.echo(json.dumps({"pin": line}) if as_json else f'[experimenter]\npin = "{line}"')
+    click.echo(json.dumps({"pin_hash": line}) if as_json else f'[experimenter]\npin_hash = "{line}"')
 
 
 def _ask(prompt: str) -> str:

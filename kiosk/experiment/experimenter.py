@@ -21,17 +21,17 @@ class Action(Enum):
 
     PANEL = "panel"
     CONDITION = "condition"
-    BODY = "body"
-    AGAIN = "again"
-    QUIET = "quiet"
+    EMBODIMENT = "embodiment"
+    REPEAT = "repeat"
+    MUTE = "mute"
     PAUSE = "pause"
-    END = "end"
+    ABORT = "abort"
     NEXT = "next"
     RESUME = "resume"
     LANGUAGE = "language"
     VOLUME = "volume"
     BACKUP = "backup"
-    LEAVE = "leave"
+    QUIT = "quit"
 
 
 class ActionEffect(Enum):
@@ -106,17 +106,17 @@ TABLE: Mapping[Action, Mapping[Stage, Permission]] = MappingProxyType(
     {
         Action.PANEL: _always(_NOW_WITH_PIN),
         Action.CONDITION: _always(_LATER_WITH_REASON),
-        Action.BODY: _always(_LATER_WITH_REASON),
-        Action.AGAIN: _rules(_REFUSED, _REFUSED, **{stage.value: _NOW for stage in _SAID_AGAIN}),
-        Action.QUIET: _always(_NOW),
+        Action.EMBODIMENT: _always(_LATER_WITH_REASON),
+        Action.REPEAT: _rules(_REFUSED, _REFUSED, **{stage.value: _NOW for stage in _SAID_AGAIN}),
+        Action.MUTE: _always(_NOW),
         Action.PAUSE: _rules(_REFUSED, _NOW),
-        Action.END: _rules(_REFUSED, _NOW_WITH_REASON),
+        Action.ABORT: _rules(_REFUSED, _NOW_WITH_REASON),
         Action.NEXT: _rules(_REFUSED, _NOW_WITH_REASON, thanks=_NOW, over=_NOW),
         Action.RESUME: _rules(_REFUSED, _REFUSED, attract=_NOW_WITH_REASON),
         Action.LANGUAGE: _rules(_NOW_WITH_REASON, _LATER_WITH_REASON),
         Action.VOLUME: _rules(_NOW, _LATER),
         Action.BACKUP: _rules(_NOW, _LATER),
-        Action.LEAVE: _rules(_NOW_WITH_PIN, _NOW_WITH_REASON),
+        Action.QUIT: _rules(_NOW_WITH_PIN, _NOW_WITH_REASON),
     }
 )
 

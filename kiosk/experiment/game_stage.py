@@ -105,7 +105,7 @@ class GameStage(StageHandler):
                 self._select_card(position, outcome)
             case happened.SpeechStarted(utterance=utterance) if self._holding(utterance):
                 # The mark follows the voice.
-                outcome.effect(do.StartTimer(Timer.MARK, self._timing.mark_delay))
+                outcome.effect(do.StartTimer(Timer.MARK, self._timing.highlight_delay_ms))
             case happened.TimerExpired(timer=Timer.MARK):
                 self._mark(outcome)
             case happened.SpeechFinished(utterance=utterance) if self._holding(utterance):
@@ -173,16 +173,20 @@ class GameStage(StageHandler):
             shown_ms = outcome.at_ms - given.at_ms
             outcome.effect(
                 do.StopTimer(Timer.SPEECH_DEADLINE),
-                do.StartTimer(Timer.MARK, max(0, self._timing.mark_delay_silent - shown_ms)),
+                do.StartTimer(Timer.MARK, max(0, self._timing.highlight_delay_silent_ms - shown_ms)),
                 do.StartTimer(Timer.READING, max(0, self._timing.reading_time(given.sentence) - shown_ms)),
             )
 
     def _move_completed(self, flip: Flip, given: _Given | None, outcome: OutcomeBuilder) -> None:
         outcome.effect(do.ShowProgress(self.game.pairs_found, self.game.moves))
         if given is not None:
-            outcome.effect(do.SetExpression(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood))
+            outcome.effect(
+                do.SetExpression(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood_ms)
+            )
         if not flip.matched:
-            outcome.effect(do.LockBoard(BoardWait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.turn_back))
+            outcome.effect(
+                do.LockBoard(BoardWait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.mismatch_shown_ms)
+            )
             return
         outcome.effect(do.MarkMatched((flip.position, self.game.board.mate(flip.position))))
         if self.game.over:
@@ -195,7 +199,7 @@ class GameStage(StageHandler):
         learnt = self._guide.assistant.finish(self.game) if self._guide else None
         if learnt is not None:
             outcome.emit(happened.PolicyUpdated(at_ms=outcome.at_ms, sha256=learnt))
-        outcome.effect(do.StartTimer(Timer.FINISH, self._timing.finish))
+        outcome.effect(do.StartTimer(Timer.FINISH, self._timing.finish_ms))
 
     def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""

@@ -176,7 +176,7 @@ class StageFactory:
                 plan.questionnaires, Random(f"{seed}/questions"), plan.language
             ),
             Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
-            Stage.THANKS: lambda: ThanksStage(self.speaker, settings.timing.thanks),
+            Stage.THANKS: lambda: ThanksStage(self.speaker, settings.timing.thanks_ms),
         }
         # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
         self._scenes: dict[Stage, StageHandler] = {
@@ -186,7 +186,7 @@ class StageFactory:
 
     def play_by_chance(self) -> None:
         """Have the game in any condition of the study: whoever is not stored shall tell nobody who comes next."""
-        listed = sorted(self._plan.settings.allocation.quotas) or [self._plan.condition.value]
+        listed = sorted(self._plan.settings.randomisation.target_n) or [self._plan.condition.value]
         self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
 
     def _play_in(self, condition: Condition) -> None:
@@ -202,7 +202,7 @@ class StageFactory:
     def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:
         practice = plan.settings.practice
         table = DealtTable(_deal(practice, plan.practice_deck, chance), practice.deck, practice=True)
-        return PracticeStage(table, plan.settings.timing, self.speaker, practice.longest)
+        return PracticeStage(table, plan.settings.timing, self.speaker, practice.max_duration_ms)
 
 
 _NOTHING = StageHandler()
@@ -252,7 +252,7 @@ class Session:
         self._log: list[Event] = []
         self._waiting: set[Timer] = set()
         self._scenery = StageFactory(plan, seed, lambda outcome: [*self._log, *outcome.events])
-        self._presence = IdleTimeout(plan.settings.idle, self._reading_ms)
+        self._presence = IdleTimeout(plan.settings.idle_ms, self._reading_ms)
         self._talk = SpeechState(self._scenery.speaker)
 
     def handle(self, event: WorldEvent) -> Outcome:
@@ -276,7 +276,7 @@ class Session:
 
     def _reading_ms(self, stage: Stage) -> int:
         """How long it takes to read the longest page of a stage."""
-        return self._timing.reading * self._scenery.of(stage).characters
+        return self._timing.reading_ms_per_char * self._scenery.of(stage).characters
 
     def check(self, event: WorldEvent) -> None:
         """Raise InvalidTransition if this event has no place now."""

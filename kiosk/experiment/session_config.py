@@ -31,7 +31,7 @@ class SessionKind(IntEnum):
 
 def kind_of(settings: Settings) -> SessionKind:
     """Return what people's sessions at a kiosk with these settings are."""
-    return SessionKind.STUDY if settings.experimenter.pin else SessionKind.TRIAL
+    return SessionKind.STUDY if settings.experimenter.pin_hash else SessionKind.TRIAL
 
 
 @dataclass(frozen=True)

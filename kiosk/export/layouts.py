@@ -197,14 +197,14 @@ PUBLISHED = frozenset(
         "practice",
         "assistance",
         "timing",
-        "idle",
+        "idle_ms",
         "voice",
         "screen",
     }
 )
 """The parts of a study file that say nothing of people, devices, keys or seeds; a new part is not among them."""
 
-_PARTLY: dict[str, bool | set[str]] = {"allocation": {"quotas", "block"}, "consent": {"adult"}}
+_PARTLY: dict[str, bool | set[str]] = {"randomisation": {"target_n", "block_size"}, "consent": {"adult"}}
 """What else is told of other parts: who wants to analyse an allocation as it was made has to know its blocks."""
 
 _SHOWN = 12

@@ -124,7 +124,7 @@ _SEE = "'recollect robot' tries it step by step"
 
 def within_s(settings: RobotSettings) -> float:
     """How long asking may take at most: as long as all its own deadlines."""
-    return _CALLS * (settings.connect_deadline + settings.answer_deadline) / MS_PER_SECOND + _MARGIN_S
+    return _CALLS * (settings.connect_deadline_ms + settings.answer_deadline_ms) / MS_PER_SECOND + _MARGIN_S
 
 
 def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:

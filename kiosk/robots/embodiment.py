@@ -625,7 +625,7 @@ class EmbodimentSelector:
         self._prefers_avatar = False
         self._in_session = False
         self._unsettled = False
-        self._pause = settings.retry_first
+        self._pause = settings.backoff_initial_ms
         self._wait: TimerHandle | None = None
         self._due = False
 
@@ -703,7 +703,7 @@ class EmbodimentSelector:
         kept = self._in_session and self._robot is not None and self._current is self._robot
         self._in_session = False
         if kept:
-            self._pause = self._settings.retry_first
+            self._pause = self._settings.backoff_initial_ms
         if self._current is not None:
             self._current.reset()
         self._choose()
@@ -741,7 +741,7 @@ class EmbodimentSelector:
         self._unsettled = False
         if not self._in_session:
             self._choose()
-        self._wait_for_robot(self._settings.probe_every)
+        self._wait_for_robot(self._settings.health_check_ms)
 
     def robot_lost(self, why: str) -> None:
         """The robot cannot be counted on; if it was helping somebody, that is an event of their session."""
@@ -752,7 +752,7 @@ class EmbodimentSelector:
         elif not self._in_session:
             self._choose()
         self._wait_for_robot(self._pause)
-        self._pause = min(2 * self._pause, self._settings.retry_longest)
+        self._pause = min(2 * self._pause, self._settings.backoff_max_ms)
 
     def _choose(self) -> None:
         well = self._robot is not None and self._robot.health.is_ok
@@ -787,7 +787,7 @@ class EmbodimentSelector:
             return
         if self._robot.health.is_ok:
             self._robot.health_check()
-            self._wait_for_robot(self._settings.probe_every)
+            self._wait_for_robot(self._settings.health_check_ms)
         else:
             self._robot.connect()
 

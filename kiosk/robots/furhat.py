@@ -294,7 +294,7 @@ class Furhat(InspectableRobot):
         super().__init__(settings, language)
         self._settings = settings
         self._language = language
-        self._http = HttpClient(settings.host, settings.port or self.default_port, settings.connect_deadline)
+        self._http = HttpClient(settings.host, settings.port or self.default_port, settings.connect_deadline_ms)
         self._gestures: tuple[str, ...] = ()
         self._voices: tuple[RobotVoice, ...] = ()
 
@@ -374,7 +374,7 @@ class Furhat(InspectableRobot):
 
         It may well say that there is nobody to look at: that is no failure.
         """
-        if not self._settings.attend:
+        if not self._settings.gaze:
             return
         try:
             self._ask("/furhat/attend", {"user": "CLOSEST"} if place is None else {"location": self._location(place)})
@@ -395,7 +395,7 @@ class Furhat(InspectableRobot):
         parameters: Mapping[str, str] | None = None,
         body: Mapping[str, Any] | None = None,
     ) -> tuple[int, bytes]:
-        call = Call(self._settings.answer_deadline / MS_PER_SECOND)
+        call = Call(self._settings.answer_deadline_ms / MS_PER_SECOND)
         return self._http.request(call, verb, path, parameters, body)
 
     def _ask(self, path: str, parameters: Mapping[str, str], body: Mapping[str, Any] | None = None) -> None:

@@ -135,7 +135,7 @@ class FurhatRealtime(RobotDriver):
 
     def look_at(self, place: BoardPoint | None) -> None:
         """Look at a place on the board, or at whoever is closest; raises RobotFailed."""
-        if not self._settings.attend:
+        if not self._settings.gaze:
             return
         if place is None:
             self._send("request.attend.user", user_id="closest")
@@ -165,7 +165,7 @@ class FurhatRealtime(RobotDriver):
         try:
             connecting = connect(
                 f"ws://{host}:{port}{PATH}",
-                open_timeout=self._settings.connect_deadline / MS_PER_SECOND,
+                open_timeout=self._settings.connect_deadline_ms / MS_PER_SECOND,
                 close_timeout=_CLOSE_S,
                 ping_interval=None,
                 compression=None,
@@ -217,7 +217,7 @@ class FurhatRealtime(RobotDriver):
 
     def _ask(self, kind: str, family: str, **what: Any) -> Mapping[str, Any]:
         """Send a request and wait for its answer."""
-        until = monotonic() + self._settings.answer_deadline / MS_PER_SECOND
+        until = monotonic() + self._settings.answer_deadline_ms / MS_PER_SECOND
         with self._waiting(family) as waiter:
             self._send(kind, waiter.number, **what)
             return waiter.next(until, kind)

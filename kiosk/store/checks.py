@@ -158,15 +158,15 @@ def allocation_check(
     folder: Path, site: str, declared: Allocation, kind: SessionKind = SessionKind.STUDY
 ) -> Iterator[CheckResult]:
     """Whether the list that is fixed for this kind of sessions is the study file's, and how much of it is left."""
-    if not declared.quotas:
+    if not declared.target_n:
         yield CheckResult.good(LIST, "no quotas in the study file: every visitor gets the same condition")
         return
-    quotas = {Condition.from_name(name): quota for name, quota in declared.quotas.items()}
+    quotas = {Condition.from_name(name): quota for name, quota in declared.target_n.items()}
 
     def look(connection: sqlite3.Connection) -> Iterator[CheckResult]:
         lists = AllocationLists(connection, checked_site(site), simulated=kind)
         try:
-            lists.check(quotas, declared.block, declared.seed)
+            lists.check(quotas, declared.block_size, declared.seed)
         except UserInputError as refusal:
             yield CheckResult.bad(
                 LIST,

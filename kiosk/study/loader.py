@@ -142,7 +142,7 @@ def read_study(settings: Settings) -> StudyConfig:
     """Everything that a study file names, read; raises BadInput with a sentence for everything that is wrong."""
     look = _Look(settings)
     look.at("stages", partial(StageOrder.of, settings.stages))
-    look.at("keys", partial(shortcuts, settings.keys))
+    look.at("shortcuts", partial(shortcuts, settings.shortcuts))
     look.check_allocation()
     catalogues = look.catalogues()
     sheets = look.sheets()
@@ -375,11 +375,15 @@ class _Look:
 
     def check_allocation(self) -> None:
         """Every quota is one of a condition, and every block holds them in ratio."""
-        declared = self._settings.allocation
-        named = {name: self.at("allocation.quotas", partial(Condition.from_name, name)) for name in declared.quotas}
-        quotas = {condition: declared.quotas[name] for name, condition in named.items() if condition}
+        declared = self._settings.randomisation
+        named = {
+            name: self.at("randomisation.target_n", partial(Condition.from_name, name)) for name in declared.target_n
+        }
+        quotas = {condition: declared.target_n[name] for name, condition in named.items() if condition}
         if quotas and len(quotas) == len(named):
-            self.at("allocation.block", partial(allocation_slots, quotas, declared.block, declared.seed or 0))
+            self.at(
+                "randomisation.block_size", partial(allocation_slots, quotas, declared.block_size, declared.seed or 0)
+            )
 
 
 def _hash_of_files(files: Iterable[Path]) -> str:
@@ -439,7 +443,7 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
 def _given(study: StudyConfig) -> set[Condition]:
     """The conditions that visitors can get without a decision of the experimenter's."""
     return {plan.condition for plan in study.plans} | {
-        Condition.from_name(name) for name in study.settings.allocation.quotas
+        Condition.from_name(name) for name in study.settings.randomisation.target_n
     }
 
 
@@ -492,8 +496,8 @@ def _stage_times(plan: SessionConfig) -> Mapping[str, float]:
         "about": _reading(plan, *pages.about.paragraphs),
         "consent": _reading(plan, *pages.consent.paragraphs, *(each.text for each in pages.consent.purposes)),
         "about_you": sum(_answering(plan, item) for item in plan.about_you.items),
-        "introduction": settings.timing.reading * _INTRODUCTION + TAP_MS,
-        "practice": min(settings.practice.longest, _playing(settings.practice)),
+        "introduction": settings.timing.reading_ms_per_char * _INTRODUCTION + TAP_MS,
+        "practice": min(settings.practice.max_duration_ms, _playing(settings.practice)),
         "game": _playing(settings.game),
         "questions": sum(_answering(plan, item) for asked in plan.questionnaires for item in asked.items),
         "debrief": _reading(plan, *pages.debrief.paragraphs),
@@ -505,19 +509,19 @@ _INTRODUCTION = 200
 
 
 def _reading(plan: SessionConfig, *texts: str) -> int:
-    return sum(plan.settings.timing.reading * len(text) for text in texts) + TAP_MS
+    return sum(plan.settings.timing.reading_ms_per_char * len(text) for text in texts) + TAP_MS
 
 
 def _answering(plan: SessionConfig, item: Item) -> int:
     answer = 0 if isinstance(item, TextPage) else TYPING_MS if isinstance(item, ShortText) else ANSWER_MS
-    return plan.settings.timing.reading * len(in_language(item.text, plan.language)) + answer
+    return plan.settings.timing.reading_ms_per_char * len(in_language(item.text, plan.language)) + answer
 
 
 def _playing(board: Game | Practice) -> int:
     return PAIR_MS * board.rows * board.columns // CARDS_IN_A_PAIR
 
 
-FILE, POLICY, LANGUAGES, PIN, KEYS = "study file", "policy", "languages", "PIN", "keys"
+FILE, POLICY, LANGUAGES, PIN, KEYS = "study file", "policy", "languages", "PIN", "shortcuts"
 
 POLICY_CARD = ".md"
 """Beside a policy's numbers stands a page that says what they were made for."""
@@ -561,7 +565,7 @@ def languages_check(study: StudyConfig) -> Iterator[CheckResult]:
 
 def pin_check(experimenter: ExperimenterConfig) -> Iterator[CheckResult]:
     """Whether the kiosk is closed, or open for trials alone."""
-    if experimenter.pin:
+    if experimenter.pin_hash:
         yield CheckResult.good(PIN, "set")
     else:
         remedy = "put what 'recollect study set-pin' prints into the study file, under [experimenter]"
@@ -576,4 +580,4 @@ def shortcuts_check(shortcuts: Keys) -> Iterator[CheckResult]:
         remedy = f"give keys.{without[0]} a shortcut, such as 'Ctrl+Shift+P'"
         yield CheckResult.warning(KEYS, f"there is none for {' and '.join(without)}", remedy)
     else:
-        yield CheckResult.good(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.leave} leaves the kiosk")
+        yield CheckResult.good(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.quit} leaves the kiosk")

@@ -86,7 +86,7 @@ class App:
         self.voice = _voice(settings, mode, self.clock, owner)
         undo.callback(self.voice.close)
         self.embodiments = EmbodimentSelector(self.runner, self.clock.after, settings.robot)
-        board = settings.screen.board
+        board = settings.screen.board_side
         self.embodiments.set_avatar(AvatarBody(self.screens.avatar, self.voice, self.embodiments, board, owner))
         self.runner.set_embodiments(self.embodiments)
         self._landing = MainThreadExecutor()
@@ -98,7 +98,7 @@ class App:
             shown = self.screens
             self._life = IdleLife(shown.kiosk, shown.avatar, shown.attract, self.clock, Random())
         if assigner.kind is SessionKind.TRIAL:
-            self.screens.attract.show_trial(settings.keys.leave)
+            self.screens.attract.show_trial(settings.shortcuts.quit)
         self._loop = EventLoop(self.clock, owner, self.fault, self._beat)
         undo.callback(self._loop.close)
         virtual = mode.pace is ClockMode.VIRTUAL
@@ -163,7 +163,7 @@ class App:
     def _show(self, settings: Settings, display: WindowMode) -> KioskWindow | None:
         """Show the window; over the full screen it is one that nobody leaves."""
         if display is WindowMode.FULL_SCREEN:
-            return KioskWindow(self.window, settings.screen.number, self._window.owner)
+            return KioskWindow(self.window, settings.screen.display, self._window.owner)
         self._window.show()
         return None
 
@@ -190,7 +190,7 @@ class App:
         if device is None:
             return
         self.embodiments.attach_robot(
-            AsyncRobotAdapter(device, self.embodiments, self._landing, settings.robot.look_every)
+            AsyncRobotAdapter(device, self.embodiments, self._landing, settings.robot.heartbeat_ms)
         )
         if isinstance(self.clock, VirtualClock):
             self.clock.waits_for = lambda: self.embodiments.busy

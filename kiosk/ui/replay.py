@@ -134,7 +134,7 @@ class Replay:
 
     def _embodiments(self, plan: SessionConfig, owner: QObject) -> EmbodimentSelector:
         embodiments = EmbodimentSelector(_Deaf(), self._clock.after, plan.settings.robot)
-        board = plan.settings.screen.board
+        board = plan.settings.screen.board_side
         embodiments.set_avatar(AvatarBody(self._window.screens.avatar, MuteVoice(owner), _Deaf(), board, owner))
         return embodiments
 

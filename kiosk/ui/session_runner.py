@@ -58,11 +58,13 @@ class ConditionAssigner:
         self._choice: _Choice | None = None
         self._followed: _Choice | None = None
         """The choice that the latest session follows."""
-        allocation = study.settings.allocation
-        quotas = {Condition.from_name(name): quota for name, quota in allocation.quotas.items()}
+        allocation = study.settings.randomisation
+        quotas = {Condition.from_name(name): quota for name, quota in allocation.target_n.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
-            recorder.create_allocation_list(quotas, allocation.block, allocation.seed, simulated=origin.simulated)
+            recorder.create_allocation_list(
+                quotas, allocation.block_size, allocation.seed, simulated=origin.simulated
+            )
 
     @property
     def kind(self) -> SessionKind:

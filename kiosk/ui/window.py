@@ -100,7 +100,7 @@ class Window:
                 "textSize": settings.screen.text_size,
                 "motion": MOTION_MS if moving else 0,
                 "highContrast": settings.screen.contrast == "high",
-                "boardOnRight": settings.screen.board == "right",
+                "boardOnRight": settings.screen.board_side == "right",
             }
         )
         self._engine.load(QUrl.fromLocalFile(str(QML)))

@@ -35,7 +35,7 @@ FAR_TOO_LONG_MS = 500
 @contextmanager
 def kiosk(data: Path, pace: ClockMode, fake: FurhatFake) -> Iterator[App]:
     """A kiosk with this robot, which is tried again soon after a loss."""
-    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "retry_first": 5, "retry_longest": 5}
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "backoff_initial_ms": 5, "backoff_max_ms": 5}
     with headless(short(robot=robot), data, mode=RunMode(WindowMode.NOWHERE, pace)) as app:
         yield app
 

@@ -137,8 +137,8 @@ STUDIES: dict[str, Bad] = {
         "[screen]\ntext_size = inf", ("{study}: screen.text_size must be from 0.5 to 1.3, but it is inf",)
     ),
     "number of very many digits": Bad(
-        f"[timing]\nmood = {'9' * 5000}",
-        ("{study}: timing.mood must be from 1 to 3600000 ms, but it is 999999999999...",),
+        f"[timing]\nmood_ms = {'9' * 5000}",
+        ("{study}: timing.mood_ms must be from 1 to 3600000 ms, but it is 999999999999...",),
     ),
     "very long number in hexadecimal": Bad(
         f"[game]\nrows = 0x{'f' * 5000}",
@@ -149,12 +149,12 @@ STUDIES: dict[str, Bad] = {
         ("{study}: robot.board_size, number 1 must be from 0.01 to 10 m, but it is 999999999999...",),
     ),
     "huge quotas": Bad(
-        "[allocation]\nquotas = { tom = 1000000000, notom = 28 }",
-        ("{study}: allocation.quotas.tom must be from 1 to 10000, but it is 1000000000",),
+        "[randomisation]\ntarget_n = { tom = 1000000000, notom = 28 }",
+        ("{study}: randomisation.target_n.tom must be from 1 to 10000, but it is 1000000000",),
     ),
     "huge time": Bad(
-        "[idle]\ngame = 99999999999999999999",
-        ("{study}: idle.game must be from 1 to 3600000 ms, but it is 99999999999999999999",),
+        "[idle_ms]\ngame = 99999999999999999999",
+        ("{study}: idle_ms.game must be from 1 to 3600000 ms, but it is 99999999999999999999",),
     ),
     "board nowhere": Bad(
         "[robot]\nboard_middle = [inf, 0, nan]",
@@ -184,14 +184,15 @@ STUDIES: dict[str, Bad] = {
     "empty list": Bad("languages = []", ("{study}: languages must have at least 1 entry, but it has 0",)),
     "list of numbers": Bad("languages = ['en', 5]", ("{study}: language 2 must be text in quotes, but it is 5",)),
     "negative seed": Bad(
-        "[allocation]\nseed = -1", ("{study}: allocation.seed must be from 0 to 9223372036854775807, but it is -1",)
+        "[randomisation]\nseed = -1",
+        ("{study}: randomisation.seed must be from 0 to 9223372036854775807, but it is -1",),
     ),
     "quotas as a number": Bad(
-        "[allocation]\nquotas = 28", ("{study}: allocation.quotas must be a table in braces, but it is 28",)
+        "[randomisation]\ntarget_n = 28", ("{study}: randomisation.target_n must be a table in braces, but it is 28",)
     ),
     "no quota": Bad(
-        "[allocation]\nquotas = { tom = 0, notom = 28 }",
-        ("{study}: allocation.quotas.tom must be from 1 to 10000, but it is 0",),
+        "[randomisation]\ntarget_n = { tom = 0, notom = 28 }",
+        ("{study}: randomisation.target_n.tom must be from 1 to 10000, but it is 0",),
     ),
     "unknown robot": Bad(
         "[robot]\nkind = 'pepper'",
@@ -210,18 +211,19 @@ STUDIES: dict[str, Bad] = {
         ("{study}: robot.board_middle, number 1 must be a number, but it is 'left'",),
     ),
     "key without a modifier": Bad(
-        "[keys]\npanel = 'p'", ("{study}: keys.panel: 'p' is no shortcut, such as 'Ctrl+Shift+P', and no function key",)
+        "[shortcuts]\npanel = 'p'",
+        ("{study}: shortcuts.panel: 'p' is no shortcut, such as 'Ctrl+Shift+P', and no function key",),
     ),
     "misspelt shortcut": Bad(
-        "[keys]\nend = 'Ctrl+Shfit+E'",
-        ("{study}: keys.end: 'Ctrl+Shfit+E' is no shortcut, such as 'Ctrl+Shift+P', and no function key",),
+        "[shortcuts]\nabort = 'Ctrl+Shfit+E'",
+        ("{study}: shortcuts.abort: 'Ctrl+Shfit+E' is no shortcut, such as 'Ctrl+Shift+P', and no function key",),
     ),
     "key twice": Bad(
-        "[keys]\nquiet = 'Shift+Ctrl+P'", ("{study}: keys: 'Shift+Ctrl+P' stands for 'panel' and for 'quiet'",)
+        "[shortcuts]\nmute = 'Shift+Ctrl+P'", ("{study}: shortcuts: 'Shift+Ctrl+P' stands for 'panel' and for 'mute'",)
     ),
     "bare PIN": Bad(
-        "[experimenter]\npin = '1234'",
-        ("{study}: experimenter.pin: this is no hashed PIN, such as 'recollect study set-pin' prints",),
+        "[experimenter]\npin_hash = '1234'",
+        ("{study}: experimenter.pin_hash: this is no hashed PIN, such as 'recollect study set-pin' prints",),
     ),
     "everything at once": Bad(
         "title = 5\n[game]\nrows = 0\n[voice]\nloud = 1",
@@ -279,12 +281,15 @@ STUDIES: dict[str, Bad] = {
         {"mine.json": "{}"},
     ),
     "quota of no condition": Bad(
-        "[allocation]\nquotas = { tom = 28, control = 28 }",
-        ("{study}: allocation.quotas: there is no condition 'control'; there are {conditions}",),
+        "[randomisation]\ntarget_n = { tom = 28, control = 28 }",
+        ("{study}: randomisation.target_n: there is no condition 'control'; there are {conditions}",),
     ),
     "block that does not divide": Bad(
-        "[allocation]\nblock = 5",
-        ("{study}: allocation.block: a block of 5 places cannot hold 1 tom, 1 notom in ratio; 2, 4, 6 and so on fit",),
+        "[randomisation]\nblock_size = 5",
+        (
+            "{study}: randomisation.block_size: a block of 5 places cannot hold 1 tom, 1 notom in ratio; "
+            "2, 4, 6 and so on fit",
+        ),
     ),
     "unknown deck": Bad(
         "[game]\ndeck = 'cars'",

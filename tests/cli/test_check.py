@@ -87,13 +87,13 @@ def test_a_study_file_that_cannot_be_used_is_bad_input_and_the_rest_is_looked_at
     recollect: Recollect, tmp_path: Path
 ) -> None:
     study = tmp_path / "study.toml"
-    study.write_text('languages = ["tlh"]\n[screen]\nnumber = -1\n')
+    study.write_text('languages = ["tlh"]\n[screen]\ndisplay = -1\n')
     called = recollect("--study", study, "--data", tmp_path / "data", "--json")
     found = json.loads(called.out)
     bad = [each["words"] for each in found["findings"] if each["what"] == "study file"]
     assert called.code == 2
     assert len(bad) == 1
-    assert "screen.number" in bad[0]
+    assert "screen.display" in bad[0]
     assert bad[0] in called.err
     assert found["ready"] is False
     assert {"disk", "drawing", "clock"} <= {each["what"] for each in found["findings"]}

@@ -23,8 +23,8 @@ def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
     told = choose("2580", "2580")
     assert told.exit_code == 0
     settings = Settings.model_validate(tomllib.loads(told.stdout))
-    assert pin_matches("2580", settings.experimenter.pin)
-    assert "2580" not in told.output.replace(settings.experimenter.pin, "")
+    assert pin_matches("2580", settings.experimenter.pin_hash)
+    assert "2580" not in told.output.replace(settings.experimenter.pin_hash, "")
 
 
 def test_two_of_the_same_pin_have_lines_of_their_own() -> None:

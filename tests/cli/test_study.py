@@ -107,8 +107,10 @@ GOOD = {
         (),
         {"mine.json": (ASSETS.parent / "policies" / "default.json").read_text("utf-8")},
     ),
-    "nobody helps": Bad("[assistance]\npolicy = 'none'\ncondition = 'no_assistance'\n[allocation]\nquotas = {}", ()),
-    "three to one": Bad("[allocation]\nquotas = { tom = 30, notom = 10 }\nblock = 8", ()),
+    "nobody helps": Bad(
+        "[assistance]\npolicy = 'none'\ncondition = 'no_assistance'\n[randomisation]\ntarget_n = {}", ()
+    ),
+    "three to one": Bad("[randomisation]\ntarget_n = { tom = 30, notom = 10 }\nblock_size = 8", ()),
     "no practice": Bad("stages = ['game']\n[practice]\ndeck = 'animals'", ()),
 }
 
@@ -164,7 +166,7 @@ def test_a_purpose_for_publishing_under_another_name_is_told_of(tmp_path: Path, 
 
 def test_a_condition_without_help_is_told_of_as_help_is_promised(tmp_path: Path, recollect: Recollect) -> None:
     study = tmp_path / "study.toml"
-    study.write_text("[allocation]\nquotas = { tom = 2, no_assistance = 2 }\n", "utf-8")
+    study.write_text("[randomisation]\ntarget_n = { tom = 2, no_assistance = 2 }\n", "utf-8")
     cautions = json.loads(recollect("study", "check", study, "--json").out)["cautions"]
     assert any("promises help to everybody" in caution for caution in cautions)
 
@@ -243,7 +245,7 @@ def test_the_documented_example_sets_every_key_to_what_it_is_without_it() -> Non
 
 def test_the_documented_example_names_every_key() -> None:
     given = tomllib.loads(PAPER.read_text("utf-8"))
-    unset = {"allocation": {"seed"}, "robot": {"port"}}
+    unset = {"randomisation": {"seed"}, "robot": {"port"}}
     for key, field in Settings.model_fields.items():
         assert key in given
         if isinstance(given[key], dict):
@@ -252,7 +254,9 @@ def test_the_documented_example_names_every_key() -> None:
 
 def test_settings_other_than_the_defaults_come_back_from_their_file(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
-    study.write_text('title = "A \\"second\\" study"\nstages = ["game"]\n[allocation]\nquotas = {}\nseed = 7', "utf-8")
+    study.write_text(
+        'title = "A \\"second\\" study"\nstages = ["game"]\n[randomisation]\ntarget_n = {}\nseed = 7', "utf-8"
+    )
     settings = Settings.read(study)
     (tmp_path / "again.toml").write_text(as_study_file(settings), "utf-8")
     assert Settings.read(tmp_path / "again.toml").model_dump() == settings.model_dump()
@@ -263,7 +267,8 @@ def test_the_reference_of_every_key_is_printed_from_the_declarations(recollect: 
     assert printed == as_page(Settings)
     assert PAGE.read_text("utf-8") == printed, "write the output of `recollect study reference` into it"
     assert (
-        "| `turn_back` | How long two unmatched cards stay open (ms). | whole number, from 1 to 3600000 | `1200` |"
+        "| `mismatch_shown_ms` | How long two unmatched cards stay open (ms). | whole number, from 1 to 3600000 "
+        "| `1200` |"
         in printed
     )
 

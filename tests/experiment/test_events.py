@@ -120,7 +120,10 @@ def test_a_record_can_be_read_without_the_program() -> None:
             Stage,
             "attract about consent age about_you introduction practice game result questions debrief thanks over",
         ),
-        (Timer, "turn_back mark reading speech_deadline mood finish practice thanks pause idle still_there"),
+        (
+            Timer,
+            "turn_back mark reading speech_deadline_ms_per_char mood finish practice thanks pause idle still_there",
+        ),
         (Status, "completed abandoned stopped interrupted"),
         (NotRecordedReason, "declined under_age left"),
         (PracticeEnd, "found left time"),

@@ -35,7 +35,7 @@ LONG_ENOUGH = {
 }
 """How long every stage waits before it asks, in ms, if the study file does not say otherwise."""
 
-LASTING = whole(policy=always(Action.NO_HELP), timing=Timing(thanks=10**6))
+LASTING = whole(policy=always(Action.NO_HELP), timing=Timing(thanks_ms=10**6))
 """A session whose thanks do not end by themselves before anybody can be asked."""
 
 
@@ -138,7 +138,7 @@ def test_a_text_that_takes_longer_to_read_puts_the_question_off_until_then(stage
         questionnaires=(questionnaire("closing", likert("short"), likert("long", text={"en": LONG_TEXT})),),
     )
     driver = driven_to(stage, long)
-    least = Timing().reading * len(LONG_TEXT)
+    least = Timing().reading_ms_per_char * len(LONG_TEXT)
     assert least <= driver.running[Timer.IDLE] - driver.now < 1.2 * least
 
 
@@ -151,7 +151,7 @@ def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:
 
 def test_a_stage_that_ends_by_itself_takes_the_question_with_it() -> None:
     driver = driven_to(
-        Stage.GAME, whole(policy=always(Action.NO_HELP), idle=Idle(game=1000), timing=Timing(finish=1500))
+        Stage.GAME, whole(policy=always(Action.NO_HELP), idle=Idle(game=1000), timing=Timing(finish_ms=1500))
     )
     while len(driver.view.found) < 24:
         for place in a_pair(driver):
@@ -248,7 +248,7 @@ def test_a_paused_session_can_be_ended_and_leaves_no_cover_behind(stage: Stage, 
 
 
 def test_a_pause_lasts_across_a_change_of_the_stage() -> None:
-    driver = driven_to(Stage.PRACTICE, whole(policy=always(Action.NO_HELP), practice=Practice(longest=5000)))
+    driver = driven_to(Stage.PRACTICE, whole(policy=always(Action.NO_HELP), practice=Practice(max_duration_ms=5000)))
     driver.pause()
     driver.spend(6000)
     assert (driver.stage, driver.view.paused) == (Stage.GAME, True)

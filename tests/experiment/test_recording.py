@@ -171,7 +171,7 @@ def test_the_experimenter_can_end_a_session_anywhere(stage: Stage) -> None:
 def unstored_game(condition: Condition, seed: int) -> list[Outcome]:
     """What somebody who declines sees of a game, flip by flip of the same cards."""
     quotas = {"quotas": {"tom": 1, "no_assistance": 1}, "block": 2}
-    driver = Driver(plan(condition, always(Action.SUG_CARD), STAGES, allocation=quotas), seed)
+    driver = Driver(plan(condition, always(Action.SUG_CARD), STAGES, randomisation=quotas), seed)
     driver.to(Stage.CONSENT)
     driver.send(happened.ConsentDeclined(at_ms=driver.now))
     driver.to(Stage.GAME)

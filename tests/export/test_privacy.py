@@ -82,7 +82,7 @@ def test_neither_code_nor_seed_nor_typed_text_nor_place_is_told(told: Path, layo
 
 def test_of_the_allocation_the_blocks_are_told_and_the_seed_is_not(tmp_path: Path) -> None:
     plan = study_plan()
-    allocation = Allocation(quotas={"tom": 9, "notom": 9}, block=6, seed=SEED)
+    allocation = Allocation(target_n={"tom": 9, "notom": 9}, block_size=6, seed=SEED)
     driver = Driver(replace(plan, settings=plan.settings.model_copy(update={"allocation": allocation})), 1)
     driver.to(Stage.GAME)
     store(tmp_path / "data", [(driver, 1)])

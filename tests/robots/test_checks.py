@@ -147,7 +147,7 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
 
 def of(fake: FurhatFake | RealtimeFake, kind: str = "furhat", **more: object) -> RobotConfig:
     """The settings for a robot on the loopback that has half a second for everything."""
-    quick = dict.fromkeys(("connect_deadline", "answer_deadline"), 500)
+    quick = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms"), 500)
     return RobotConfig.model_validate({"kind": kind, "host": "127.0.0.1", "port": fake.port} | quick | more)
 
 
@@ -194,4 +194,4 @@ def test_a_robot_that_would_have_to_be_changed_is_left_to_the_kiosk_that_has_it(
 
 def test_a_robot_has_as_long_as_its_own_deadlines_and_less_than_twenty_seconds() -> None:
     assert within_s(RobotConfig()) <= 15
-    assert within_s(RobotConfig(answer_deadline=3000)) > within_s(RobotConfig())
+    assert within_s(RobotConfig(answer_deadline_ms=3000)) > within_s(RobotConfig())

@@ -18,7 +18,7 @@ GONE = RobotError(FailureKind.UNREACHABLE, "saying hello")
 A_MOMENT_S = 0.2
 """Long enough for a sentence that does not wait to come too early."""
 
-SETTINGS = RobotSettings(kind="furhat", retry_first=1000, retry_longest=8000, probe_every=5000)
+SETTINGS = RobotSettings(kind="furhat", backoff_initial_ms=1000, backoff_max_ms=8000, health_check_ms=5000)
 
 
 @dataclass

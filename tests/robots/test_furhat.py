@@ -31,8 +31,8 @@ def fake() -> Iterator[FurhatFake]:
 def furhat(fake: FurhatFake, language: str = "en", **settings: object) -> Furhat:
     """A client with short deadlines."""
     deadlines = {
-        **dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), DEADLINE_MS),
-        "speech_deadline": 1,
+        **dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), DEADLINE_MS),
+        "speech_deadline_ms_per_char": 1,
     }
     given = {"host": "127.0.0.1", "port": fake.port, **deadlines, **settings}
     return Furhat(RobotSettings.model_validate(given), language)
@@ -215,7 +215,7 @@ def test_only_true_counts_as_true(fake: FurhatFake, success: str, monkeypatch: p
 def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: FurhatFake) -> None:
     fake.mode = Mode.HANG
     under_way = saying("Hello")
-    robot = furhat(fake, speech_deadline_least=60_000)
+    robot = furhat(fake, speech_deadline_min_ms=60_000)
     failures: list[RobotError] = []
 
     def say() -> None:
@@ -236,7 +236,7 @@ def test_a_sentence_that_was_cut_before_it_was_sent_is_not_waited_for(fake: Furh
     cut = saying("Hello")
     cut.cancel()
     with pytest.raises(RobotError) as failed:
-        furhat(fake, speech_deadline_least=60_000).say(cut)
+        furhat(fake, speech_deadline_min_ms=60_000).say(cut)
     assert failed.value.kind is FailureKind.CUT
 
 

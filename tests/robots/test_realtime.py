@@ -34,8 +34,8 @@ def robots() -> Iterator[list[FurhatRealtime]]:
 
 def connected(fake: RealtimeFake, robots: list[FurhatRealtime], **settings: object) -> FurhatRealtime:
     """A client with short deadlines, connected."""
-    deadlines = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), DEADLINE_MS)
-    given = {"host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **deadlines, **settings}
+    deadlines = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), DEADLINE_MS)
+    given = {"host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **deadlines, **settings}
     robots.append(FurhatRealtime(RobotSettings.model_validate(given), "it"))
     robots[-1].connect()
     return robots[-1]
@@ -113,7 +113,7 @@ def test_what_was_dropped_stays_lost_until_it_is_connected_again(
 
 
 def test_a_sentence_that_is_cut_is_waited_for_no_longer(fake: RealtimeFake, robots: list[FurhatRealtime]) -> None:
-    robot = connected(fake, robots, speech_deadline_least=60_000)
+    robot = connected(fake, robots, speech_deadline_min_ms=60_000)
     fake.mode = Mode.HANG
     under_way = Utterance("Ciao", lambda: None)
 

@@ -149,7 +149,14 @@ BITS = st.sampled_from(
     ]
 )
 NUMBERS = st.sampled_from([2, 4, 4, 4, 8, 8, 10**30])
-KEYS = ("game.rows", "game.columns", "timing.mood", "timing.mark_delay", "allocation.block", "assistance.step")
+KEYS = (
+    "game.rows",
+    "game.columns",
+    "timing.mood_ms",
+    "timing.highlight_delay_ms",
+    "allocation.block",
+    "assistance.step",
+)
 
 
 @settings(

@@ -55,13 +55,13 @@ def test_every_language_is_told() -> None:
 
 def test_a_study_without_a_pin_is_told_of_and_none_is_ever_repeated() -> None:
     (without,) = loader.pin_check(ExperimenterConfig())
-    (told,) = loader.pin_check(ExperimenterConfig(pin=HASHED))
+    (told,) = loader.pin_check(ExperimenterConfig(pin_hash=HASHED))
     assert [without.state, told.state] == [Severity.WARNING, Severity.GOOD]
     assert HASHED not in told.words
 
 
 def test_an_experimenter_who_could_not_get_out_is_told() -> None:
     (told,) = loader.shortcuts_check(Keys())
-    (locked,) = loader.shortcuts_check(Keys(leave=""))
-    assert (told.state, Keys().leave in told.words) == (Severity.GOOD, True)
+    (locked,) = loader.shortcuts_check(Keys(quit=""))
+    assert (told.state, Keys().quit in told.words) == (Severity.GOOD, True)
     assert (locked.state, "leave" in locked.words) == (Severity.WARNING, True)

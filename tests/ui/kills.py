@@ -40,7 +40,7 @@ from kiosk.ui.window import ClockMode, RunMode, WindowMode
 
 GONE = "gone"
 SMALL = Settings.model_validate(
-    {"game": {"rows": 2, "columns": 4}, "practice": {"rows": 2, "columns": 2}, "allocation": {"seed": 1}}
+    {"game": {"rows": 2, "columns": 4}, "practice": {"rows": 2, "columns": 2}, "randomisation": {"seed": 1}}
 )
 """All the stages of the study, but small boards: kills are to be spread over the stages, not over one long game."""
 

@@ -50,8 +50,8 @@ columns = 2
 [voice]
 rate = 300
 [timing]
-turn_back = 100
-finish = 100
+mismatch_shown_ms = 100
+finish_ms = 100
 """
 """Nobody has to follow what happens, so that a session takes half a minute."""
 STOPPED_S = 60.0

@@ -21,7 +21,7 @@ from tests.ui.touring import PIN, SHORTCUT, whole_study
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 EVERY_MS = 10_000
 PLACE = QPoint(500, 500)
-IDLE_MS = SMALL.idle.about
+IDLE_MS = SMALL.idle_ms.about
 
 
 def pass_time(booth: Booth, ms: int) -> None:
@@ -200,11 +200,11 @@ def test_the_digits_of_a_pin_do_not_answer_for_the_visitor(make_booth: MakeBooth
 
 
 def test_a_typed_answer_of_few_letters_is_a_sign_too(make_booth: MakeBooth) -> None:
-    settings = Settings.model_validate({**SMALL.model_dump(), "stages": ("about_you", "game"), "idle": {}})
+    settings = Settings.model_validate({**SMALL.model_dump(), "stages": ("about_you", "game"), "idle_ms": {}})
     booth = make_booth(settings=settings)
     booth.click("start-en")
     booth.settle()
-    for _ in range(3 * settings.idle.about_you // EVERY_MS):
+    for _ in range(3 * settings.idle_ms.about_you // EVERY_MS):
         pass_time(booth, EVERY_MS)
         key(Qt.Key.Key_Backspace)(booth)
     assert not asked(booth)

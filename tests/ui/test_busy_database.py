@@ -271,7 +271,7 @@ def test_a_fault_meanwhile_shows_the_calm_screen_and_leaves_nothing_for_the_next
 def test_a_timer_that_ran_out_while_the_tap_that_stops_it_was_waiting_does_not_count(
     make_booth: MakeBooth, other_of: Callable[[Booth], Other]
 ) -> None:
-    booth = make_booth(settings=short(idle={"game": 3_000, "still_there": 1_000}))
+    booth = make_booth(settings=short(idle_ms={"game": 3_000, "still_there": 1_000}))
     other = other_of(booth)
     booth.start_game()
     booth.settle()

@@ -16,7 +16,11 @@ from kiosk.study.loader import read_study
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
 
 LISTED = Settings.model_validate(
-    {"languages": ["en"], "questionnaires": ["trust"], "allocation": {"quotas": {"tom": 2, "notom": 2}, "block": 2}}
+    {
+        "languages": ["en"],
+        "questionnaires": ["trust"],
+        "randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 2},
+    }
 )
 ORIGIN = RunContext("a test", simulated=True, seed=lambda: 1)
 

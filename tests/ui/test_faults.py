@@ -22,7 +22,7 @@ from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
-QUICK = dict.fromkeys(("connect_deadline", "answer_deadline", "speech_deadline_least"), 2_000)
+QUICK = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), 2_000)
 """Short, but longer than the collector holds up every thread of a process that has run thousands of tests."""
 
 
@@ -36,7 +36,7 @@ def fake() -> Iterator[FurhatFake]:
 @pytest.fixture
 def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
     """A kiosk with this robot."""
-    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **QUICK}
     return make_booth(settings=short(robot=robot))
 
 
@@ -93,7 +93,13 @@ def test_a_fault_in_any_stage_costs_nobody_anything(booth: Booth, fake: FurhatFa
 @pytest.mark.parametrize("mode", BROKEN, ids=lambda mode: mode.name.lower())
 def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: MakeBooth, mode: Broken) -> None:
     with RealtimeFake() as fake:
-        robot = {"kind": "furhat-realtime", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, **QUICK}
+        robot = {
+            "kind": "furhat-realtime",
+            "host": "127.0.0.1",
+            "port": fake.port,
+            "speech_deadline_ms_per_char": 1,
+            **QUICK,
+        }
         booth = make_booth(settings=short(robot=robot))
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()

@@ -62,7 +62,13 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
 ) -> None:
     memory, disk = Memory(), SmallDisk()
     with logging_into(tmp_path / "log") as log, FurhatFake(character_ms=0.2) as fake:
-        robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline": 1, "answer_deadline": 300}
+        robot = {
+            "kind": "furhat",
+            "host": "127.0.0.1",
+            "port": fake.port,
+            "speech_deadline_ms_per_char": 1,
+            "answer_deadline_ms": 300,
+        }
         booth = make_booth(settings=Settings.model_validate(SMALL | {"robot": robot}), opened=disk.open)
         rehearsal = Sabotage(booth.app, 7, lambda: setattr(fake, "mode", Mode.RESET), Moment.GAME)
         check = booth.app.runner.on_event

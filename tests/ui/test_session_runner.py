@@ -17,7 +17,7 @@ from kiosk.ui.session_runner import ERROR_SCREEN_MS
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import short
 
-QUICK = short(idle={"game": 3_000, "still_there": 1_000})
+QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
 
 
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature

@@ -27,7 +27,7 @@ def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_
     language: str, tmp_path: Path, qtbot: QtBot
 ) -> None:
     del qtbot
-    settings = short(languages=[language], keys={"leave": "Ctrl+Shift+F9"})
+    settings = short(languages=[language], shortcuts={"quit": "Ctrl+Shift+F9"})
     with headless(settings, tmp_path, kind=SessionKind.TRIAL) as app:
         line = find_item(app.window.contentItem(), "trial")
         assert line is not None
@@ -37,7 +37,7 @@ def test_the_first_screen_says_that_it_is_a_trial_with_the_shortcut_that_leaves_
 
 def test_a_kiosk_that_no_shortcut_leaves_names_none(tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
-    with headless(short(keys={"leave": ""}), tmp_path, kind=SessionKind.TRIAL) as app:
+    with headless(short(shortcuts={"quit": ""}), tmp_path, kind=SessionKind.TRIAL) as app:
         line = find_item(app.window.contentItem(), "trial")
         assert line is not None
         assert line.property("text") == "Trial: no PIN is set"
@@ -52,12 +52,12 @@ def test_what_is_no_trial_is_not_called_one(kind: SessionKind, tmp_path: Path, q
 
 def test_a_pin_makes_a_study_of_a_trial() -> None:
     assert kind_of(Settings()) is SessionKind.TRIAL
-    assert kind_of(short(experimenter={"pin": LINE})) is SessionKind.STUDY
+    assert kind_of(short(experimenter={"pin_hash": LINE})) is SessionKind.STUDY
 
 
 def test_a_trial_takes_no_place_of_the_study_and_is_listed_as_what_it_is(tmp_path: Path, qtbot: QtBot) -> None:
     del qtbot
-    settings = Settings.model_validate({**TINY, "allocation": {"quotas": {"tom": 1}, "block": 1}})
+    settings = Settings.model_validate({**TINY, "randomisation": {"target_n": {"tom": 1}, "block_size": 1}})
     for kind in (SessionKind.TRIAL, SessionKind.STUDY):
         with headless(settings, tmp_path, kind=kind, condition=None) as app:
             Rehearsal(app, 1).run()

@@ -265,7 +265,9 @@ def study_in(folder: Path, items: str) -> Settings:
     """A study that asks these items first."""
     (folder / "form.toml").write_text(FORM + items, "utf-8")
     study = 'languages = ["en"]\nabout_you = "form.toml"\nstages = ["about_you", "game", "thanks"]\n'
-    (folder / "study.toml").write_text(study + "[allocation]\nquotas = {}\n[game]\nrows = 2\ncolumns = 3\n", "utf-8")
+    (folder / "study.toml").write_text(
+        study + "[randomisation]\ntarget_n = {}\n[game]\nrows = 2\ncolumns = 3\n", "utf-8"
+    )
     return Settings.read(folder / "study.toml")
 
 

@@ -40,7 +40,7 @@ def whole_study(first: str = "en", **screen: object) -> Settings:
     ``screen`` is that section of the study file.
     """
     languages = sorted(SMALL.languages, key=lambda language: language != first)
-    more = {"languages": languages, "screen": screen, "experimenter": {"pin": hash_pin(PIN, bytes(16))}}
+    more = {"languages": languages, "screen": screen, "experimenter": {"pin_hash": hash_pin(PIN, bytes(16))}}
     return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter", "languages"}), **more})
 
 

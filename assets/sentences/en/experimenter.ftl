@@ -19,8 +19,8 @@ console-busy = One moment: another program holds the database
 console-done = Done
 console-next-avatar = Next: avatar
 console-next-robot = Next: robot
-console-quiet-on = Silent
-console-quiet-off = Heard again
+console-mute-on = Silent
+console-mute-off = Heard again
 console-cannot-resume = It cannot go on: { $why }
 
 ## The panel
@@ -138,19 +138,19 @@ console-room-refuse = no room left; nobody can begin
 
 console-next-session = From the next session on
 console-condition = Condition of the next session
-console-body = Who helps
+console-embodiment = Who helps
 console-language = Language at rest
 console-volume = Volume
 console-now = Now
-console-again = Say it again
-console-quiet = Silence
+console-repeat = Say it again
+console-mute = Silence
 console-heard = Sound on
 console-stay-paused = Stay paused after closing
 console-not-stay-paused = Go on after closing
-console-end = End the session
+console-abort = End the session
 console-next = Next visitor
 console-resume = Go on with a session that was cut off
 console-resume-none = There is none
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Make a copy
-console-leave = Leave the kiosk
+console-quit = Leave the kiosk

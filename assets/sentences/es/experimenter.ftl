@@ -19,8 +19,8 @@ console-busy = Un momento: otro programa ocupa la base de datos
 console-done = Hecho
 console-next-avatar = Después: avatar
 console-next-robot = Después: robot
-console-quiet-on = En silencio
-console-quiet-off = De nuevo con sonido
+console-mute-on = En silencio
+console-mute-off = De nuevo con sonido
 console-cannot-resume = No puede continuar: { $why }
 
 ## The panel
@@ -138,19 +138,19 @@ console-room-refuse = sin sitio; nadie puede empezar
 
 console-next-session = Desde la próxima sesión
 console-condition = Condición de la próxima sesión
-console-body = Quién ayuda
+console-embodiment = Quién ayuda
 console-language = Idioma en reposo
 console-volume = Volumen
 console-now = Ahora
-console-again = Repetir la frase
-console-quiet = Silencio
+console-repeat = Repetir la frase
+console-mute = Silencio
 console-heard = Activar sonido
 console-stay-paused = Seguir en pausa después
 console-not-stay-paused = Continuar al cerrar
-console-end = Terminar la sesión
+console-abort = Terminar la sesión
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
 console-resume-none = No hay ninguna
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Hacer una copia
-console-leave = Salir del quiosco
+console-quit = Salir del quiosco

@@ -19,8 +19,8 @@ console-busy = Un momento: un altro programma occupa la base di dati
 console-done = Fatto
 console-next-avatar = Poi: avatar
 console-next-robot = Poi: robot
-console-quiet-on = Silenzio
-console-quiet-off = Di nuovo udibile
+console-mute-on = Silenzio
+console-mute-off = Di nuovo udibile
 console-cannot-resume = Non può continuare: { $why }
 
 ## The panel
@@ -138,19 +138,19 @@ console-room-refuse = spazio finito; nessuno può iniziare
 
 console-next-session = Dalla prossima seduta
 console-condition = Condizione della prossima seduta
-console-body = Chi aiuta
+console-embodiment = Chi aiuta
 console-language = Lingua a riposo
 console-volume = Volume
 console-now = Adesso
-console-again = Ripeti la frase
-console-quiet = Silenzio
+console-repeat = Ripeti la frase
+console-mute = Silenzio
 console-heard = Riattiva l’audio
 console-stay-paused = Resta in pausa dopo
 console-not-stay-paused = Continua alla chiusura
-console-end = Termina la seduta
+console-abort = Termina la seduta
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
 console-resume-none = Non ce n’è
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Fai una copia
-console-leave = Esci dal chiosco
+console-quit = Esci dal chiosco

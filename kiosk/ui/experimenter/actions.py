@@ -142,7 +142,7 @@ class ActionController:
         self._write = write
         self._upkeep = upkeep
         self._text = catalogue.text
-        self._turn = condition_cycle(booth.assigner.study.settings.allocation.quotas)
+        self._turn = condition_cycle(booth.assigner.study.settings.randomisation.target_n)
         self._acts: deque[Callable[[], None]] = deque()
         self._acting = False
         self._busy = BusyWait(booth.clock, booth.recorder.wait_ms, self._tell_busy)
@@ -188,7 +188,7 @@ class ActionController:
 
     def _do(self, action: Action, choice: str, reason: str) -> None:
         act = partial(self._do_now, action, choice, reason)
-        if action is Action.LEAVE:
+        if action is Action.QUIT:
             # Nothing that waits for the database keeps anybody here.
             act()
         else:
@@ -237,17 +237,17 @@ class ActionController:
             return
         {
             Action.CONDITION: self._condition,
-            Action.BODY: self._body,
-            Action.AGAIN: self._again,
-            Action.QUIET: self._quiet,
+            Action.EMBODIMENT: self._body,
+            Action.REPEAT: self._again,
+            Action.MUTE: self._quiet,
             Action.PAUSE: self._pause,
-            Action.END: self._end,
+            Action.ABORT: self._end,
             Action.NEXT: self._next,
             Action.RESUME: self._resume,
             Action.LANGUAGE: self._language,
             Action.VOLUME: self._set_volume,
             Action.BACKUP: self._backup,
-            Action.LEAVE: self._leave,
+            Action.QUIT: self._leave,
         }[action](choice, reason)
         self.changed()
 
@@ -320,7 +320,7 @@ class ActionController:
             embodiments.mute()
         else:
             embodiments.unmute()
-        self.tell("console-quiet-on" if quiet else "console-quiet-off")
+        self.tell("console-mute-on" if quiet else "console-mute-off")
 
     def _pause(self, _choice: str, _reason: str) -> None:
         runner = self._booth.runner

@@ -291,21 +291,21 @@ WORDS = (
     "console-deviations-none",
     "console-next-session",
     "console-condition",
-    "console-body",
+    "console-embodiment",
     "console-language",
     "console-volume",
     "console-now",
-    "console-again",
-    "console-quiet",
+    "console-repeat",
+    "console-mute",
     "console-heard",
     "console-stay-paused",
     "console-not-stay-paused",
-    "console-end",
+    "console-abort",
     "console-next",
     "console-resume",
     "console-resume-none",
     "console-backup",
-    "console-leave",
+    "console-quit",
     "console-keys",
 )
 """Every message that the panel shows as it stands."""
@@ -336,7 +336,7 @@ class ExperimenterConsole:
         self._written_ms = last_written_ms(folder)
         self._kind = booth.assigner.kind
         self._write = AuditLog(booth.recorder, booth.clock)
-        self._lock = PinVerifier(settings.experimenter.pin, wrong_pins(folder), now_ms, work, self._write.record)
+        self._lock = PinVerifier(settings.experimenter.pin_hash, wrong_pins(folder), now_ms, work, self._write.record)
         self._asking = AuthorisationFlow(card, self._lock, booth.clock, catalogue)
         self.upkeep = MaintenanceScheduler(
             MaintenanceTasks.of(folder, settings.experimenter.backups),
@@ -363,7 +363,7 @@ class ExperimenterConsole:
         )
         self._keyboard = InputCapture(window, self._asking, self.panel.stir, screen)
         self._asking.changed = self.panel.changed = self._stand_by
-        screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.keys).items()})
+        screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()})
         screen.pressed.connect(self.actions.press)
 
     def close(self) -> None:

@@ -282,7 +282,7 @@ def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
         case AuditEvent.VOLUME_CHANGED:
             return f"{body.get('volume', 0):.0%}"
         case AuditEvent.MUTE_CHANGED:
-            return translate("console-quiet-on" if body.get("quiet") else "console-quiet-off")
+            return translate("console-mute-on" if body.get("quiet") else "console-mute-off")
         case AuditEvent.SESSION_ABORTED | AuditEvent.APPLICATION_QUIT:
             stage = str(body.get("stage", ""))
             return translate(f"console-stage-{_kebab(stage)}") if stage else ""

@@ -29,7 +29,7 @@ from kiosk.experiment.transitions import TABLE as STAGES
 
 MANUAL = Path(__file__).parents[3] / "docs" / "experimenter.md"
 
-CHANGES_THE_STUDY = (Action.CONDITION, Action.BODY, Action.LANGUAGE)
+CHANGES_THE_STUDY = (Action.CONDITION, Action.EMBODIMENT, Action.LANGUAGE)
 
 
 def test_every_action_has_a_rule_in_every_stage() -> None:
@@ -39,7 +39,7 @@ def test_every_action_has_a_rule_in_every_stage() -> None:
 
 @pytest.mark.parametrize("stage", Stage)
 def test_nobody_leaves_or_sees_the_panel_without_the_pin(stage: Stage) -> None:
-    assert Authorisation.NOTHING not in {permission(Action.PANEL, stage).asks, permission(Action.LEAVE, stage).asks}
+    assert Authorisation.NOTHING not in {permission(Action.PANEL, stage).asks, permission(Action.QUIT, stage).asks}
 
 
 def test_every_key_of_the_study_file_is_a_action() -> None:
@@ -62,7 +62,7 @@ def test_a_session_that_is_under_way_keeps_its_condition_its_body_and_its_langua
 
 @pytest.mark.parametrize("stage", Stage)
 def test_a_visitor_who_is_sent_away_is_sent_away_with_a_reason(stage: Stage) -> None:
-    for action in (Action.END, Action.LEAVE):
+    for action in (Action.ABORT, Action.QUIT):
         held = permission(action, stage)
         under_way = stage not in (Stage.ATTRACT, Stage.OVER)
         assert (held.asks is Authorisation.PIN_AND_REASON) is under_way
@@ -70,7 +70,7 @@ def test_a_visitor_who_is_sent_away_is_sent_away_with_a_reason(stage: Stage) -> 
 
 @pytest.mark.parametrize(
     ("action", "event"),
-    [(Action.AGAIN, RepeatRequested), (Action.PAUSE, PauseRequested), (Action.END, AbortRequested)],
+    [(Action.REPEAT, RepeatRequested), (Action.PAUSE, PauseRequested), (Action.ABORT, AbortRequested)],
 )
 def test_what_is_done_at_once_is_what_the_session_has_a_place_for(action: Action, event: type[WorldEvent]) -> None:
     for stage in Stage:

@@ -19,10 +19,10 @@ def test_the_right_pin_matches_and_no_other() -> None:
 
 
 def test_the_study_file_takes_the_line_as_it_is_printed_and_nothing_else() -> None:
-    assert ExperimenterConfig(pin=LINE).pin == LINE
+    assert ExperimenterConfig(pin_hash=LINE).pin_hash == LINE
     for other in ("2580", LINE[:-1], LINE.upper(), LINE.replace("scrypt", "plain")):
         with pytest.raises(ValidationError):
-            ExperimenterConfig(pin=other)
+            ExperimenterConfig(pin_hash=other)
 
 
 def test_two_booths_with_the_same_pin_do_not_keep_the_same_line() -> None:

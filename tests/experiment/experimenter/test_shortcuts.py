@@ -14,7 +14,7 @@ def test_the_shortcuts_that_come_with_the_program_can_all_be_used() -> None:
 
 
 def test_an_empty_shortcut_switches_a_key_off() -> None:
-    assert Action.BODY not in shortcuts(Keys(body="", quiet=""))
+    assert Action.EMBODIMENT not in shortcuts(Keys(embodiment="", mute=""))
 
 
 @pytest.mark.parametrize("shortcut", ["F9", "Shift+F9", "Ctrl+Alt+7", "Meta+Space", "Alt+PgDown", "Ctrl+Shift+Alt+P"])

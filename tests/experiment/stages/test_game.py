@@ -212,7 +212,7 @@ def test_the_mark_shows_no_more_than_the_hint_gives_away(action: Action, *, row:
 
 @pytest.mark.parametrize("delay", [0, 1000, 1900])
 def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
-    driver = playing(Action.SUG_CARD, mark_delay=delay)
+    driver = playing(Action.SUG_CARD, highlight_delay_ms=delay)
     given_at = driver.now
     while driver.view.mark is None:
         driver.wait()
@@ -221,7 +221,7 @@ def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
 
 
 def test_the_mark_comes_with_the_end_of_a_short_sentence() -> None:
-    driver = playing(Action.SUG_CARD, mark_delay=9000)
+    driver = playing(Action.SUG_CARD, highlight_delay_ms=9000)
     given_at = driver.now
     driver.wait_until_open()
     assert driver.now == given_at + SPEECH_TIME
@@ -232,7 +232,7 @@ def test_the_mark_comes_with_the_end_of_a_short_sentence() -> None:
 @pytest.mark.parametrize("voice", Voice)
 @pytest.mark.parametrize("delay", [0, 700, 3500, 60_000])
 def test_no_flip_can_be_made_in_ignorance_of_the_mark(voice: Voice, delay: int) -> None:
-    driver = Driver(plan(timing=Timing(mark_delay=delay, mark_delay_silent=delay)), 4, voice)
+    driver = Driver(plan(timing=Timing(highlight_delay_ms=delay, highlight_delay_silent_ms=delay)), 4, voice)
     driver.to_the_game()
     driver.play(with_memory(4))
     marked = {event.flip for event in driver.noted(happened.HintHighlighted)}
@@ -280,7 +280,7 @@ def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
 
 
 def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.FAILS, reading=50, mark_delay_silent=600)
+    driver = playing(Action.SUG_ROW, Voice.FAILS, reading=50, highlight_delay_silent_ms=600)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait()
     assert driver.running.keys() == {Timer.IDLE, Timer.READING, Timer.MARK}
@@ -299,7 +299,7 @@ def test_a_sentence_that_breaks_off_gives_what_is_left_of_the_time_to_read_it() 
 
 
 def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT, speech_deadline=100, speech_deadline_least=1000)
+    driver = playing(Action.SUG_ROW, Voice.IS_SILENT, speech_deadline_ms_per_char=100, speech_deadline_min_ms=1000)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait_until_open()
     assert driver.now == given_at + max(1000, 100 * len(sentence))
@@ -341,7 +341,7 @@ def test_another_sentence_s_end_does_not_open_the_board(utterance: int) -> None:
 
 
 def test_a_helped_second_flip_that_matches_makes_the_assistant_happy_for_a_while() -> None:
-    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(mood=300)), 1)
+    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(mood_ms=300)), 1)
     driver.to_the_game()
     first, mate = a_pair(driver)
     driver.flip(first)

@@ -67,7 +67,7 @@ def test_the_study_is_explained_before_the_thanks() -> None:
 
 
 def test_thanks_end_by_themselves() -> None:
-    driver = driven_to(Stage.THANKS, whole(timing=Timing(thanks=5000)))
+    driver = driven_to(Stage.THANKS, whole(timing=Timing(thanks_ms=5000)))
     came = driver.now
     driver.spend(4999)
     assert driver.stage is Stage.THANKS

@@ -22,7 +22,7 @@ HELPFUL = always(Action.SUG_CARD)
 
 def practising(longest: int = 300_000) -> Driver:
     """A practice that has just begun, in a study whose assistant helps before every flip."""
-    return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(longest=longest)))
+    return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(max_duration_ms=longest)))
 
 
 def within(driver: Driver, stage: Stage) -> list[Event]:
@@ -87,7 +87,7 @@ def test_it_ends_when_every_pair_was_found_and_looked_at() -> None:
     found_at = driver.now
     assert driver.stage is Stage.PRACTICE
     driver.wait_until_open()
-    assert (driver.stage, driver.now) == (Stage.GAME, found_at + driver.plan.settings.timing.finish)
+    assert (driver.stage, driver.now) == (Stage.GAME, found_at + driver.plan.settings.timing.finish_ms)
     assert driver.noted(happened.PracticeFinished) == [
         happened.PracticeFinished(at_ms=driver.now, how=PracticeEnd.FOUND)
     ]
@@ -130,7 +130,9 @@ def test_a_tap_does_not_make_it_longer() -> None:
 
 
 def test_it_ends_once_even_if_its_time_is_over_while_the_last_pair_is_looked_at() -> None:
-    driver = driven_to(Stage.PRACTICE, whole(timing=Timing(finish=60_000), practice=Practice(longest=30_000)))
+    driver = driven_to(
+        Stage.PRACTICE, whole(timing=Timing(finish_ms=60_000), practice=Practice(max_duration_ms=30_000))
+    )
     while len(driver.view.found) < 12:
         for place in a_pair(driver):
             driver.flip(place)

@@ -18,7 +18,7 @@ from kiosk.store.maintenance import FOLDER, back_up
 from kiosk.store.recorder import Provenance, Recorder
 from tests.store.visitors import BEGUN, COMPLETED, FOUR, a_day, seated
 
-DECLARED = Allocation(quotas={"tom": 4, "notom": 4}, block=4)
+DECLARED = Allocation(target_n={"tom": 4, "notom": 4}, block_size=4)
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -161,7 +161,7 @@ def test_a_list_that_is_used_up_is_told_of(folder: Path, provenance: Provenance)
             seated(recorder, provenance, simulated=False)
     (found,) = allocation_check(folder, "", DECLARED)
     assert (found.state, found.words) == (Severity.WARNING, "used up: tom 4 of 4, notom 4 of 4")
-    raised = Allocation(quotas={"tom": 8, "notom": 8}, block=4)
+    raised = Allocation(target_n={"tom": 8, "notom": 8}, block_size=4)
     (more,) = allocation_check(folder, "", raised)
     assert (more.state, more.words) == (Severity.GOOD, "tom 4 of 8, notom 4 of 8")
 
@@ -179,7 +179,7 @@ def test_another_list_than_the_fixed_one_is_bad_before_the_kiosk_refuses_it(
 
 
 def test_a_study_without_quotas_has_no_list(folder: Path) -> None:
-    (found,) = allocation_check(folder, "", Allocation(quotas={}))
+    (found,) = allocation_check(folder, "", Allocation(target_n={}))
     assert found.state is Severity.GOOD
 
 

@@ -74,7 +74,7 @@ class Desk(Booth):
 
     def shortcut(self, action: Action) -> None:
         """Press the shortcut of a action."""
-        sequence = QKeySequence(getattr(self.app.assigner.study.settings.keys, action.value))
+        sequence = QKeySequence(getattr(self.app.assigner.study.settings.shortcuts, action.value))
         pressed = sequence[0]  # type: ignore[index]  # the stubs do not know that it can
         QTest.keyClick(self.app.window, pressed.key(), pressed.keyboardModifiers())
 
@@ -181,7 +181,7 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
 
         def make(device: RobotDriver | None = None, data: Path | None = None, **sections: object) -> Desk:
             folder = data or Path(mkdtemp(dir=tmp_path))
-            given = {"experimenter": {"pin": LINE}, "allocation": {"quotas": {}}, **TINY, **sections}
+            given = {"experimenter": {"pin_hash": LINE}, "randomisation": {"target_n": {}}, **TINY, **sections}
             stack = built.enter_context(ExitStack())
             condition = None if "allocation" in sections else "tom"
             settings = Settings.model_validate(given)

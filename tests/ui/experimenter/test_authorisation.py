@@ -132,7 +132,7 @@ def test_to_ask_anew_while_a_pin_is_checked_is_no_further_attempt(assigner: Desk
     assigner.type("1111")
     assigner.enter()
     assigner.press(Qt.Key.Key_Escape)
-    assigner.shortcut(Action.LEAVE)
+    assigner.shortcut(Action.QUIT)
     assigner.type(PIN)
     assigner.enter()
     slow.answer()
@@ -175,7 +175,7 @@ def test_the_card_goes_away_when_nobody_answers_and_the_session_has_gone_on_mean
     assigner.go_to(Stage.PRACTICE)
     witness = Witness(assigner.app)
     before = assigner.app.clock.now_ms()
-    assigner.shortcut(Action.END)
+    assigner.shortcut(Action.ABORT)
     assigner.app.runner.dispatch(
         happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=assigner.app.screens.board.closed[0])
     )
@@ -189,7 +189,7 @@ def test_nobody_is_taken_for_being_there_because_somebody_types_a_pin(assigner: 
     """The idle time of the stage goes on as it was."""
     assert isinstance(assigner.app.clock, VirtualClock)
     assigner.go_to(Stage.ABOUT)
-    begun, idle = assigner.app.clock.now_ms(), assigner.app.assigner.study.settings.idle.about
+    begun, idle = assigner.app.clock.now_ms(), assigner.app.assigner.study.settings.idle_ms.about
     assigner.shortcut(Action.PANEL)
     assigner.type("2")
     assigner.wait_until(lambda: bool(assigner.app.screens.kiosk.property("asksStillThere")))
@@ -198,7 +198,7 @@ def test_nobody_is_taken_for_being_there_because_somebody_types_a_pin(assigner: 
 
 def test_the_card_tells_nothing_of_what_it_is_for(assigner: Desk) -> None:
     shown = set()
-    for action in (Action.PANEL, Action.CONDITION, Action.END, Action.LEAVE):
+    for action in (Action.PANEL, Action.CONDITION, Action.ABORT, Action.QUIT):
         assigner.go_to(Stage.ABOUT)
         assigner.shortcut(action)
         shown.add((assigner.card.property("title"), assigner.card.property("line"), assigner.card.property("text")))
@@ -208,7 +208,7 @@ def test_the_card_tells_nothing_of_what_it_is_for(assigner: Desk) -> None:
 def test_a_reason_in_ones_own_words_is_kept_in_them(assigner: Desk) -> None:
     assigner.go_to(Stage.ABOUT)
     witness = Witness(assigner.app)
-    assigner.do(Action.END, reason="5")
+    assigner.do(Action.ABORT, reason="5")
     assert assigner.card.asks_for is AuthorisationStep.WORDS
     assigner.enter()
     assert assigner.card.asks_for is AuthorisationStep.WORDS
@@ -221,7 +221,7 @@ def test_a_reason_in_ones_own_words_is_kept_in_them(assigner: Desk) -> None:
 def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_backspace(assigner: Desk) -> None:
     assigner.go_to(Stage.ABOUT)
     witness = Witness(assigner.app)
-    assigner.do(Action.END, reason="5")
+    assigner.do(Action.ABORT, reason="5")
     hand, typed = UiDriver(assigner.app.window), "se\N{NO-BREAK SPACE}\N{WOMAN}\N{ZERO WIDTH JOINER}\N{GIRL} "
     hand.type("x\a")
     assigner.press(Qt.Key.Key_Backspace)
@@ -237,7 +237,7 @@ def test_a_reason_is_kept_exactly_as_it_was_typed_and_loses_whole_characters_to_
 def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(assigner: Desk) -> None:
     assigner.go_to(Stage.CONSENT)
     assigner.app.runner.dispatch(happened.ConsentDeclined(at_ms=assigner.app.runner.now_ms()))
-    assigner.do(Action.END, reason="5")
+    assigner.do(Action.ABORT, reason="5")
     assigner.type("Marvin is tired")
     assigner.enter()
     assert assigner.notes[-1] == ("SessionAborted", {"stage": "introduction", "reason": "other"})
@@ -246,7 +246,7 @@ def test_what_was_typed_of_a_visitor_who_is_not_stored_is_nowhere(assigner: Desk
 
 def test_a_reason_can_be_chosen_with_the_pointer(assigner: Desk) -> None:
     assigner.go_to(Stage.ABOUT)
-    assigner.shortcut(Action.END)
+    assigner.shortcut(Action.ABORT)
     assigner.unlock()
     assigner.click("reason-3")
     assert assigner.stage is Stage.ATTRACT
@@ -256,14 +256,14 @@ def test_a_reason_can_be_chosen_with_the_pointer(assigner: Desk) -> None:
 def test_the_right_pin_opens_for_one_action_alone(assigner: Desk) -> None:
     assigner.do(Action.CONDITION)
     assigner.wait_for_note_to_go()
-    assigner.shortcut(Action.BODY)
+    assigner.shortcut(Action.EMBODIMENT)
     assert assigner.card.asks_for is AuthorisationStep.PIN
 
 
 def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(experimenter={"pin": ""})
+    assigner = make_assigner(experimenter={"pin_hash": ""})
     assigner.go_to(Stage.ABOUT)
-    assigner.shortcut(Action.END)
+    assigner.shortcut(Action.ABORT)
     assert assigner.card.asks_for is AuthorisationStep.REASON
     assigner.type("1")
     assigner.shortcut(Action.PANEL)
@@ -276,7 +276,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
 
 def test_a_action_that_the_session_has_outrun_is_refused(assigner: Desk) -> None:
     assigner.go_to(Stage.THANKS)
-    assigner.shortcut(Action.END)
+    assigner.shortcut(Action.ABORT)
     assigner.unlock()
     assigner.app.runner.dispatch(happened.ContinuePressed(at_ms=assigner.app.runner.now_ms()))
     assigner.type("1")

@@ -41,7 +41,7 @@ def kinds(assigner: Desk) -> list[str]:
 def test_a_session_that_is_ended_meanwhile_ends_when_that_is_written(assigner: Desk, other: sqlite3.Connection) -> None:
     assigner.go_to(Stage.INTRODUCTION)
     other.execute("BEGIN IMMEDIATE")
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
     wait_ms(assigner, TOLD_AFTER_MS + 100)
     assert assigner.noted == "One moment: another program holds the database"
     assert assigner.stage is Stage.INTRODUCTION
@@ -55,8 +55,8 @@ def test_a_session_that_is_ended_meanwhile_ends_when_that_is_written(assigner: D
 def test_a_action_that_was_outrun_meanwhile_is_not_done(assigner: Desk, other: sqlite3.Connection) -> None:
     assigner.go_to(Stage.INTRODUCTION)
     other.execute("BEGIN IMMEDIATE")
-    assigner.do(Action.END)
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
+    assigner.do(Action.ABORT)
     other.execute("ROLLBACK")
     assigner.wait_until(lambda: assigner.stage is Stage.ATTRACT and assigner.noted == "Not now")
     assert kinds(assigner).count("SessionAborted") == 1
@@ -109,7 +109,7 @@ def test_leaving_waits_for_nobody_but_what_is_left_is_written_while_it_closes(
 ) -> None:
     other.execute("BEGIN IMMEDIATE")
     assigner.do(Action.CONDITION)
-    assigner.do(Action.LEAVE)
+    assigner.do(Action.QUIT)
     assert kinds(assigner) == []
     other.execute("ROLLBACK")
     assigner.close()
@@ -120,7 +120,7 @@ def test_activity_told_meanwhile_does_not_shorten_the_idle_time_of_the_next_stag
     assigner: Desk, other: sqlite3.Connection
 ) -> None:
     assigner.go_to(Stage.INTRODUCTION)
-    idle, witness = assigner.app.assigner.study.settings.idle.introduction, Witness(assigner.app)
+    idle, witness = assigner.app.assigner.study.settings.idle_ms.introduction, Witness(assigner.app)
     wait_ms(assigner, idle - 15_000)
     assigner.press(Qt.Key.Key_Down)
     wait_ms(assigner, 15_000 - 50)

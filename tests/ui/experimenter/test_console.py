@@ -25,7 +25,7 @@ from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
 
-LISTED = {"allocation": {"quotas": {"tom": 2, "notom": 2}, "block": 4}}
+LISTED = {"randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 4}}
 
 
 def records(assigner: Desk) -> dict[str, Any]:
@@ -152,7 +152,7 @@ def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_end
     assigner.go_to(Stage.RESULT)
     assigner.app.runner.dispatch(happened.ContinuePressed(at_ms=assigner.app.runner.now_ms()))
     assigner.go_to(Stage.GAME)
-    assigner.do(Action.END, reason="2")
+    assigner.do(Action.ABORT, reason="2")
     assigner.open_panel()
     assigner.wait_until(lambda: len(records(assigner)["sessions"]) == 2)
     stopped, completed = records(assigner)["sessions"]
@@ -294,7 +294,7 @@ def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
     assigner.type("1")
     assert turned == []
     assert assigner.app.screens.attract.property("title") == CATALOGUES["en"].text("attract-title")
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
     assert turned == [0.4]
     assert assigner.app.screens.attract.property("title") == CATALOGUES["it"].text("attract-title")
     assert ("VolumeChanged", {"volume": 0.4}) in assigner.notes

@@ -79,7 +79,7 @@ def test_nothing_is_said_by_qml_when_the_kiosk_is_left(
     assigner.go_to(stage)
     if panel:
         assigner.open_panel()
-    assigner.do(Action.LEAVE)
+    assigner.do(Action.QUIT)
     assigner.close()
     gc.collect()
     assert qtlog.records == []

@@ -30,7 +30,7 @@ def say_something(assigner: Desk) -> None:
             for place in board.closed[:1]:
                 assigner.app.runner.dispatch(happened.CardSelected(at_ms=assigner.app.runner.now_ms(), position=place))
             assigner.jump()
-    elif permission(Action.AGAIN, assigner.stage).effect is ActionEffect.NOW:
+    elif permission(Action.REPEAT, assigner.stage).effect is ActionEffect.NOW:
         assigner.wait_until(
             lambda: assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms()))
         )
@@ -42,13 +42,13 @@ def done(assigner: Desk, action: Action, witness: Witness) -> bool:
     seen: dict[Action, Callable[[], bool]] = {
         Action.PANEL: lambda: assigner.panel.is_open and witness.saw(happened.PauseRequested) is visited,
         Action.CONDITION: lambda: app.assigner.chosen is Condition.TOM,
-        Action.BODY: lambda: app.embodiments.prefers_avatar,
-        Action.AGAIN: lambda: witness.saw(happened.RepeatRequested),
-        Action.QUIET: lambda: app.embodiments.is_muted and witness.saw(happened.MuteChanged) is visited,
+        Action.EMBODIMENT: lambda: app.embodiments.prefers_avatar,
+        Action.REPEAT: lambda: witness.saw(happened.RepeatRequested),
+        Action.MUTE: lambda: app.embodiments.is_muted and witness.saw(happened.MuteChanged) is visited,
         Action.PAUSE: lambda: bool(app.screens.kiosk.property("paused")),
-        Action.END: lambda: assigner.stage is Stage.ATTRACT and witness.saw(happened.AbortRequested),
+        Action.ABORT: lambda: assigner.stage is Stage.ATTRACT and witness.saw(happened.AbortRequested),
         Action.NEXT: lambda: assigner.stage is Stage.ATTRACT is not witness.stage,
-        Action.LEAVE: lambda: assigner.notes[-1][0] == "ApplicationQuit",
+        Action.QUIT: lambda: assigner.notes[-1][0] == "ApplicationQuit",
     }
     return seen[action]()
 
@@ -76,7 +76,7 @@ def test_every_shortcut_in_this_stage_does_what_the_table_says(stage: Stage, mak
 
 def check(assigner: Desk, action: Action, stage: Stage) -> None:
     """Press the shortcut, answer what it asks, and see that what comes of it is what the table says."""
-    if action is Action.AGAIN:
+    if action is Action.REPEAT:
         say_something(assigner)
     witness, held, where = Witness(assigner.app), permission(action, stage), f"{action.value} in {stage.value}"
     refused = held.effect is ActionEffect.REFUSED
@@ -107,8 +107,8 @@ def test_what_was_put_off_holds_for_the_next_visitor(make_assigner: MakeDesk) ->
     assigner = make_assigner(RobotFake())
     assigner.wait_until(lambda: assigner.app.embodiments.settled)
     assigner.go_to(Stage.INTRODUCTION)
-    assigner.do(Action.BODY)
-    assigner.do(Action.END)
+    assigner.do(Action.EMBODIMENT)
+    assigner.do(Action.ABORT)
     assert assigner.app.embodiments.current is not None
     assert assigner.app.embodiments.current.name == EmbodimentName.AVATAR
     assigner.do(Action.CONDITION)
@@ -116,28 +116,28 @@ def test_what_was_put_off_holds_for_the_next_visitor(make_assigner: MakeDesk) ->
 
 
 def test_a_condition_chosen_before_the_visitor_has_decided_holds_for_the_one_after(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner = make_assigner(randomisation={"target_n": {"tom": 2, "notom": 2}, "block_size": 4})
     assigner.app.assigner.choose(Condition.NO_ASSISTANCE, "for this visitor")
     assigner.go_to(Stage.CONSENT)
     assigner.app.assigner.choose(Condition.RANDOM_EXPLAINED, "for the one after")
     assigner.go_to(Stage.INTRODUCTION)
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
     assert assigner.app.assigner.next_session("en").plan.condition is Condition.RANDOM_EXPLAINED
 
 
 def test_a_chosen_condition_holds_until_a_session_in_it_is_on_record(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner = make_assigner(randomisation={"target_n": {"tom": 2, "notom": 2}, "block_size": 4})
     assigner.app.assigner.choose(Condition.NO_ASSISTANCE, "a test")
     assigner.go_to(Stage.CONSENT)
     assigner.app.runner.dispatch(happened.ConsentDeclined(at_ms=assigner.app.runner.now_ms()))
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
     assert assigner.app.assigner.chosen is Condition.NO_ASSISTANCE
     assigner.go_to(Stage.INTRODUCTION)
     assert assigner.app.assigner.chosen is None
 
 
 def test_the_condition_goes_round_while_its_dots_are_shown_and_never_tells_its_name(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(allocation={"quotas": {"tom": 2, "notom": 2}, "block": 4})
+    assigner = make_assigner(randomisation={"target_n": {"tom": 2, "notom": 2}, "block_size": 4})
     assigner.go_to(Stage.ABOUT)
     assigner.do(Action.CONDITION, reason="4")
     seen = [assigner.app.assigner.chosen]
@@ -175,7 +175,7 @@ def test_a_shortcut_works_while_a_text_field_has_the_keyboard_and_a_pin_never_ge
 
 
 def test_a_shortcut_that_is_held_down_is_pressed_once(assigner: Desk) -> None:
-    assigner.shortcut(Action.QUIET)
+    assigner.shortcut(Action.MUTE)
     modifiers = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     for _ in range(3):
         held = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_M, modifiers, "M", True)  # noqa: FBT003 - Qt's signature
@@ -187,16 +187,16 @@ def test_shortcuts_work_while_the_session_is_paused(assigner: Desk) -> None:
     assigner.go_to(Stage.INTRODUCTION)
     assigner.do(Action.PAUSE)
     assert assigner.app.screens.kiosk.property("paused")
-    assigner.do(Action.QUIET)
+    assigner.do(Action.MUTE)
     assert assigner.app.embodiments.is_muted
     assigner.do(Action.PAUSE)
     assert not assigner.app.screens.kiosk.property("paused")
-    assigner.do(Action.END)
+    assigner.do(Action.ABORT)
     assert assigner.stage is Stage.ATTRACT
 
 
 def test_a_shortcut_of_the_study_file_takes_the_place_of_the_usual_one(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(keys={"quiet": "F8", "leave": ""})
+    assigner = make_assigner(shortcuts={"mute": "F8", "quit": ""})
     assigner.press(Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     assert not assigner.app.embodiments.is_muted
     assigner.press(Qt.Key.Key_F8)
@@ -206,7 +206,7 @@ def test_a_shortcut_of_the_study_file_takes_the_place_of_the_usual_one(make_assi
 
 
 def test_a_session_that_begins_in_silence_says_so_and_is_only_read(assigner: Desk) -> None:
-    assigner.do(Action.QUIET)
+    assigner.do(Action.MUTE)
     witness = Witness(assigner.app)
     assigner.go_to(Stage.INTRODUCTION)
     assert [event.quiet for event in witness.events if isinstance(event, happened.MuteChanged)] == [True]
@@ -224,8 +224,8 @@ def test_with_thanks_the_next_visitor_needs_no_pin_and_the_session_is_complete(a
 
 
 def test_leaving_ends_the_kiosk(make_assigner: MakeDesk) -> None:
-    assigner = make_assigner(experimenter={"pin": ""})
-    QTimer.singleShot(0, assigner.app.window, lambda: assigner.shortcut(Action.LEAVE))
+    assigner = make_assigner(experimenter={"pin_hash": ""})
+    QTimer.singleShot(0, assigner.app.window, lambda: assigner.shortcut(Action.QUIT))
     # If it does not end, the test does not hang.
     QTimer.singleShot(10_000, assigner.app.window, assigner.app.quit)
     assigner.app.run()

@@ -27,11 +27,11 @@ Column {
         }
         PanelChoice {
             width: parent.width
-            action: "body"
-            title: actions.words["console-body"]
+            action: "embodiment"
+            title: actions.words["console-embodiment"]
             options: actions.choices.embodiments
             chosen: actions.choices.body
-            onPicked: value => actions.panel.wish("body", value)
+            onPicked: value => actions.panel.wish("embodiment", value)
         }
         PanelChoice {
             width: parent.width
@@ -58,15 +58,15 @@ Column {
             spacing: 9 * Theme.unit
             PanelButton {
                 objectName: "action-quiet"
-                words: actions.choices.quiet ? actions.words["console-heard"] : actions.words["console-quiet"]
+                words: actions.choices.quiet ? actions.words["console-heard"] : actions.words["console-mute"]
                 chosen: actions.choices.quiet
-                onClicked: actions.panel.wish("quiet", "")
+                onClicked: actions.panel.wish("mute", "")
             }
             PanelButton {
                 objectName: "action-again"
                 visible: actions.choices.underWay
-                words: actions.words["console-again"]
-                onClicked: actions.panel.wish("again", "")
+                words: actions.words["console-repeat"]
+                onClicked: actions.panel.wish("repeat", "")
             }
             PanelButton {
                 objectName: "action-pause"
@@ -78,8 +78,8 @@ Column {
             PanelButton {
                 objectName: "action-end"
                 visible: actions.choices.underWay
-                words: actions.words["console-end"]
-                onClicked: actions.panel.wish("end", "")
+                words: actions.words["console-abort"]
+                onClicked: actions.panel.wish("abort", "")
             }
             PanelButton {
                 objectName: "action-next"
@@ -95,8 +95,8 @@ Column {
             }
             PanelButton {
                 objectName: "action-leave"
-                words: actions.words["console-leave"]
-                onClicked: actions.panel.wish("leave", "")
+                words: actions.words["console-quit"]
+                onClicked: actions.panel.wish("quit", "")
             }
         }
     }
