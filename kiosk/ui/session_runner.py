@@ -62,9 +62,7 @@ class ConditionAssigner:
         quotas = {Condition.from_name(name): quota for name, quota in allocation.target_n.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
-            recorder.create_allocation_list(
-                quotas, allocation.block_size, allocation.seed, simulated=origin.simulated
-            )
+            recorder.create_allocation_list(quotas, allocation.block_size, allocation.seed, simulated=origin.simulated)
 
     @property
     def kind(self) -> SessionKind:

@@ -268,8 +268,7 @@ def test_the_reference_of_every_key_is_printed_from_the_declarations(recollect: 
     assert PAGE.read_text("utf-8") == printed, "write the output of `recollect study reference` into it"
     assert (
         "| `mismatch_shown_ms` | How long two unmatched cards stay open (ms). | whole number, from 1 to 3600000 "
-        "| `1200` |"
-        in printed
+        "| `1200` |" in printed
     )
 
 
