@@ -162,3 +162,26 @@ def test_the_last_pair_is_a_feast_only_where_things_may_move(app: App, qtbot: Qt
 
 def _when_won(view: QObject, won: list[bool]) -> None:
     view.won.connect(lambda: won.append(True))  # type: ignore[attr-defined] # a signal of QML
+
+
+def test_the_helper_looks_at_the_card_that_is_touched(app: App) -> None:
+    face = find(app, "face")
+    place = press(app, "card-0")
+    assert face.property("gazeX") == -1
+    assert face.property("gazeY") < 0
+    QTest.mouseRelease(app.window, LEFT, NO_KEY, place)
+
+
+def test_beside_a_robot_the_board_has_the_whole_width_and_the_sentence_stands_below_it(app: App, qtbot: QtBot) -> None:
+    app.screens.avatar.appear(present=False)
+    app.screens.avatar.say("The partner is in column 2.")
+    lay_out(app.window)
+    board = find(app, "board")
+    middle = item_centre(board)
+    assert abs(middle.x() - app.window.width() / 2) < 0.03 * app.window.width()
+
+    def said() -> list[QQuickItem]:
+        return [i for i in items(app.window.contentItem()) if i.property("text") == "The partner is in column 2."]
+
+    qtbot.waitUntil(lambda: len(said()) == 1)
+    assert item_centre(said()[0]).y() > board.mapToScene(board.boundingRect().bottomLeft()).y()

@@ -11,7 +11,7 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
-    readonly property real cardSize: Math.min(width / 7.4, height / 4)
+    readonly property real cardSize: Math.min(width / 7.4, height / 6)
     readonly property bool several: attract.ways.length > 1
 
     // The next visitor begins as if the last one had never been: at the first language, and with no ring.

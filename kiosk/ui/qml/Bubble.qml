@@ -9,7 +9,9 @@ Item {
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
 
-    readonly property real room: height - 34 * Theme.unit - 3 * Theme.gap
+    // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
+    readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
+    readonly property real room: height - tail - (hasSpeaker ? 3 : 2) * Theme.gap
 
     opacity: sentence === "" ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
@@ -31,7 +33,7 @@ Item {
     }
     Rectangle {
         id: box
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: 34 * Theme.unit }
+        anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
         height: words.height + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white

@@ -32,6 +32,10 @@ Window {
     required property bool boardOnRight
 
     readonly property bool wide: width >= height
+    // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
+    readonly property bool whole: wide && !avatar.present
+    readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
+    readonly property real said: whole && speaks ? 176 * Math.max(1, textSize) * Theme.unit : 0
     readonly property real room: height - (replay === null ? 0 : controls.height)
 
     width: 1920
@@ -55,8 +59,8 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
-        width: root.wide ? root.width * 0.715 : root.width
-        height: root.wide ? root.room : root.room * 0.64
+        width: root.wide && !root.whole ? root.width * 0.715 : root.width
+        height: root.wide ? root.room - root.said : root.room * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -108,6 +112,7 @@ Window {
             cardShadow: root.cardShadow
         }
         BoardView {
+            id: boardView
             anchors.fill: parent
             visible: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
             focus: visible && root.kiosk.bare
@@ -115,6 +120,7 @@ Window {
             words: root.kiosk.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
+            onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
             onWon: if (!root.board.practice) feast.begin()
         }
         ResultView {
@@ -140,10 +146,13 @@ Window {
         }
     }
     SidePanel {
-        x: !root.wide ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
-        y: root.wide ? 0 : stage.height
-        width: root.wide ? root.width - stage.width - Theme.gap : root.width * 0.76
-        height: root.wide ? root.room : root.room - stage.height
+        id: helper
+        readonly property bool below: !root.wide || root.whole
+        x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
+        y: below ? stage.height : 0
+        width: below ? root.width * 0.76 : root.width - stage.width - Theme.gap
+        height: below ? root.room - stage.height : root.room
+        visible: !root.whole || root.speaks
         avatar: root.avatar
     }
     Feast {
