@@ -71,6 +71,9 @@ OUTSIDE: dict[str, set[str]] = {
 }
 """What of the world outside belongs to some packages only; anything else may be imported anywhere."""
 
+NEEDED = {"analysis": ("matplotlib", "scipy")}
+"""Libraries without which a package cannot be imported, and which come with an extra only."""
+
 LOADED_ANYWAY = {"urllib", "http", "socket", "click", "rich"}
 """Libraries load these on their own account, so having them in memory breaks no rule."""
 
@@ -153,6 +156,8 @@ def test_no_import_goes_through_a_wall() -> None:
 def test_a_room_in_memory_has_brought_nobody_along_whom_it_may_not_know(room: str) -> None:
     if room not in {of for _, of, _ in modules(PACKAGE)}:
         pytest.skip(f"the room {room} is not built yet")
+    for library in NEEDED.get(room, ()):
+        pytest.importorskip(library)
     known = {room, *ROOMS[room]}
     loaded = loaded_by(room)
     rooms = {name.split(".")[1] for name in loaded if name.startswith("kiosk.")}
