@@ -57,7 +57,7 @@ if __name__ == "__main__":
     limits = Limits(silence=60, stuck=0.5) if "--slowly" in sys.argv else QUICK
     sys.argv = [argument for argument in sys.argv if argument != "--slowly"]
     with (
-        patch("kiosk.ui.screens.board.BoardScreen.turn_up", wrong),
+        patch("kiosk.ui.screens.board.BoardScreen.reveal", wrong),
         patch("kiosk.cli.rehearse.guarded", partial(guarded, limits)),
     ):
         main()

@@ -75,7 +75,7 @@ def test_a_fault_of_the_visitor_itself_ends_the_rehearsal(
     booth: Booth, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     nothing: dict[str, object] = {}
-    monkeypatch.setattr("kiosk.ui.simulated_visitor.Visitor.choose", lambda *_: nothing["nowhere"])
+    monkeypatch.setattr("kiosk.ui.simulated_visitor.SimulatedParticipant.choose", lambda *_: nothing["nowhere"])
     with pytest.raises(UiTimeout, match="a fault in Recollect, KeyError: 'nowhere'"):
         booth.rehearse(seed=1)
     caplog.clear()
