@@ -256,10 +256,20 @@ class AssistanceConfig(ConfigModel):
     ] = 0.0
 
 
+VOICE_ENGINES = ("pico", "hibari", "system")
+
+
 class VoiceConfig(ConfigModel):
     """The avatar's voice."""
 
     enabled: Annotated[bool, Field(description="Whether sentences are spoken as well as shown.")] = True
+    speakers: Annotated[
+        dict[str, Annotated[str, Field(min_length=1, max_length=MOST_CHARACTERS)]],
+        Field(
+            description="Who speaks each language: an engine ('pico', 'hibari' or 'system', the system's voices), or "
+            "the folder of a voice pack; by default the best engine that is installed."
+        ),
+    ] = {}
     rate: Annotated[
         int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks; 110 is slow.")
     ] = 150
@@ -500,6 +510,15 @@ class Settings(ConfigModel):
 
     @model_validator(mode="after")
     def _name_things_once(self) -> Self:
+        spoken = {code_of(language) for language in self.voice.speakers} - {code_of(name) for name in self.languages}
+        if spoken:
+            raise ValueError(f"voice.speakers: {min(spoken)!r} is none of the languages")
+        unknown = [name for name in self.voice.speakers.values() if name not in VOICE_ENGINES and not is_path(name)]
+        if unknown:
+            known = ", ".join(VOICE_ENGINES)
+            raise ValueError(
+                f"voice.speakers: {unknown[0]!r} is no engine ({known}), and no path such as './voices/en'"
+            )
         for key, names in (
             ("languages", self.languages),
             ("stages", self.stages),
@@ -514,6 +533,15 @@ class Settings(ConfigModel):
     def sha256(self) -> str:
         """The hash of every setting, given or default, so that a session's settings can be told apart later."""
         return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    @property
+    def voice_from_here(self) -> VoiceConfig:
+        """The voice's settings, whose packs are named by whole paths and whose languages as the session has them."""
+        speakers = {
+            code_of(language): str(self.beside(name).absolute()) if is_path(name) else name
+            for language, name in self.voice.speakers.items()
+        }
+        return self.voice.model_copy(update={"speakers": speakers})
 
     def with_base_dir(self, other: Settings) -> Settings:
         """The same settings, whose paths start from the folder of another study file."""

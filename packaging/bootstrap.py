@@ -80,6 +80,9 @@ def start(arguments: Sequence[str]) -> int:
     """Open the kiosk or, where there is no screen, rehearse one session; further arguments go to ``recollect``."""
     install_debian_packages(QT, WINDOW, VOICE)
     install_python_packages(extras=set())
+    say("Rendering the voices, once.")
+    if run(["recollect", "voice", "render"], os.environ):
+        say("The voices could not be rendered; each sentence is rendered when it is said, or only shown.")
     if has_screen(os.environ):
         say("Opening the kiosk.")
         return run(["recollect", *arguments], os.environ)
@@ -96,7 +99,8 @@ def start(arguments: Sequence[str]) -> int:
 def test(arguments: Sequence[str]) -> int:
     """Run all checks and then the tests; further arguments go to pytest, whose summary is the last line."""
     install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN, VIRTUAL_SOUND, BUILD)
-    install_python_packages(extras=set(project()["optional-dependencies"]))
+    # The natural voice is large, and no test needs it.
+    install_python_packages(extras=set(project()["optional-dependencies"]) - {"natural"})
     headless = {"QT_QPA_PLATFORM": "offscreen"} | os.environ | {"QT_QUICK_BACKEND": "software"}
     with runtime_folder(headless) as environment:
         failed = [" ".join(check[:2]) for check in CHECKS if run(check, environment, ROOT, announced=True)]

@@ -21,7 +21,7 @@ NAME = "recollect"
 
 DATA = {"assets": "kiosk/assets", "policies": "kiosk/policies", "kiosk/ui/qml": "kiosk/ui/qml"}
 """Folders of the checkout, and where kiosk/config.py looks for them in a build."""
-HIDDEN = ("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
+HIDDEN = ("_cffi_backend", "py_nanotts", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
 """What is imported by a name that is only known at run time."""
 EXCLUDED = (
     *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),

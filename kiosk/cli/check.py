@@ -264,14 +264,14 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
     settings = booth.settings
     if settings is None:
         return
-    probe = voice_program(settings.voice, settings.language_codes[0], probe=True)
+    probe = voice_program(settings.voice_from_here, settings.language_codes[0], probe=True)
     within_s = robots_checks.WITHIN_S + _MARGIN_S
     yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, probe, busy=booth.busy), within_s)
     if not settings.voice.enabled:
         yield Check("voice", lambda: [CheckResult.good("voice", "switched off in the study file")])
     elif booth.study is not None:
         for plan in booth.study.plans:
-            command = voice_program(settings.voice, plan.language)
+            command = voice_program(settings.voice_from_here, plan.language)
             say = partial(robots_checks.voice_check, command, plan.language, plan.catalogue.text(SENTENCE))
             yield Check(f"voice: {plan.language}", say, within_s)
     ask_robot = partial(robots_checks.robot_check, settings.robot, settings.language_codes, busy=booth.busy)

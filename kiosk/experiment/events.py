@@ -242,9 +242,19 @@ class TimerExpired(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class SpeechStarted(WorldEvent):
-    """The body began to say a sentence."""
+    """The body began to say a sentence.
+
+    Of the avatar's voice it is told what spoke: the engine or pack of clips, by the hash of all its clips, at which
+    volume, and on which sound device. Of a robot's own voice nothing is known.
+    """
 
     utterance: int
+    engine: str = ""
+    engine_version: str = ""
+    voice: str = ""
+    pack: str = ""
+    device: str = ""
+    volume: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -223,10 +223,15 @@ class ThanksStage(StageHandler):
 
 def _remark(measures: Measures) -> str:
     """The message for the end of a game; the study's limits hold for its own board, others in proportion."""
-    moves = measures.moves * STUDY_PAIRS / max(1, measures.pairs)
-    if moves < FEW_MOVES:
+    return result_speech(measures.moves, measures.pairs)
+
+
+def result_speech(moves: int, pairs: int) -> str:
+    """Name the message for a game of so many pairs that took so many moves."""
+    in_study = moves * STUDY_PAIRS / max(1, pairs)
+    if in_study < FEW_MOVES:
         return "result-speech-few"
-    return "result-speech-some" if moves < SOME_MOVES else "result-speech-many"
+    return "result-speech-some" if in_study < SOME_MOVES else "result-speech-many"
 
 
 @dataclass(frozen=True)

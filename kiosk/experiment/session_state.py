@@ -146,6 +146,8 @@ class SpeechAttempt:
     started_ms: int | None = None
     finished_ms: int | None = None
     failed_ms: int | None = None
+    heard: SpeechStarted | None = None
+    """What is told of the voice that said it."""
 
 
 @dataclass(frozen=True)
@@ -409,7 +411,7 @@ class _Speech:
     def _report(self, event: Event) -> None:
         match event:
             case SpeechStarted(utterance=number, at_ms=at_ms) if number in self.sentences:
-                self._set_last(number, replace(self._last(number), started_ms=at_ms))
+                self._set_last(number, replace(self._last(number), started_ms=at_ms, heard=event))
             case SpeechFinished(utterance=number, at_ms=at_ms) if number in self.sentences:
                 self._set_last(number, replace(self._last(number), finished_ms=at_ms))
                 self._stop(number)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
@@ -95,6 +96,16 @@ def _attempts(kept: SessionRecord) -> Iterator[_Attempt]:
         yield from (_Attempt(kept, said, number, attempt) for number, attempt in enumerate(said.attempts, 1))
 
 
+def _by(name: str) -> Callable[[_Attempt], Any]:
+    """Read what the record tells of the voice by this name; None if it tells nothing."""
+
+    def read(row: _Attempt) -> Any:
+        heard = row.what.heard
+        return (getattr(heard, name) if heard else None) or None
+
+    return read
+
+
 _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
     (PARTICIPANT, lambda row: row.kept.name),
     (UTTERANCE, lambda row: row.said.utterance),
@@ -154,6 +165,25 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
             empty="the voice did not fail",
         ),
         lambda row: row.what.failed_ms,
+    ),
+    *(
+        (Variable(name, text, empty="the avatar's voice did not say it, or nothing was noted"), _by(field))
+        for name, field, text in (
+            ("voice_engine", "engine", "What made the sound: an engine, or a person who was recorded."),
+            ("voice_engine_version", "engine_version", "The version of the engine."),
+            ("voice", "voice", "The voice."),
+            ("voice_pack", "pack", "The SHA-256 of the pack of clips that was played."),
+            ("sound_device", "device", "The sound device."),
+        )
+    ),
+    (
+        Variable(
+            "volume",
+            "The volume, from 0 to 1.",
+            ColumnKind.NUMBER,
+            empty="the avatar's voice did not say it, or nothing was noted",
+        ),
+        lambda row: None if row.what.heard is None else row.what.heard.volume,
     ),
 )
 

@@ -12,6 +12,7 @@ LOUDNESS_MS = 40
 def voice_options(settings: VoiceConfig, language: str, *, probe: bool = False) -> str:
     """Describe the voice of a language as JSON; with ``probe`` only the sound device is tried."""
     given = {"language": language, "rate": settings.rate, "volume": settings.volume, "device": settings.device}
+    given["speaker"] = settings.speakers.get(language, "")
     return json.dumps(given | ({"probe": True} if probe else {}))
 
 

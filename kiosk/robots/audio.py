@@ -137,6 +137,94 @@ def loudness_steps(clip: Clip) -> tuple[float, ...]:
     return tuple(round(float(value), 2) for value in opening)
 
 
+TARGET_LUFS = -20.0
+"""The loudness of every sentence and sound at full volume, by ITU-R BS.1770."""
+_PEAK = 0.89
+"""No sample is made larger than this, of full scale."""
+_BLOCK_S, _STEP_S = 0.4, 0.1
+_ABSOLUTE_GATE, _RELATIVE_GATE = -70.0, -10.0
+_QUIET_DB = -40.0
+"""What is so far below a clip's peak is silence at its ends."""
+_MARGIN_MS = 20
+
+
+def loudness_lufs(clip: Clip) -> float:
+    """Measure the integrated loudness in LUFS (ITU-R BS.1770-4, mono); minus infinity for silence.
+
+    The weighting is applied to the spectrum of each block of 400 ms; a shorter clip is one block.
+    """
+    length = min(len(clip.samples), int(clip.rate * _BLOCK_S))
+    if not length:
+        return -np.inf
+    starts = range(0, len(clip.samples) - length + 1, max(1, int(clip.rate * _STEP_S)))
+    blocks = np.stack([clip.values[start : start + length] for start in starts])
+    power = np.abs(np.fft.rfft(blocks, axis=1)) ** 2 * _k_weight(length, clip.rate)
+    power[:, 1:] *= 2
+    squares = power.sum(axis=1) / length**2
+    with np.errstate(divide="ignore"):
+        levels = -0.691 + 10 * np.log10(squares)
+        kept = levels > _ABSOLUTE_GATE
+        if not kept.any():
+            return -np.inf
+        relative = -0.691 + 10 * np.log10(squares[kept].mean()) + _RELATIVE_GATE
+        return float(-0.691 + 10 * np.log10(squares[kept & (levels > relative)].mean()))
+
+
+def _k_weight(length: int, rate: int) -> NDArray[np.float64]:
+    """The squared response of BS.1770's two filters at the frequencies of a spectrum."""
+    z = np.exp(-2j * np.pi * np.fft.rfftfreq(length))
+    k, q, gain = np.tan(np.pi * 1681.974450955533 / rate), 0.7071752369554196, 10 ** (3.999843853973347 / 20)
+    band = gain**0.4996667741545416
+    above = (gain + band * k / q + k * k) + 2 * (k * k - gain) * z + (gain - band * k / q + k * k) * z**2
+    shelf = above / ((1 + k / q + k * k) + 2 * (k * k - 1) * z + (1 - k / q + k * k) * z**2)
+    k, q = np.tan(np.pi * 38.13547087602444 / rate), 0.5003270373238773
+    norm = 1 + k / q + k * k
+    high = (1 - 2 * z + z**2) / (1 + 2 * (k * k - 1) / norm * z + (1 - k / q + k * k) / norm * z**2)
+    weight: NDArray[np.float64] = np.abs(shelf * high) ** 2
+    return weight
+
+
+def levelled(clip: Clip) -> Clip:
+    """Bring a clip to the loudness that all have, as far as its peaks allow."""
+    loudness = loudness_lufs(clip)
+    if not np.isfinite(loudness):
+        return clip
+    peak = float(np.abs(clip.values).max())
+    return Clip.of(clip.values * min(10 ** ((TARGET_LUFS - loudness) / 20), _PEAK / peak), clip.rate)
+
+
+def trimmed(clip: Clip) -> Clip:
+    """Cut silence off both ends, and let the ends fade so that clips join without a click."""
+    step = clip.rate // 100
+    frames = np.abs(clip.values[: len(clip.samples) // step * step]).reshape(-1, step).max(axis=1)
+    heard = np.flatnonzero(frames > frames.max(initial=0) * 10 ** (_QUIET_DB / 20))
+    if not len(heard):
+        return Clip(clip.samples[:0], clip.rate)
+    margin = clip.rate * _MARGIN_MS // 1000
+    values = clip.values[max(0, heard[0] * step - margin) : (heard[-1] + 1) * step + margin].copy()
+    fade = min(len(values) // 2, clip.rate * FADE_MS // 1000)
+    ramp = np.linspace(0, 1, fade)
+    values[:fade] *= ramp
+    values[len(values) - fade :] *= ramp[::-1]
+    return Clip.of(values, clip.rate)
+
+
+_SHAPE_LIMITS = ((600.0, "round"), (1500.0, "open"), (3000.0, "wide"))
+_CLOSED = 0.06
+
+
+def mouth_shapes(clip: Clip) -> tuple[str, ...]:
+    """Name the shape of the mouth at each step of 40 ms, from the sound: closed, round, open, wide or teeth."""
+    step = clip.rate * LOUDNESS_MS // 1000
+    frames = np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
+    power = np.abs(np.fft.rfft(frames * np.hanning(step), axis=1)) ** 2
+    middle = (power * np.fft.rfftfreq(step, 1 / clip.rate)).sum(axis=1) / (power.sum(axis=1) + 1e-12)
+    return tuple(
+        "closed" if opening < _CLOSED else next((name for limit, name in _SHAPE_LIMITS if centre < limit), "teeth")
+        for opening, centre in zip(loudness_steps(clip), middle, strict=True)
+    )
+
+
 Post = Callable[[dict[str, Any]], None]
 """Takes what becomes of a sound; may be called from any thread."""
 

@@ -6,93 +6,61 @@ import json
 import os
 import queue
 import sys
-import tempfile
 import threading
 import time
 import wave
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyttsx3
 
-from kiosk.language_codes import distance
-from kiosk.robots.audio import Clip, Player, create_player, loudness_steps
+from kiosk import UserInputError
+from kiosk.robots.audio import Clip, Player, create_player, joined, levelled, loudness_steps, mouth_shapes, trimmed
+from kiosk.robots.tts_engines import ENGINES, create_engine
+from kiosk.robots.voice_packs import PAUSE_MS, VoicePack, cache_folder
 
 _TEND_S = 0.25
 """How often the sound device is looked at."""
-_RENDER_S = 3.0
-"""Rendering takes 10 to 60 ms; an engine that takes this long will never be done."""
-_PROBE_S = 3.0
+_PROBE_S, _PROBE_RATE = 3.0, 48_000
 
 _NO_SOUND = (OSError, RuntimeError, EOFError, wave.Error)
 """What rendering raises when no sound came of it."""
 
 
-class SpeechEngine:
-    """The speech engine: renders a sentence to a file. pyttsx3 plays unreliably, but it renders well."""
-
-    rate = 22_050
-    """Samples a second of most voices."""
-
-    def __init__(self, language: str, rate: int) -> None:
-        """Take the nearest voice of the language; raises whatever the engine raises when it is missing."""
-        self._engine = pyttsx3.init()
-        self._done = threading.Event()
-        self._engine.connect("finished-utterance", lambda **_: self._done.set())
-        self._engine.setProperty("rate", rate)
-        self._engine.setProperty("volume", 1.0)
-        found = self._engine.getProperty("voices")
-        chosen = voice_of(language, found)
-        self.voice = None if chosen is None else str(chosen.id)
-        self.spoken = "" if chosen is None else described(chosen)
-        self.voices = [{"id": str(voice.id), "name": str(voice.name), "languages": _codes(voice)} for voice in found]
-        if self.voice is not None:
-            self._engine.setProperty("voice", self.voice)
-
-    def render(self, text: str, file: Path) -> Clip:
-        """Render a sentence; raises OSError, wave.Error or EOFError if no sound came of it.
-
-        Raises RuntimeError if no voice speaks the language: another one would make nonsense of it.
-        """
-        if self.voice is None:
-            raise RuntimeError("no installed voice speaks the language")
-        # runAndWait comes back after 10 ms, done or not; what lies there until then is the sentence before.
-        file.unlink(missing_ok=True)
-        self._done.clear()
-        self._engine.save_to_file(text, str(file))
-        self._engine.runAndWait()
-        # On Windows it renders at once, and reports nothing.
-        if sys.platform != "win32" and not self._done.wait(_RENDER_S):
-            raise RuntimeError("the engine did not render the sentence in time")
-        return Clip.read(file)
-
-
-def voice_of(language: str, voices: Iterable[Any]) -> Any | None:
-    """Choose the engine's voice for a language: the nearest by its code, and of those the plainest."""
-    near = [(far, voice) for voice in voices for far in _distances(voice, language)]
-    return min(near, key=lambda each: (each[0], len(str(each[1].id)), str(each[1].id)))[1] if near else None
-
-
-def _distances(voice: Any, language: str) -> Iterator[int]:
-    far = (distance(language, code) for code in _codes(voice))
-    return (each for each in far if each is not None)
-
-
-def described(voice: Any) -> str:
-    """Name a voice and what it speaks, for people."""
-    return f"{voice.name} ({', '.join(_codes(voice))})"
-
-
-def _codes(voice: Any) -> list[str]:
-    """The languages of a voice as codes; espeak gives them as bytes that begin with a priority."""
-    codes = (code.decode(errors="ignore") if isinstance(code, bytes) else str(code) for code in voice.languages)
-    return [code.strip("\x05\x02") for code in codes]
-
-
 Commands = queue.Queue[dict[str, Any] | None]
+
+
+class SpeechSource:
+    """Where sentences come from: a pack of clips as far as it goes, and an engine for the rest."""
+
+    def __init__(self, language: str, rate: int, speaker: str = "") -> None:
+        """Take the engine or the pack that ``speaker`` names, or the best engine with the pack rendered from it.
+
+        Raises UserInputError for a folder that is no pack, and what an engine raises if it cannot be started.
+        """
+        self.language = language
+        self.pack = VoicePack.read(Path(speaker)) if speaker and speaker not in ENGINES else None
+        self.engine = create_engine(language, rate, speaker if speaker in ENGINES else "")
+        if self.pack is None and self.engine.voice is not None:
+            self.pack = VoicePack.read_if_there(cache_folder(language, self.engine.name, rate))
+        self.rate = self.engine.rate if self.pack is None else self.pack.rate
+
+    @property
+    def voice(self) -> str | None:
+        """The name of the voice; None if there is none."""
+        return self.engine.voice if self.pack is None else self.pack.voice
+
+    def clip(self, text: str) -> tuple[Clip, dict[str, str]]:
+        """The sound of a sentence, with the engine, version, voice and hash of the pack that it came from."""
+        parts = None if self.pack is None else self.pack.find(text)
+        if self.pack is not None and parts:
+            clip = joined([Clip.read(part) for part in parts], PAUSE_MS)
+            return clip, self.pack.spoken_by | {"pack": self.pack.sha256}
+        engine = self.engine
+        by = {"engine": engine.name, "engine_version": engine.version, "voice": engine.voice or "", "pack": ""}
+        return levelled(trimmed(engine.render(text))), by
 
 
 class TtsWorker:
@@ -100,17 +68,15 @@ class TtsWorker:
 
     def __init__(
         self,
-        engine: SpeechEngine,
+        source: SpeechSource,
         player: Player,
         report: WorkerReport,
-        file: Path,
         commands: Commands,
     ) -> None:
-        """Render into ``file``; what the player posts is among the commands, and ``None`` ends the work."""
-        self._engine = engine
+        """What the player posts is among the commands, and ``None`` ends the work."""
+        self._source = source
         self._player = player
         self._report = report
-        self._file = file
         self._commands = commands
         self._saying: int | None = None
         self._told: dict[str, object] = {}
@@ -126,7 +92,7 @@ class TtsWorker:
             elif "volume" in command:
                 self._player.set_volume(float(command["volume"]))
             elif "voices" in command:
-                self._report("voices", voices=self._engine.voices)
+                self._report("voices", voices=self._source.engine.voices)
             elif "render" in command:
                 self._render(str(command["render"]))
             else:
@@ -143,14 +109,14 @@ class TtsWorker:
         """Play a short sound in place of any other, but not while a sentence is under way."""
         if self._saying is None:
             if file not in self._sounds:
-                self._sounds[file] = Clip.read(Path(file))
+                self._sounds[file] = levelled(Clip.read(Path(file)))
             self._player.play(None, self._sounds[file])
 
     def _render(self, text: str) -> None:
         """Render a text that nobody is to hear."""
         begun = time.monotonic()
         try:
-            sound = self._engine.render(text, self._file)
+            sound, _ = self._source.clip(text)
         except _NO_SOUND as error:
             self._report("failed", why=str(error) or type(error).__name__)
             return
@@ -192,12 +158,17 @@ class TtsWorker:
             self._report("failed", id=number, why=self._player.why)
             return
         try:
-            sound = self._engine.render(text, self._file)
+            sound, by = self._source.clip(text)
         except _NO_SOUND as error:
             self._report("failed", id=number, why=str(error) or type(error).__name__)
             return
         self._saying = number
-        self._told = {"duration_ms": sound.duration_ms, "loudness": loudness_steps(sound)}
+        self._told = {
+            "duration_ms": sound.duration_ms,
+            "loudness": loudness_steps(sound),
+            "shapes": mouth_shapes(sound),
+            "by": by | {"device": self._player.device},
+        }
         self._player.play(number, sound)
 
 
@@ -228,36 +199,38 @@ def _read_into(commands: Commands) -> None:
 
 
 def run_tts_worker(options: Mapping[str, Any]) -> None:
-    """Find the engine and the sound device, say what was found, and work.
+    """Find the voice and the sound device, say what was found, and work.
 
-    ``options`` are ``language``, ``rate`` (words a minute), ``volume`` (0 to 1) and ``device``; with ``probe`` the
-    device is tried with a moment of silence, and no engine is looked for.
+    ``options`` are ``language``, ``rate`` (words a minute), ``speaker`` (an engine, or the folder of a pack),
+    ``volume`` (0 to 1) and ``device``; with ``probe`` the device is tried with a moment of silence, and no voice is
+    looked for.
     """
     report = WorkerReport()
     commands: Commands = queue.Queue()
     device, volume = str(options.get("device", "")), float(options["volume"])
     if options.get("probe"):
-        with closing(create_player(commands.put, SpeechEngine.rate, device, volume)) as player:
+        with closing(create_player(commands.put, _PROBE_RATE, device, volume)) as player:
             report("probed", **_probed(player, commands))
         return
     threading.Thread(target=_read_into, args=(commands,), daemon=True).start()
     try:
-        engine = SpeechEngine(str(options["language"]), int(options["rate"]))
+        source = SpeechSource(str(options["language"]), int(options["rate"]), str(options.get("speaker", "")))
+    except UserInputError as error:
+        report("unavailable", why=str(error))
+        return
     except Exception as error:  # noqa: BLE001 - engines raise whatever they like when a library is missing
         report("unavailable", why=f"no speech engine: {error}")
         return
-    with (
-        closing(create_player(commands.put, engine.rate, device, volume)) as player,
-        tempfile.TemporaryDirectory(prefix="recollect-voice-") as folder,
-    ):
-        report("ready", voice=engine.voice, spoken=engine.spoken, device=player.device, why=player.why)
-        TtsWorker(engine, player, report, Path(folder) / "sentence.wav", commands).run()
+    with closing(create_player(commands.put, source.rate, device, volume)) as player:
+        spoken = source.engine.spoken if source.pack is None else source.pack.described
+        report("ready", voice=source.voice, spoken=spoken, device=player.device, why=player.why)
+        TtsWorker(source, player, report, commands).run()
 
 
 def _probed(player: Player, events: Commands) -> dict[str, object]:
     """Play a tenth of a second of silence; returns the ``device`` that took it, and ``why`` if none did."""
     deadline = time.monotonic() + _PROBE_S
-    player.play(0, Clip(np.zeros(SpeechEngine.rate // 10, np.int16), SpeechEngine.rate))
+    player.play(0, Clip(np.zeros(_PROBE_RATE // 10, np.int16), _PROBE_RATE))
     device, why = player.device, player.why
     while time.monotonic() < deadline:
         try:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from functools import partial
 from random import Random
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 from PySide6.QtCore import QObject
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import Settings
+from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.session_config import SessionKind
 from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, RobotDriver
 from kiosk.robots.registry import create_robot
@@ -91,6 +92,7 @@ class App:
         self.runner.set_embodiments(self.embodiments)
         self._landing = MainThreadExecutor()
         self._take_robot(robot or create_robot(settings.robot, assigner.study.languages[0]), settings)
+        self.runner.spoken_by = self._spoken_by
         if settings.voice.sounds:
             self.runner.play_sound = self._play
         if mode.pace is ClockMode.WALL and settings.screen.motion:
@@ -182,6 +184,11 @@ class App:
             leave=self.quit,
         )
 
+    def _spoken_by(self) -> Mapping[str, Any]:
+        """What speaks the sentence under way; of a robot's own voice nothing is known."""
+        body = self.embodiments.current
+        return self.voice.spoken_by if body is not None and body.name is EmbodimentName.AVATAR else {}
+
     def _play(self, effect: SoundEffect) -> None:
         if not self.embodiments.is_muted:
             self.voice.play(effect.file)
@@ -210,4 +217,4 @@ def _voice(settings: Settings, mode: RunMode, clock: Clock, owner: QObject) -> V
         return SilentVoice(clock, owner)
     if not settings.voice.enabled:
         return NoVoice(owner)
-    return EngineVoice(settings.voice, settings.language_codes[0], parent=owner)
+    return EngineVoice(settings.voice_from_here, settings.language_codes[0], parent=owner)

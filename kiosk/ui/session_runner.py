@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import logging
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Self
+from typing import Any, Self
 
 from kiosk import StoreFailed
 from kiosk.experiment import effects as do
@@ -241,6 +241,7 @@ class SessionRunner:
         """``assigner`` is asked once for each provenance, when it begins."""
         self.on_event: EventObserver | None = None
         self.play_sound: Callable[[SoundEffect], None] = lambda _: None
+        self.spoken_by: Callable[[], Mapping[str, Any]] = dict
         self.on_session_started: Callable[[], None] = lambda: None
         """Is told when a visitor has begun, or a session goes on."""
         self.on_idle: Callable[[], None] = lambda: None
@@ -357,7 +358,7 @@ class SessionRunner:
 
     def speech_started(self, utterance: int) -> None:
         """Have the session know that a sentence is heard."""
-        self.dispatch(happened.SpeechStarted(at_ms=self.now_ms(), utterance=utterance))
+        self.dispatch(happened.SpeechStarted(at_ms=self.now_ms(), utterance=utterance, **self.spoken_by()))
 
     def speech_finished(self, utterance: int) -> None:
         """Have the session know that a sentence was said to its end."""

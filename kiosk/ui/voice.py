@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import logging
+from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -42,6 +43,10 @@ class Voice(QObject):
 
     started = Signal(int, list)
     """The sentence's number, and its loudness (0 to 1) at each step of 40 ms."""
+    spoken_by: Mapping[str, Any] = {}
+    """What speaks the sentence under way: engine, engine_version, voice, pack, device and volume."""
+    shapes: tuple[str, ...] = ()
+    """The shapes of its mouth at each step of 40 ms."""
     finished = Signal(int)
     failed = Signal(int, str)
 
@@ -252,6 +257,9 @@ class EngineVoice(Voice):
         match kind:
             case "started":
                 self._deadline.start(int(event["duration_ms"]) + self._end_grace_ms)
+                by = event.get("by")
+                self.spoken_by = {**by, "volume": self._settings.volume} if by else {}
+                self.shapes = tuple(event.get("shapes", ()))
                 self.started.emit(self._saying, event["loudness"])
             case "finished":
                 self._failures = 0

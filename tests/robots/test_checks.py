@@ -124,15 +124,16 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
     engine = (
         "import numpy, pathlib, kiosk.robots.tts_worker as s\n"
         "class E:\n"
+        " name, version, licence = 'fake', '1', 'MIT'\n"
         " voice, spoken, voices, rate = 'fake', 'Fake (en)', [], 8000\n"
         " def __init__(self, *a): pass\n"
-        " def render(self, text, file): return s.Clip(numpy.zeros(1600, numpy.int16), 8000)\n"
+        " def render(self, text): return s.Clip(numpy.zeros(1600, numpy.int16), 8000)\n"
         "class P:\n"
         " device, why = 'Loudspeaker', ''\n"
         f" def play(self, *a): pathlib.Path({str(tmp_path / 'played')!r}).touch()\n"
         " def stop(self): pass\n"
         " tend = close = stop\n"
-        "s.SpeechEngine = E\n"
+        "s.create_engine = lambda *a: E()\n"
         "s.create_player = lambda *a: P()\n"
         "s.run_tts_worker({'language': 'en', 'rate': 150, 'volume': 1.0})\n"
     )

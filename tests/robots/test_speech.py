@@ -16,7 +16,7 @@ import pytest
 from kiosk.config import VoiceConfig
 from kiosk.robots import LOUDNESS_MS, voice_options
 from kiosk.robots.audio import NOWHERE, Clip, loudness_steps
-from kiosk.robots.tts_worker import described, voice_of
+from kiosk.robots.tts_engines import described, voice_of
 
 RATE = 8000
 FAST = VoiceConfig(rate=300, device=NOWHERE)

@@ -11,6 +11,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import VoiceConfig as VoiceSettings
+from kiosk.experiment.events import SpeechStarted, from_record, to_record
 from kiosk.ui.voice import EngineVoice, NoVoice
 
 SPEAKS = """
@@ -285,4 +286,25 @@ def test_what_comes_late_of_the_last_session_is_not_taken_for_this_ones_sentence
     with qtbot.waitSignal(voice.started):
         voice.say(1, "Hello")
     assert heard == [[0.9], [0.9]]
+    voice.stop()
+
+
+TELLS_WHAT_SPEAKS = """
+import json, sys
+n = json.loads(sys.stdin.readline())["say"]
+by = {"engine": "pico", "engine_version": "1", "voice": "en-US", "pack": "abc", "device": "Speaker"}
+started = {"event": "started", "id": n, "duration_ms": 9000, "loudness": [0.5], "shapes": ["open"], "by": by}
+print(json.dumps(started), flush=True)
+sys.stdin.read()
+"""
+
+
+def test_it_is_known_what_speaks_a_sentence_and_the_record_can_hold_it(qtbot: QtBot, voices: list[EngineVoice]) -> None:
+    voice = engine(voices, TELLS_WHAT_SPEAKS)
+    with qtbot.waitSignal(voice.started):
+        voice.say(1, "Hello")
+    assert voice.shapes == ("open",)
+    event = SpeechStarted(at_ms=5, utterance=1, **voice.spoken_by)
+    assert (event.engine, event.voice, event.pack, event.volume) == ("pico", "en-US", "abc", 0.9)
+    assert from_record(to_record(event)) == event
     voice.stop()

@@ -1,0 +1,215 @@
+"""The command `voice`: make voice packs from an engine or from recordings, and look at them."""
+
+from __future__ import annotations
+
+import json
+import queue
+from collections.abc import Iterator
+from contextlib import closing
+from itertools import chain, product
+from pathlib import Path
+
+import click
+
+from kiosk import UserInputError
+from kiosk.cli.composition import read_settings
+from kiosk.cli.options import json_option, progress_bar, study_option
+from kiosk.config import VOICE_ENGINES, is_path
+from kiosk.experiment.page_stages import result_speech
+from kiosk.experiment.session_config import SessionConfig
+from kiosk.game import CARDS_IN_A_PAIR
+from kiosk.robots.audio import Player, create_player
+from kiosk.robots.tts_engines import SpeechEngine, create_engine
+from kiosk.robots.tts_worker import SpeechSource
+from kiosk.robots.voice_packs import VoicePack, cache_folder, import_recordings, recording_name, render_pack
+from kiosk.study.loader import read_study
+
+MOST_MOVES = 60
+"""Results are rendered up to so many moves; what lies beyond is left to the engine."""
+
+FAULTY = 1
+"""The exit code when a pack lacks a text or has a fault."""
+
+_TEND_S = 0.1
+
+language_option = click.option("--language", help="The language; by default every language of the study.")
+one_language_option = click.option("--language", default="en", show_default=True, help="The language.")
+
+
+@click.group("voice")
+def voice_group() -> None:
+    """Make voice packs from an engine or from a person's recordings, and look at them."""
+
+
+def spoken_texts(plan: SessionConfig) -> tuple[str, ...]:
+    """List every text that a study can have spoken in a language: parts of hints, greetings, remarks and thanks."""
+    catalogue, game = plan.catalogue, plan.settings.game
+    pairs = game.rows * game.columns // CARDS_IN_A_PAIR
+    count = {"cards": CARDS_IN_A_PAIR * pairs, "pairs": pairs}
+    speeches = {
+        "introduction-speech": count,
+        "introduction-speech-alone": count,
+        "practice-speech": {},
+        "thanks-speech": {},
+    }
+    moves = range(pairs, max(MOST_MOVES, 2 * pairs) + 1)
+    return tuple(
+        dict.fromkeys(
+            chain(
+                _hint_texts(plan),
+                *(catalogue.wordings(message, **variables) for message, variables in speeches.items()),
+                *(catalogue.wordings(result_speech(number, pairs), moves=number) for number in moves),
+            )
+        )
+    )
+
+
+def _hint_texts(plan: SessionConfig) -> Iterator[str]:
+    """The parts of hints: a reason for each card, and each place."""
+    catalogue, game = plan.catalogue, plan.settings.game
+    for message in sorted(catalogue.messages):
+        if message.startswith("reason-"):
+            for card in plan.deck:
+                yield from catalogue.wordings(message, **catalogue.card(card))
+        elif message.startswith("point-"):
+            rows = (1,) if message.endswith("-column") else range(1, game.rows + 1)
+            columns = (1,) if message.endswith("-row") else range(1, game.columns + 1)
+            for row, column in product(rows, columns):
+                yield from catalogue.wordings(message, row=row, column=column)
+
+
+def _plans(study: Path | None, language: str | None) -> tuple[SessionConfig, ...]:
+    plans = read_study(read_settings(study)).plans
+    if language is None:
+        return plans
+    found = tuple(plan for plan in plans if plan.language == language)
+    if not found:
+        there = ", ".join(plan.language for plan in plans)
+        raise UserInputError(f"the study has no language {language!r}; it has {there}")
+    return found
+
+
+def _plan(study: Path | None, language: str) -> SessionConfig:
+    return _plans(study, language)[0]
+
+
+def _engine(language: str, rate: int, name: str) -> SpeechEngine:
+    try:
+        return create_engine(language, rate, name)
+    except Exception as error:  # engines raise whatever they like when a library is missing
+        raise UserInputError(f"the engine {name or 'of the system'} cannot be started: {error}") from error
+
+
+@voice_group.command("render")
+@study_option
+@language_option
+@click.option(
+    "--engine", "name", type=click.Choice(VOICE_ENGINES), help="By default the study's, or the best there is."
+)
+@click.option("--out", type=click.Path(path_type=Path), help="The pack's folder; by default one in the cache.")
+@json_option
+def render_command(
+    study: Path | None, language: str | None, name: str | None, out: Path | None, *, as_json: bool
+) -> None:
+    """Render every sentence of a study once, so that the kiosk only plays it; texts that are there are kept."""
+    plans = _plans(study, language)
+    if out is not None and len(plans) > 1:
+        raise UserInputError("a pack has one language: name it with --language")
+    told = {}
+    for plan in plans:
+        voice = plan.settings.voice
+        named = name or voice.speakers.get(plan.language, "")
+        if is_path(named):
+            continue
+        engine = _engine(plan.language, voice.rate, named)
+        folder = out or cache_folder(plan.language, engine.name, voice.rate)
+        texts = spoken_texts(plan)
+        with progress_bar(f"voice {plan.language}", len(texts), hidden=as_json) as tell:
+            pack = render_pack(engine, plan.language, texts, folder, tell)
+        told[plan.language] = {"folder": str(folder), "clips": len(pack.clips), "sha256": pack.sha256}
+        if not as_json:
+            click.echo(f"{plan.language}: {pack.described} in {folder}")
+    if as_json:
+        click.echo(json.dumps(told))
+
+
+@voice_group.command("script")
+@study_option
+@one_language_option
+def script_command(study: Path | None, language: str) -> None:
+    """Print what a person is to read aloud, numbered as the recordings are to be named."""
+    plan = _plan(study, language)
+    click.echo(f"Read each line as one calm sentence; store it under its name as a WAV file ({language}).\n")
+    for number, text in enumerate(spoken_texts(plan), 1):
+        click.echo(f"{recording_name(number)}  {text}")
+
+
+@voice_group.command("import")
+@click.argument("recordings", type=click.Path(path_type=Path, exists=True, file_okay=False))
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The pack's folder.")
+@click.option("--speaker", required=True, help="Who spoke: a name for the record, best a pseudonym.")
+@click.option("--licence", default="all rights reserved", show_default=True, help="How the recordings may be used.")
+@study_option
+@one_language_option
+def import_command(recordings: Path, out: Path, speaker: str, licence: str, study: Path | None, language: str) -> None:
+    """Make a pack of a person's RECORDINGS, named as 'voice script' numbers them; they are trimmed and levelled."""
+    texts = spoken_texts(_plan(study, language))
+    pack = import_recordings(recordings, out, language=language, speaker=speaker, licence=licence, texts=texts)
+    missing = len(pack.missing(texts))
+    click.echo(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
+
+
+@voice_group.command("missing")
+@click.argument("folder", type=click.Path(path_type=Path))
+@study_option
+@click.pass_context
+def missing_command(context: click.Context, folder: Path, study: Path | None) -> None:
+    """Print every text of the study that the pack in FOLDER cannot say; exit code 1 if there is any."""
+    pack = VoicePack.read(folder)
+    missing = pack.missing(spoken_texts(_plan(study, pack.language)))
+    for text in missing:
+        click.echo(text)
+    context.exit(FAULTY if missing else 0)
+
+
+@voice_group.command("check")
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.pass_context
+def check_command(context: click.Context, folder: Path) -> None:
+    """Look at every clip of the pack in FOLDER: there, unchanged, neither silent nor clipped, equally loud."""
+    pack = VoicePack.read(folder)
+    faults = tuple(pack.faults())
+    for fault in faults:
+        click.echo(fault)
+    click.echo(f"{pack.described}, licence {pack.licence}, sha256 {pack.sha256}: {len(faults) or 'no'} faults")
+    context.exit(FAULTY if faults else 0)
+
+
+@voice_group.command("play")
+@click.argument("text")
+@study_option
+@one_language_option
+def play_command(text: str, study: Path | None, language: str) -> None:
+    """Say TEXT on the study's sound device, as the kiosk would."""
+    voice = read_settings(study).voice_from_here
+    events: queue.Queue[dict[str, object] | None] = queue.Queue()
+    source = SpeechSource(language, voice.rate, voice.speakers.get(language, ""))
+    if source.voice is None:
+        raise UserInputError(f"no installed voice speaks {language!r}")
+    clip, by = source.clip(text)
+    with closing(create_player(events.put, source.rate, voice.device, voice.volume)) as player:
+        player.play(1, clip)
+        while (event := _next(player, events)).get("event") not in {"finished", "broken"}:
+            pass
+    if event["event"] == "broken":
+        raise UserInputError(f"nothing is heard: {event['why']}")
+    click.echo(f"{by['voice']} of {by['engine']} said it in {clip.duration_ms / 1000:.1f} s")
+
+
+def _next(player: Player, events: queue.Queue[dict[str, object] | None]) -> dict[str, object]:
+    """What the player posts next; nothing if it posts nothing for a moment."""
+    try:
+        return events.get(timeout=_TEND_S) or {}
+    except queue.Empty:
+        player.tend()
+        return {}

@@ -1,0 +1,248 @@
+"""Voice packs: a folder of clips, one for each sentence or part of a sentence, with a manifest that names its voice."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import wave
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+import platformdirs
+
+from kiosk import UserInputError
+from kiosk.robots.audio import TARGET_LUFS, Clip, levelled, loudness_lufs, trimmed
+from kiosk.robots.tts_engines import SpeechEngine
+
+MANIFEST = "pack.json"
+PAUSE_MS = 250
+"""Between the parts of a sentence, as between two sentences of a calm speaker."""
+LOUDNESS_TOLERANCE = 2.0
+"""LU by which a clip may differ from the others."""
+_CLIPPED = 4
+"""Samples at full scale, one after another, that are heard as distortion."""
+_KEY_LENGTH = 24
+_SENTENCE_END = re.compile(r"(?<=[.!?\u2026\u3002\uff01\uff1f])\s+")
+
+
+def key_of(language: str, text: str) -> str:
+    """The name of the clip of a text: the beginning of the SHA-256 of its language and its words."""
+    return hashlib.sha256(f"{language}\n{text}".encode()).hexdigest()[:_KEY_LENGTH]
+
+
+def cache_folder(language: str, engine: str, rate: int) -> Path:
+    """Where the pack lies that is rendered from an engine once and for all studies."""
+    return Path(platformdirs.user_cache_dir("recollect", appauthor=False)) / "voices" / f"{language}-{engine}-{rate}"
+
+
+@dataclass(frozen=True)
+class VoicePack:
+    """A pack as its manifest describes it; ``sha256`` is over all its clips and who spoke them."""
+
+    folder: Path
+    language: str
+    spoken_by: dict[str, str]
+    licence: str
+    rate: int
+    clips: Mapping[str, Mapping[str, Any]]
+    sha256: str
+
+    @classmethod
+    def read(cls, folder: Path) -> Self:
+        """Read the manifest in a folder; raises UserInputError if there is none that can be used."""
+        try:
+            told = json.loads((folder / MANIFEST).read_text("utf-8"))
+            by = {name: str(told["spoken_by"][name]) for name in ("engine", "engine_version", "voice")}
+            clips = {str(key): dict(clip) for key, clip in told["clips"].items()}
+            for clip in clips.values():
+                clip["text"], clip["sha256"]
+            return cls(
+                folder, str(told["language"]), by, str(told["licence"]), int(told["rate"]), clips, told["sha256"]
+            )
+        except OSError as error:
+            raise UserInputError(f"there is no voice pack in {folder}: {MANIFEST}: {error.strerror}") from error
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise UserInputError(f"{folder / MANIFEST} is no manifest of a voice pack") from error
+
+    @classmethod
+    def read_if_there(cls, folder: Path) -> Self | None:
+        """Read a pack of the cache; None if there is none that can be used."""
+        try:
+            return cls.read(folder)
+        except UserInputError:
+            return None
+
+    @property
+    def voice(self) -> str:
+        """The name of the voice."""
+        return self.spoken_by["voice"]
+
+    @property
+    def described(self) -> str:
+        """The pack in words for people."""
+        return f"{self.voice} of {self.spoken_by['engine']} ({len(self.clips)} clips)"
+
+    def path(self, key: str) -> Path:
+        """Where a clip lies."""
+        return self.folder / f"{key}.wav"
+
+    def find(self, text: str) -> list[Path] | None:
+        """The clips that say a text, whole or part by part; None if one is missing."""
+        ends = [*(match.end() for match in _SENTENCE_END.finditer(text)), len(text)]
+        begin, found = 0, []
+        while begin < len(text):
+            fits = (end for end in reversed(ends) if end > begin and self._key(text[begin:end]) in self.clips)
+            end = next(fits, None)
+            if end is None:
+                return None
+            found.append(self.path(self._key(text[begin:end])))
+            begin = end
+        return found if found and all(path.is_file() for path in found) else None
+
+    def _key(self, text: str) -> str:
+        return key_of(self.language, text.strip())
+
+    def missing(self, texts: Iterable[str]) -> tuple[str, ...]:
+        """Those of the texts that it cannot say."""
+        return tuple(text for text in texts if self.find(text) is None)
+
+    def faults(self) -> Iterator[str]:
+        """Say what is wrong with the pack: clips that are gone, changed, silent, clipped or of another loudness."""
+        if self.sha256 != _hash(self.spoken_by, self.clips):
+            yield "the manifest was changed by hand: its hash is not that of its clips"
+        for key, told in self.clips.items():
+            fault = self._fault(key, told)
+            if fault:
+                yield f"{key}.wav ({told['text']!r}) {fault}"
+
+    def _fault(self, key: str, told: Mapping[str, Any]) -> str | None:
+        try:
+            content = self.path(key).read_bytes()
+            clip = Clip.from_bytes(content)
+        except OSError as error:
+            return f"cannot be read: {error.strerror}"
+        except (wave.Error, EOFError):
+            return "is no WAV file"
+        if hashlib.sha256(content).hexdigest() != told["sha256"]:
+            return "was changed since the pack was made"
+        return clip_fault(clip)
+
+
+def clip_fault(clip: Clip) -> str | None:
+    """Say what is wrong with the sound of a clip; None if nothing is."""
+    loudness = loudness_lufs(clip)
+    if not np.isfinite(loudness):
+        return "is silent"
+    full = np.abs(clip.samples.astype(int)) >= 2**15 - 1
+    if np.convolve(full, np.ones(_CLIPPED), "valid").max(initial=0) >= _CLIPPED:
+        return "is clipped: record it with a lower level"
+    off = loudness - TARGET_LUFS
+    if abs(off) > LOUDNESS_TOLERANCE:
+        return f"is {abs(off):.1f} LU {'louder' if off > 0 else 'softer'} than it should be"
+    return None
+
+
+def _hash(spoken_by: Mapping[str, str], clips: Mapping[str, Mapping[str, Any]]) -> str:
+    lines = [json.dumps(dict(spoken_by), sort_keys=True), *(f"{key} {clips[key]['sha256']}" for key in sorted(clips))]
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
+
+
+Progress = Callable[[int], None]
+
+
+def render_pack(engine: SpeechEngine, language: str, texts: Sequence[str], folder: Path, tell: Progress) -> VoicePack:
+    """Render what a folder's pack does not hold yet; ``tell`` hears how many texts are done.
+
+    Raises what the engine raises; the clips that were rendered until then are kept.
+    """
+    if engine.voice is None:
+        raise UserInputError(f"no voice of {engine.name} speaks {language!r}")
+    by = {"engine": engine.name, "engine_version": engine.version, "voice": engine.voice}
+    before = VoicePack.read_if_there(folder)
+    kept = before.clips if before is not None and before.spoken_by == by and before.language == language else {}
+
+    def clips() -> Iterator[tuple[str, Clip]]:
+        for number, text in enumerate(texts, 1):
+            if key_of(language, text) not in kept:
+                yield text, engine.render(text)
+            tell(number)
+
+    return write_pack(folder, language=language, spoken_by=by, licence=engine.licence, sounds=clips(), kept=kept)
+
+
+def write_pack(  # noqa: PLR0913 - a manifest has as many fields as it has
+    folder: Path,
+    *,
+    language: str,
+    spoken_by: Mapping[str, str],
+    licence: str,
+    sounds: Iterable[tuple[str, Clip]],
+    kept: Mapping[str, Mapping[str, Any]] | None = None,
+) -> VoicePack:
+    """Write clips, trimmed and levelled, and the manifest of them and of those that are ``kept``."""
+    folder.mkdir(parents=True, exist_ok=True)
+    clips = {key: dict(clip) for key, clip in (kept or {}).items()}
+    rate = 0
+    try:
+        for text, sound in sounds:
+            clip = levelled(trimmed(sound))
+            rate = clip.rate
+            key = key_of(language, text)
+            clip.write(folder / f"{key}.wav")
+            digest = hashlib.sha256((folder / f"{key}.wav").read_bytes()).hexdigest()
+            clips[key] = {"text": text, "sha256": digest, "duration_ms": clip.duration_ms}
+    finally:
+        rate = rate or next((Clip.read(folder / f"{key}.wav").rate for key in clips), 0)
+        told = {
+            "language": language,
+            "spoken_by": dict(spoken_by),
+            "licence": licence,
+            "rate": rate,
+            "loudness_lufs": TARGET_LUFS,
+            "sha256": _hash(spoken_by, clips),
+            "clips": clips,
+        }
+        written = folder / f"{MANIFEST}.new"
+        written.write_text(json.dumps(told, ensure_ascii=False, indent=1), "utf-8")
+        written.replace(folder / MANIFEST)
+    return VoicePack.read(folder)
+
+
+def recording_name(number: int) -> str:
+    """The name of the recording of a numbered text."""
+    return f"{number:03}.wav"
+
+
+def import_recordings(  # noqa: PLR0913 - as above
+    recordings: Path, folder: Path, *, language: str, speaker: str, licence: str, texts: Sequence[str]
+) -> VoicePack:
+    """Make a pack of a person's recordings, numbered as the script is.
+
+    Raises UserInputError for a recording that is none, silent or clipped; nothing is written then.
+    """
+    sounds, faults = [], []
+    for number, text in enumerate(texts, 1):
+        file = recordings / recording_name(number)
+        if not file.is_file():
+            continue
+        try:
+            clip = Clip.read(file)
+        except (OSError, wave.Error, EOFError):
+            faults.append(f"{file} is no WAV file")
+            continue
+        fault = clip_fault(clip)
+        if fault and not fault.startswith(f"is {fault.split()[1]} LU"):
+            faults.append(f"{file} {fault}")
+        sounds.append((text, clip))
+    if not sounds and not faults:
+        faults.append(f"there is no recording in {recordings}, such as {recording_name(1)}")
+    if faults:
+        raise UserInputError(*faults)
+    rate = max(clip.rate for _, clip in sounds)
+    by = {"engine": "person", "engine_version": "", "voice": speaker}
+    alike = [(text, clip.at_rate(rate)) for text, clip in sounds]
+    return write_pack(folder, language=language, spoken_by=by, licence=licence, sounds=alike)
