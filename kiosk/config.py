@@ -135,6 +135,10 @@ class Timing(ConfigModel):
         PerCharacter, Field(description="The longest that a spoken sentence may hold up the game, per character.")
     ] = 130
     speech_deadline_min_ms: Annotated[Milliseconds, Field(description="The same, whatever its length.")] = 4000
+    hold_min_ms: Annotated[
+        Delay,
+        Field(description="The least time a hint holds the board; if no sentence is longer, all holds are equal."),
+    ] = 0
     mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
     finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
     thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = (

@@ -100,7 +100,7 @@ class TargetRule(Enum):
     MOST_FLIPPED = "most_flipped"
     """The mate of the card flipped most often (the paper's rule)."""
     MOST_RECENT = "most_recent"
-    """The mate of the card flipped last; in simulation it saves more flips than the paper's rule."""
+    """The mate of the card flipped last: the rule that simulation recommends. The paper's rule stays the default."""
     RANDOM = "random"
     """Any closed card: no Theory of Mind."""
 

@@ -46,6 +46,7 @@ class Timer(Enum):
     MARK = "mark"
     READING = "reading"
     SPEECH_DEADLINE = "speech_deadline"
+    HOLD = "hold"
     MOOD = "mood"
     FINISH = "finish"
     PRACTICE = "practice"

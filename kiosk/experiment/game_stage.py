@@ -40,6 +40,10 @@ class _Given:
     sentence: str
     at_ms: int
     holds: bool = True
+    told: bool = False
+    """Whether it has been heard, or could be read."""
+    held_long_enough: bool = True
+    """Whether the least time of a hold is over."""
     marked: bool = False
 
     @property
@@ -154,6 +158,10 @@ class GameStage(StageHandler):
                 self._help_or_open(outcome)
             case Timer.READING:
                 self._release_board(outcome)
+            case Timer.HOLD if self._given is not None:
+                self._given.held_long_enough = True
+                if self._given.told:
+                    self._release_board(outcome)
             case Timer.SPEECH_DEADLINE:
                 outcome.effect(do.StopSpeaking())
                 self._release_board(outcome)
@@ -209,6 +217,7 @@ class GameStage(StageHandler):
             return
         sentence = self._guide.sentences.sentence(hint)
         given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
+        given.held_long_enough = self._timing.hold_min_ms == 0
         self._given = given
         outcome.emit(given.event)
         outcome.effect(
@@ -216,6 +225,8 @@ class GameStage(StageHandler):
             do.Speak(given.utterance, sentence),
             do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
         )
+        if not given.held_long_enough:
+            outcome.effect(do.StartTimer(Timer.HOLD, self._timing.hold_min_ms))
 
     def _decide(self, guide: HintGuide, outcome: OutcomeBuilder) -> Hint | None:
         decision = guide.assistant.decide(self.game)
@@ -239,8 +250,12 @@ class GameStage(StageHandler):
         return given if given is not None and given.holds and given.utterance == utterance else None
 
     def _release_board(self, outcome: OutcomeBuilder) -> None:
-        """The hint has been taken in: see that it is marked, and open the board."""
+        """The hint has been taken in: see that it is marked, and open the board once it was held long enough."""
         if self._given is None or not self._given.holds:
+            return
+        self._given.told = True
+        if not self._given.held_long_enough:
+            outcome.effect(*(do.StopTimer(timer) for timer in (Timer.READING, Timer.SPEECH_DEADLINE)))
             return
         self._given.holds = False
         self._mark(outcome)

@@ -75,10 +75,15 @@ class StageVisit:
 
 @dataclass(frozen=True)
 class BoardFlip:
-    """A flip, and how long the visitor took for it while the board could be tapped, in ms without pauses."""
+    """A flip; times in ms without pauses.
+
+    ``decision_ms`` is how long the visitor took for it while the board could be tapped. ``exposure_ms`` is how long its
+    card lay open, until it was turned back or its pair was found; None if neither came.
+    """
 
     event: CardFlipped
     decision_ms: int
+    exposure_ms: int | None = None
 
 
 @dataclass(frozen=True)
@@ -317,6 +322,10 @@ class _Boards:
                 self.dealt.append(DealtBoard(number, stage, event, self._flips, self._hints, self._decisions))
             case CardFlipped(number=number, at_ms=at_ms):
                 self._flips[number] = BoardFlip(event, elapsed_ms(self._open_since, at_ms, pauses))
+                if event.matched:
+                    self._cover(at_ms, pauses)
+            case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
+                self._cover(at_ms, pauses)
             case AssistanceDecided(flip=flip):
                 self._decisions[flip] = event
             case HintGiven() | HintHighlighted() | BoardUnlocked():
@@ -324,6 +333,13 @@ class _Boards:
         match event:
             case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
                 self._open_since = event.at_ms
+
+    def _cover(self, at_ms: int, pauses: Iterable[Interval]) -> None:
+        """Note how long the cards of the last move lay open."""
+        move = next(reversed(self._flips.values())).event.move if self._flips else 0
+        for number, flip in self._flips.items():
+            if flip.event.move == move:
+                self._flips[number] = replace(flip, exposure_ms=elapsed_ms(flip.event.at_ms, at_ms, pauses))
 
     def _take_hint(self, event: HintGiven | HintHighlighted | BoardUnlocked) -> None:
         match event:

@@ -128,6 +128,17 @@ _FLIP_COLUMNS: tuple[Column[_Flip], ...] = make_columns(
         lambda row: row.flip.decision_ms,
     ),
     (
+        Variable(
+            "exposure_ms",
+            "How long the card lay open: from its flip until it was turned back or its pair was found, less pauses. "
+            "The time that a hint for the second card holds the board is in it.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the board ended before",
+        ),
+        lambda row: row.flip.exposure_ms,
+    ),
+    (
         Variable("hinted", "Whether a hint had been given for this flip.", ColumnKind.TRUTH),
         lambda row: row.hint is not None,
     ),
@@ -286,6 +297,16 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
             empty="the session ended before",
         ),
         lambda row: row.hint.opened_ms,
+    ),
+    (
+        Variable(
+            "hold_ms",
+            "How long the hint held the board: from its sentence until cards could be tapped again, pauses included.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the session ended before",
+        ),
+        lambda row: None if row.hint.opened_ms is None else row.hint.opened_ms - row.hint.given.at_ms,
     ),
     (FOLLOWED, lambda row: row.dealt.followed(row.hint)),
     (

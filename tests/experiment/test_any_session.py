@@ -65,7 +65,7 @@ ANYTHING = st.one_of(
 """Sense and nonsense, but not what ends a session, nor what decides against a record: that comes by its own rules."""
 
 OPENS = {
-    BoardWait.SPEAKING: {Timer.READING, Timer.SPEECH_DEADLINE},
+    BoardWait.SPEAKING: {Timer.READING, Timer.SPEECH_DEADLINE, Timer.HOLD},
     BoardWait.TURNING_BACK: {Timer.TURN_BACK},
 }
 """The waits that see to it that the board is not held for ever."""

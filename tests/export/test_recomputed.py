@@ -157,3 +157,28 @@ def test_a_decision_takes_as_long_as_the_board_was_open_before_it(read: Read) ->
             at = int(flip["at_ms"])
             since = max(time for time in times if time < at)
             assert int(flip["decision_ms"]) == at - since - within(paused, since, at)
+
+
+def test_a_card_lies_open_until_it_is_turned_back_or_its_pair_is_found(read: Read) -> None:
+    events = by_participant(read("events"))
+    measured = 0
+    for of, flips in by_participant(read("flips")).items():
+        paused = spans(events[of], "PauseRequested", "PauseEnded", 0)
+        turned_back = [int(e["at_ms"]) for e in events[of] if e["fields"] == '{"timer": "turn_back"}']
+        for flip in flips:
+            if not flip["exposure_ms"]:
+                continue
+            measured += 1
+            at = int(flip["at_ms"])
+            last = next(f for f in flips if (f["board"], f["move"]) == (flip["board"], flip["move"]) and f["matched"])
+            until = int(last["at_ms"])
+            if last["matched"] == "false":
+                until = next(time for time in turned_back if time > until)
+            assert int(flip["exposure_ms"]) == until - at - within(paused, at, until)
+    assert measured > 1000
+
+
+def test_a_hold_lasts_from_the_sentence_until_the_board_opens(read: Read) -> None:
+    held = [hint for hint in read("hints") if hint["opened_ms"]]
+    assert held
+    assert all(int(hint["hold_ms"]) == int(hint["opened_ms"]) - int(hint["given_ms"]) for hint in held)

@@ -311,6 +311,23 @@ def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() 
     assert driver.view.bubble == sentence
 
 
+@pytest.mark.parametrize("voice", Voice)
+def test_a_least_hold_keeps_the_board_held_equally_long_whatever_is_said(voice: Voice) -> None:
+    driver = playing(Action.SUG_ROW, voice, hold_min_ms=30_000)
+    given_at = driver.now
+    driver.wait_until_open()
+    assert driver.now == given_at + 30_000
+    assert driver.view.mark is not None
+    assert driver.running.keys() == {Timer.IDLE}
+
+
+def test_a_least_hold_that_is_shorter_than_the_sentence_does_not_cut_it_short() -> None:
+    driver = playing(Action.SUG_ROW, hold_min_ms=SPEECH_TIME - 500)
+    given_at = driver.now
+    driver.wait_until_open()
+    assert driver.now == given_at + SPEECH_TIME
+
+
 def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
     driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
     driver.wait_until_open()
