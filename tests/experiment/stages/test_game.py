@@ -48,7 +48,7 @@ def test_a_pair_is_shown_and_the_board_stays_open() -> None:
 
 
 def test_two_different_cards_are_shown_for_a_while_and_turn_back() -> None:
-    driver = playing(turn_back=1500)
+    driver = playing(mismatch_shown_ms=1500)
     first, second = miss(driver)
     assert driver.view.held is BoardWait.TURNING_BACK
     shown_at = driver.now
@@ -91,7 +91,7 @@ def test_taps_that_the_rules_forbid_are_ignored_and_say_why() -> None:
 
 
 def test_the_last_pair_is_looked_at_before_the_result() -> None:
-    driver = playing(finish=2500)
+    driver = playing(finish_ms=2500)
     while len(driver.view.found) < 24:
         for place in a_pair(driver):
             driver.flip(place)
@@ -280,7 +280,7 @@ def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
 
 
 def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.FAILS, reading=50, highlight_delay_silent_ms=600)
+    driver = playing(Action.SUG_ROW, Voice.FAILS, reading_ms_per_char=50, highlight_delay_silent_ms=600)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait()
     assert driver.running.keys() == {Timer.IDLE, Timer.READING, Timer.MARK}
@@ -292,7 +292,7 @@ def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
 
 
 def test_a_sentence_that_breaks_off_gives_what_is_left_of_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.BREAKS_OFF, reading=50)
+    driver = playing(Action.SUG_ROW, Voice.BREAKS_OFF, reading_ms_per_char=50)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait_until_open()
     assert driver.now == given_at + max(SPEECH_TIME, 1500, 50 * len(sentence))
