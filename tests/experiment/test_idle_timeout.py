@@ -151,7 +151,7 @@ def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:
 
 def test_a_stage_that_ends_by_itself_takes_the_question_with_it() -> None:
     driver = driven_to(
-        Stage.GAME, whole(policy=always(Action.NO_HELP), idle=Idle(game=1000), timing=Timing(finish_ms=1500))
+        Stage.GAME, whole(policy=always(Action.NO_HELP), idle_ms=Idle(game=1000), timing=Timing(finish_ms=1500))
     )
     while len(driver.view.found) < 24:
         for place in a_pair(driver):
