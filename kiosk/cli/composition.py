@@ -45,7 +45,7 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
 
 
 def check_pin(settings: Settings) -> None:
-    """Raise BadInput for a study without a PIN, which is not to be run unattended."""
+    """Raise UserInputError for a study without a PIN, which is not to be run unattended."""
     if not settings.experimenter.pin_hash:
         raise UserInputError(
             "no PIN is set, so the kiosk is not started unattended: put what 'recollect study set-pin' prints into the "

@@ -276,7 +276,7 @@ def test_the_hinted_place_is_told_along_the_robots_own_axes(fake: FurhatFake, ax
 
 
 def test_gestures_and_gaze_can_be_switched_off(fake: FurhatFake) -> None:
-    robot = furhat(fake, gestures=False, attend=False)
+    robot = furhat(fake, gestures=False, gaze=False)
     robot.express(Mood.HAPPY)
     robot.look_at(None)
     assert fake.requests == []
