@@ -31,7 +31,7 @@ class UserInputError(Exception):
         return "\n".join(self.sentences)
 
 
-class StoreFailed(Exception):
+class StorageError(Exception):
     """The disk did not take what happened; nothing of it was written. The message is for the experimenter.
 
     At the command line it becomes one line and exit code 1, as the same command may succeed later.
@@ -61,10 +61,10 @@ def why(error: OSError) -> str:
     return DISK_FULL if error.errno in {errno.ENOSPC, errno.EDQUOT} else error.strerror or str(error)
 
 
-def unwritable(what: str, error: OSError) -> UserInputError | StoreFailed:
+def unwritable(what: str, error: OSError) -> UserInputError | StorageError:
     """Return what to raise when a file cannot be written; on a full disk the same command may succeed later."""
     words = why(error)
-    return StoreFailed(f"{what}: {words}") if words == DISK_FULL else UserInputError(f"{what}: {words}")
+    return StorageError(f"{what}: {words}") if words == DISK_FULL else UserInputError(f"{what}: {words}")
 
 
 def program(*arguments: str) -> tuple[str, ...]:

@@ -47,7 +47,7 @@ class ConfigModel(BaseModel):
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Read a file; raises BadInput with a sentence for everything that is wrong, naming the file and the key."""
+        """Read a file; raises UserInputError with a sentence for everything that is wrong, naming the file and the key."""
         name = f"the {cls.file_kind} {path}"
         given = _toml(name, path)
         try:
@@ -69,7 +69,7 @@ _LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
 
 
 def read_text(name: str, path: Path) -> str:
-    """Read a text file of a study; raises BadInput, in which the file is called ``name``."""
+    """Read a text file of a study; raises UserInputError, in which the file is called ``name``."""
     try:
         with path.open("rb") as file:
             content = file.read(MOST_BYTES + 1)

@@ -160,7 +160,7 @@ def explain_decision(
 def game_after(board: Board, flips: Iterable[Position]) -> Concentration:
     """The game after these flips, ready for the next one: unmatched cards have turned back.
 
-    Raises BadInput, naming the flip by its number, if the rules do not allow it or nothing is left to flip.
+    Raises UserInputError, naming the flip by its number, if the rules do not allow it or nothing is left to flip.
     """
     game = Concentration(board)
     for number, position in enumerate(flips, 1):

@@ -34,7 +34,7 @@ class Catalogue:
     ) -> None:
         """Read the folder, or take ``sources`` for what once stood in it; ``files`` names those that lie elsewhere.
 
-        Raises BadInput if there are no messages, or a file cannot be read or is not well-formed.
+        Raises UserInputError if there are no messages, or a file cannot be read or is not well-formed.
         """
         try:
             self.language = standard(folder.name)
@@ -200,7 +200,7 @@ def _english() -> Catalogue:
 
 
 def sources_in(folder: Path) -> dict[str, str]:
-    """Read the text of every file of sentences in a folder; raises BadInput."""
+    """Read the text of every file of sentences in a folder; raises UserInputError."""
     files = sorted(folder.glob("*.ftl"))
     if not files:
         raise UserInputError(f"there are no sentences for the language {folder.name!r} in {folder}")

@@ -112,13 +112,13 @@ class _WithoutWords(logging.Formatter):
 def log_into(folder: Path, *, shared: bool = False) -> None:
     """Keep a log in a data folder, in files that never grow large; it holds faults and failures, nothing personal.
 
-    With ``shared`` only lines are added to what another process keeps. Raises BadInput if it cannot be written there.
+    With ``shared`` only lines are added to what another process keeps. Raises UserInputError if it cannot be written there.
     """
     logging.basicConfig(handlers=[log_file(folder, shared=shared)], level=logging.WARNING)
 
 
 def log_file(folder: Path, *, shared: bool = False) -> logging.FileHandler:
-    """The log of a data folder, as ``log_into`` keeps it; raises BadInput if it cannot be written there."""
+    """The log of a data folder, as ``log_into`` keeps it; raises UserInputError if it cannot be written there."""
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         handler = _handler(folder / LOG, shared=shared, later=False)

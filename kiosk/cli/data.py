@@ -13,7 +13,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import StoreFailed
+from kiosk import StorageError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
@@ -32,7 +32,7 @@ SOMETHING_WRONG = 1
 def _disk_in_words() -> Iterator[None]:
     try:
         yield
-    except StoreFailed as failure:
+    except StorageError as failure:
         raise click.ClickException(str(failure)) from failure
 
 

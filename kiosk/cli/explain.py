@@ -48,7 +48,7 @@ class DecisionCase(BaseModel):
     target_rule: Literal["most_flipped", "most_recent"] = AssistanceConfig().target_rule
 
     def moment(self) -> DecisionContext:
-        """What the case describes; raises BadInput or ValueError for names that do not exist and impossible boards."""
+        """What the case describes; raises UserInputError or ValueError for names that do not exist and impossible boards."""
         board = Board(SHAPE.rows, SHAPE.columns, tuple(self.board))
         return DecisionContext(
             board=board,
@@ -64,7 +64,7 @@ class DecisionCase(BaseModel):
 
 
 def read_case(path: Path) -> DecisionCase:
-    """Read a case file (JSON); raises BadInput with one sentence that names the key."""
+    """Read a case file (JSON); raises UserInputError with one sentence that names the key."""
     try:
         return DecisionCase.model_validate(json.loads(path.read_bytes(), object_pairs_hook=said_once))
     except OSError as error:

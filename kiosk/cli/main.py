@@ -15,7 +15,7 @@ from typing import Never
 
 import click
 
-from kiosk import DISK_FULL, StoreFailed, UserInputError, __version__, why
+from kiosk import DISK_FULL, StorageError, UserInputError, __version__, why
 from kiosk.ui.qt_platform import missing_library
 
 DISK_FAILED, BAD_INPUT = 1, 2
@@ -91,7 +91,7 @@ def main() -> Never:
         recollect()
     except UserInputError as refusal:
         _say(*refusal.sentences)
-    except StoreFailed as failure:
+    except StorageError as failure:
         _say(str(failure))
         sys.exit(DISK_FAILED)
     except ImportError as error:

@@ -112,7 +112,7 @@ def _ask(prompt: str) -> str:
 
 
 def read_catalogue(language: str) -> Catalogue:
-    """The catalogue of a language; raises BadInput with all the languages there are."""
+    """The catalogue of a language; raises UserInputError with all the languages there are."""
     if language not in shipped_languages():
         raise UserInputError(f"there is no language {language!r}; there are {', '.join(shipped_languages())}")
     return Catalogue(ASSETS / "sentences" / language)

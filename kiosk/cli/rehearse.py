@@ -175,7 +175,7 @@ def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:
 
 
 def _check(study: StudyConfig, speed: float | None, language: str | None) -> None:
-    """Raise BadInput for what no rehearsal can do."""
+    """Raise UserInputError for what no rehearsal can do."""
     if speed is not None and not isfinite(speed):
         raise UserInputError(f"--speed must be a number, not {speed}")
     if _has_robot(study) and speed not in {None, 1}:

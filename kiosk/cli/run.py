@@ -141,7 +141,7 @@ def keep_command(
 
 
 def _refuse_without_pin(options: tuple[str, ...]) -> None:
-    """Raise BadInput for a study without a PIN, before a window is shown; what else is wrong the kiosk says."""
+    """Raise UserInputError for a study without a PIN, before a window is shown; what else is wrong the kiosk says."""
     only_study = click.Command("open", params=[click.Option(["--study"], type=click.Path(path_type=Path))])
     only_study.ignore_unknown_options = only_study.allow_extra_args = True
     study = only_study.make_context("open", list(options), resilient_parsing=True).params["study"]

@@ -69,7 +69,7 @@ def study_check(context: click.Context, file: Path, *, as_json: bool) -> None:
 
 
 def check_pictures(read: StudyConfig) -> list[str]:
-    """Raise BadInput if a picture of the study's own cannot be drawn; say so if none can be tried here."""
+    """Raise UserInputError if a picture of the study's own cannot be drawn; say so if none can be tried here."""
     try:
         faults = tuple(undrawn(program("_display", "pictures"), read.own_pictures))
     except CannotDraw as error:

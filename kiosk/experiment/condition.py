@@ -42,7 +42,7 @@ class Condition(Enum):
 
     @classmethod
     def from_name(cls, name: str) -> Condition:
-        """The condition of this name; raises BadInput with all the names there are."""
+        """The condition of this name; raises UserInputError with all the names there are."""
         try:
             return cls(name)
         except ValueError as error:

@@ -160,7 +160,7 @@ _TAKEN = {
 
 
 def shortcuts(keys: Keys) -> dict[Action, str]:
-    """The shortcut of every action that has one; raises BadInput, naming its key, for one that could never be heard."""
+    """The shortcut of every action that has one; raises UserInputError, naming its key, for one that could never be heard."""
     found = {Action(name): shortcut for name, shortcut in keys.model_dump().items() if shortcut}
     for action, shortcut in found.items():
         _check(action, shortcut)
@@ -230,7 +230,7 @@ _PIN = re.compile(rf"[0-9]{{{LEAST},{MOST}}}", re.ASCII)
 
 
 def hash_pin(pin: str, salt: bytes) -> str:
-    """A PIN as the study file keeps it; raises BadInput if it is none. ``salt`` is 16 bytes of chance."""
+    """A PIN as the study file keeps it; raises UserInputError if it is none. ``salt`` is 16 bytes of chance."""
     if not _PIN.fullmatch(pin):
         raise UserInputError(f"a PIN has {LEAST} to {MOST} digits and nothing else")
     return f"scrypt:{salt.hex()}:{_key(pin, salt).hex()}"

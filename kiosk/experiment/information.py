@@ -81,7 +81,7 @@ class Information(ConfigModel):
 
     @classmethod
     def of(cls, folder: Path, language: str) -> Self:
-        """The sheet of a language; raises BadInput if there is none."""
+        """The sheet of a language; raises UserInputError if there is none."""
         file = next((each for each in sorted(folder.glob("*.toml")) if code_of(each.stem) == language), None)
         if file is None:
             raise UserInputError(f"there is no information sheet for the language {language!r} in {folder}")
@@ -89,7 +89,7 @@ class Information(ConfigModel):
 
 
 def check_alike(sheets: Mapping[str, Information], folder: Path) -> None:
-    """Raise BadInput unless every language has the same version and asks for the same."""
+    """Raise UserInputError unless every language has the same version and asks for the same."""
     for what, says in (("versions", _version), ("purposes", _purposes)):
         said = {language: says(sheet) for language, sheet in sheets.items()}
         if len(set(said.values())) > 1:

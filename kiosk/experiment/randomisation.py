@@ -44,7 +44,7 @@ def allocation_slots(
     ``block`` is how many places a block has; the last one may be shorter, still in ratio. ``kept`` is an earlier list
     that this one goes on from, for quotas that were raised in the same ratio. A list that ends with a whole block is
     kept by drawing anew with the same seed; one that ends with a shorter block only if it is handed in, as places
-    that were given out do not change. Raises BadInput for quotas or a block that cannot be kept to.
+    that were given out do not change. Raises UserInputError for quotas or a block that cannot be kept to.
     """
     ratio = _ratio(quotas)
     _check_block(block, ratio)

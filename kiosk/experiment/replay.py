@@ -107,7 +107,7 @@ class DecisionContext:
         )
 
     def explained(self) -> Explanation:
-        """The decision of this moment, laid open; raises BadInput if there can be no such moment."""
+        """The decision of this moment, laid open; raises UserInputError if there can be no such moment."""
         game, chance = game_after(self.board, self.flips), Random(self.seed)
         given = help_in(self.condition, self.rule, Wording(self.catalogue, chance), chance)
         if given is None:

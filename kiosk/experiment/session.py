@@ -242,7 +242,7 @@ class Session:
     def __init__(self, plan: SessionConfig, seed: int) -> None:
         """Follow ``plan``; the same seed and the same events give the same outcomes.
 
-        Raises BadInput if a deck has too few cards for its board, or the stages cannot come in their order.
+        Raises UserInputError if a deck has too few cards for its board, or the stages cannot come in their order.
         """
         self.stage = Stage.ATTRACT
         self.keeping = RecordingState.UNDECIDED

@@ -59,7 +59,7 @@ class SessionConfig:
 
     @property
     def stage_order(self) -> StageOrder:
-        """Its stages in their order; raises BadInput if there can be no such course."""
+        """Its stages in their order; raises UserInputError if there can be no such course."""
         return StageOrder.of(self.settings.stages)
 
 

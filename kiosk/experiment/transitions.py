@@ -162,7 +162,7 @@ class StageOrder:
 
     @classmethod
     def of(cls, names: Sequence[str]) -> StageOrder:
-        """The course of these stages; raises BadInput if one is unknown, or comes where it cannot."""
+        """The course of these stages; raises UserInputError if one is unknown, or comes where it cannot."""
         unknown = [name for name in names if name not in STAGES]
         if unknown:
             raise UserInputError(f"stages: there is no stage {unknown[0]!r}; there are {', '.join(STAGES)}")

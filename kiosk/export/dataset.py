@@ -48,7 +48,7 @@ def export_dataset(
 ) -> Exported:
     """Write the data set of the data folder ``data`` into the new folder ``out``.
 
-    ``tell`` hears how many sessions are done, of how many. Raises BadInput, and writes nothing, if there is nothing to
+    ``tell`` hears how many sessions are done, of how many. Raises UserInputError, and writes nothing, if there is nothing to
     export or ``out`` cannot be used.
     """
     kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
@@ -77,7 +77,7 @@ def _add(kept: SessionRecord, writing: Layout, flow: ParticipantFlow, extras: fr
 
 
 def _exported(flows: dict[SessionKind, ParticipantFlow], data: Path, stored: RecordSource) -> Exported:
-    """What was written; raises BadInput if it is nothing."""
+    """What was written; raises UserInputError if it is nothing."""
 
     def total(quantity: FlowQuantity) -> int:
         return sum(count for flow in flows.values() for (what, _), count in flow.seen.items() if what is quantity)

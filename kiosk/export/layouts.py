@@ -101,7 +101,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def _new(path: Path) -> Path:
-    """The path, if nothing beside it has this name; raises BadInput instead of writing over what is there."""
+    """The path, if nothing beside it has this name; raises UserInputError instead of writing over what is there."""
     name = fold_name(path.name)
     beside = next((other.name for other in path.parent.iterdir() if fold_name(other.name) == name), None)
     if beside is not None or is_reserved(path.name):
@@ -113,7 +113,7 @@ def _new(path: Path) -> Path:
 
 
 def _check_columns(path: Path, names: Sequence[str]) -> None:
-    """Raise BadInput if two columns of a table are one for programs that do not tell capitals apart."""
+    """Raise UserInputError if two columns of a table are one for programs that do not tell capitals apart."""
     first: dict[str, str] = {}
     for name in names:
         if fold_name(name) in first:
@@ -128,7 +128,7 @@ def _check_columns(path: Path, names: Sequence[str]) -> None:
 def new_folder(out: Path) -> Iterator[Path]:
     """A folder beside ``out`` to write in, which takes its place at the end and is gone if anything goes wrong.
 
-    Raises BadInput, and leaves everything as it was, if ``out`` holds something or cannot be written.
+    Raises UserInputError, and leaves everything as it was, if ``out`` holds something or cannot be written.
     """
     try:
         _check_free(out)
@@ -375,7 +375,7 @@ class Bids(Layout):
         }
 
     def _label(self, kept: SessionRecord) -> str:
-        """What a participant's folder is called; raises BadInput if that of another is the same for some systems."""
+        """What a participant's folder is called; raises UserInputError if that of another is the same for some systems."""
         label = bids_label(kept)
         if fold_name(label) in self._labels:
             raise UserInputError(f"two participants would have the folder {label!r} where capitals do not count")

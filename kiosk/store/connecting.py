@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 from weakref import WeakSet
 
-from kiosk import DISK_FULL, StoreFailed, UserInputError, is_nearly_full, unwritable, why
+from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable, why
 
 PRIVATE = 0o600
 """What people said is for the user who runs the kiosk alone. SQLite gives its logs the mode of the database."""
@@ -136,11 +136,11 @@ def reason(error: BaseException, folder: Path) -> str:
     return str(error)
 
 
-def failure(what: str, error: sqlite3.Error | OSError, folder: Path) -> UserInputError | StoreFailed:
-    """Return what to raise when a database cannot be written: StoreFailed where it may be possible later."""
+def failure(what: str, error: sqlite3.Error | OSError, folder: Path) -> UserInputError | StorageError:
+    """Return what to raise when a database cannot be written: StorageError where it may be possible later."""
     words = reason(error, folder)
     passing = words == DISK_FULL or primary_code(error) in _PASSING
-    return StoreFailed(f"{what}: {words}") if passing else UserInputError(f"{what}: {words}")
+    return StorageError(f"{what}: {words}") if passing else UserInputError(f"{what}: {words}")
 
 
 def _beside(path: Path, log: str) -> Path:
@@ -237,7 +237,7 @@ UNFINISHED = ".unfinished"
 def atomic_directory(out: Path) -> Iterator[Path]:
     """A new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
 
-    Raises BadInput if it cannot be made, or if there is one already, which the end of the program cut off: it may hold
+    Raises UserInputError if it cannot be made, or if there is one already, which the end of the program cut off: it may hold
     what people said, so somebody should know of it. Raises OSError if the disk does not take all of it.
     """
     made = out.with_name(out.name + UNFINISHED)

@@ -254,10 +254,10 @@ class Newer(UserInputError):
 
 
 def lock_folder(folder: Path) -> FileLock:
-    """Be the only one who writes in a data folder, until the lock is released; raises BadInput if somebody else does.
+    """Be the only one who writes in a data folder, until the lock is released; raises UserInputError if somebody else does.
 
     It comes before the database is opened: a newer program must not migrate it under a kiosk that runs. Raises
-    StoreFailed on a full disk.
+    StorageError on a full disk.
     """
     held = FileLock(folder / LOCK)
     try:
@@ -289,8 +289,8 @@ def in_use(folder: Path) -> bool:
 def open_for_writing(folder: Path) -> Connection:
     """Open the database of a data folder, made or migrated as needed.
 
-    Every transaction is on the disk when it is committed (WAL, synchronous FULL). Raises BadInput, and leaves the
-    file as it is, if it is foreign, newer or unreadable; StoreFailed if the disk does not take it, as when it is full.
+    Every transaction is on the disk when it is committed (WAL, synchronous FULL). Raises UserInputError, and leaves the
+    file as it is, if it is foreign, newer or unreadable; StorageError if the disk does not take it, as when it is full.
     """
     path = folder / FILE
     try:
@@ -313,7 +313,7 @@ def open_for_writing(folder: Path) -> Connection:
 
 
 def open_for_reading(folder: Path) -> Connection:
-    """Open the database of a data folder without any right to change it; raises BadInput if that cannot be done.
+    """Open the database of a data folder without any right to change it; raises UserInputError if that cannot be done.
 
     Of an older one a copy in memory is opened, which has taken the steps that it lacks.
     """
@@ -392,7 +392,7 @@ def make_durable(connection: sqlite3.Connection) -> None:
 
 
 def _ours(path: Path) -> Connection:
-    """Connect to a database for reading; raises BadInput, and leaves it as it is, if it is foreign or newer."""
+    """Connect to a database for reading; raises UserInputError, and leaves it as it is, if it is foreign or newer."""
     try:
         connection = for_reading(path)
         try:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import open_as_it_is
 from kiosk.units import MIB
@@ -51,7 +51,7 @@ class FreeSpace:
 
 
 def free_space(folder: Path) -> FreeSpace:
-    """The room that is left for a data folder, whether or not it is there yet; raises BadInput if nobody can say."""
+    """The room that is left for a data folder, whether or not it is there yet; raises UserInputError if nobody can say."""
     there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
     try:
         return FreeSpace(shutil.disk_usage(there).free // MIB)
@@ -84,8 +84,8 @@ def back_up(
     """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
-    ``amend`` may change the copy before it is checked. Raises BadInput if there is nothing to copy or no place for it,
-    StoreFailed if the copy could not be written whole; older copies are then as they were.
+    ``amend`` may change the copy before it is checked. Raises UserInputError if there is nothing to copy or no place for it,
+    StorageError if the copy could not be written whole; older copies are then as they were.
     """
     if keep < 1:
         raise UserInputError(f"at least 1 copy must be kept, not {keep}")
@@ -97,7 +97,7 @@ def back_up(
             _sync(into)
             _remove_older(into, copy, keep)
         except (OSError, sqlite3.Error) as error:
-            raise StoreFailed(f"the copy in {into} could not be written: {reason(error, into)}") from error
+            raise StorageError(f"the copy in {into} could not be written: {reason(error, into)}") from error
         finally:
             unfinished.unlink(missing_ok=True)
     return copy
@@ -158,7 +158,7 @@ def _copy(source: sqlite3.Connection, path: Path, tell: Progress, amend: Callabl
         answers = [answer for (answer,) in target.execute("PRAGMA integrity_check")]
     source.execute("ROLLBACK")
     if answers != ["ok"]:
-        raise StoreFailed(f"the copy of {path.name} is not whole: {answers[0]}")
+        raise StorageError(f"the copy of {path.name} is not whole: {answers[0]}")
     with path.open("r+b") as file:
         os.fsync(file.fileno())
 

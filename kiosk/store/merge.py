@@ -13,7 +13,7 @@ from itertools import count, permutations
 from pathlib import Path
 from typing import Any, TypeVar
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import atomic_directory, reason
 from kiosk.store.database import in_use, open_for_reading, open_for_writing
 from kiosk.store.maintenance import Progress
@@ -33,8 +33,8 @@ def merge(
 
     Sessions are numbered anew, in the order in which they began, whatever the order of the folders; a participant's
     number and code stay, and so does the site, unless ``sites`` gives all that a folder holds another one. Raises
-    BadInput if a folder cannot be read or is written in, if one participant or code stands in two of them, or if
-    ``out`` is not empty or lies in one of them; StoreFailed if the disk does not take it.
+    UserInputError if a folder cannot be read or is written in, if one participant or code stands in two of them, or if
+    ``out`` is not empty or lies in one of them; StorageError if the disk does not take it.
     """
     asked, out = out, out.resolve()
     _check_folders(folders, out)
@@ -53,7 +53,7 @@ def merge(
                 sessions = _copy(parts, target, tell)
                 target.execute("COMMIT")
         except (OSError, sqlite3.Error) as error:
-            raise StoreFailed(f"{out} could not be written: {reason(error, out.parent)}") from error
+            raise StorageError(f"{out} could not be written: {reason(error, out.parent)}") from error
     return sessions
 
 

@@ -53,7 +53,7 @@ def participant_name(site: str, number: int) -> str:
 
 
 def checked_site(site: str) -> str:
-    """The name of a site as it may stand in numbers, codes and tables; raises BadInput for any other."""
+    """The name of a site as it may stand in numbers, codes and tables; raises UserInputError for any other."""
     if not _SITE.fullmatch(site):
         raise UserInputError(f"a site is named by up to 8 capital letters and digits, not {site!r}")
     for label in (site, *([participant_name(site, 1)] if site and not _is_long_number(site) else [])):
@@ -72,7 +72,7 @@ def _is_long_number(site: str) -> bool:
 
 
 def checked_code(text: str) -> str:
-    """The code that was typed, in its own spelling; raises BadInput if it was mistyped."""
+    """The code that was typed, in its own spelling; raises UserInputError if it was mistyped."""
     code = "".join(text.split()).upper()
     characters = code.rpartition("-")[2]
     if len(characters) != CHANCE_CHARACTERS + 1 or set(characters) - set(ALPHABET):
@@ -210,7 +210,7 @@ class AllocationLists:
     def create(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[AllocationSlot, ...]:
         """Store the first list, find this very one stored, or store a longer one for raised quotas.
 
-        Raises BadInput for another list than the stored one, and for quotas or a block that cannot be kept to.
+        Raises UserInputError for another list than the stored one, and for quotas or a block that cannot be kept to.
         """
         stored = self.latest()
         if stored is None:
@@ -220,7 +220,7 @@ class AllocationLists:
         return listed if listed == stored.slots else self._store(quotas, block, stored.seed, listed)
 
     def check(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> None:
-        """Raise BadInput where ``fix`` would for another list than the stored one; nothing is stored."""
+        """Raise UserInputError where ``fix`` would for another list than the stored one; nothing is stored."""
         stored = self.latest()
         if stored is not None:
             _continued(stored, quotas, block, seed)
@@ -241,7 +241,7 @@ class AllocationLists:
 
 
 def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> None:
-    """Raise BadInput if the place of a session was given out again while it was cut off, and that game completed."""
+    """Raise UserInputError if the place of a session was given out again while it was cut off, and that game completed."""
     site, simulated, place, finished = connection.execute(
         """
         SELECT site, simulated, place, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
@@ -278,7 +278,7 @@ def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
 def _continued(
     stored: AllocationList, quotas: Mapping[Condition, int], block: int, seed: int | None
 ) -> tuple[AllocationSlot, ...]:
-    """The stored list, or a longer one for raised quotas; raises BadInput for another list than the stored one."""
+    """Return the stored list, or a longer one for raised quotas; raise UserInputError if another list is stored."""
     if block != stored.block or seed not in (None, stored.seed):
         raise _another(stored)
     try:

@@ -97,7 +97,7 @@ class SessionRepository:
         return [self._session(row) for row in self._database["session"].rows_where(order_by="id")]
 
     def session(self, number: int) -> StoredSession:
-        """One session; raises BadInput if there is none of this number."""
+        """One session; raises UserInputError if there is none of this number."""
         return self._session(self._row(number))
 
     def counts(self, *, simulated: bool | SessionKind) -> EnrolmentCounts:
@@ -119,7 +119,7 @@ class SessionRepository:
         return [_event(record) for record in self.records(number) if record["origin"] != "recovery"]
 
     def plan(self, number: int) -> SessionConfig:
-        """What a session followed, from what was kept with it; raises BadInput if this program cannot read that."""
+        """Return what a session followed, from its stored sources; raise UserInputError if they cannot be read."""
         row = self._row(number)
         if row["information_source"] is None:
             raise UserInputError(
@@ -145,7 +145,7 @@ class SessionRepository:
         return int(self._row(number)["seed"])
 
     def source(self, sha256: str) -> str:
-        """What is kept under a hash; raises BadInput if nothing is."""
+        """What is kept under a hash; raises UserInputError if nothing is."""
         rows = self._database["source"].rows_where("sha256 = ?", [sha256])
         for row in rows:
             return str(row["content"])
@@ -190,7 +190,7 @@ class SessionRepository:
 
 @contextmanager
 def open_repository(folder: Path) -> Iterator[SessionRepository]:
-    """The archive of a data folder; raises BadInput if there is none that can be read, or not all of it."""
+    """The archive of a data folder; raises UserInputError if there is none that can be read, or not all of it."""
     with closing(open_for_reading(folder)) as connection:
         try:
             yield SessionRepository(sqlite_utils.Database(connection), in_use=in_use(folder))
@@ -205,7 +205,7 @@ def _event(record: dict[str, Any]) -> Event:
 def explain_stored_decision(archive: SessionRepository, number: int, flip: int) -> Explanation:
     """The decision before a flip (from 1) of a stored session, laid open.
 
-    Raises BadInput if there was none, or if it comes out otherwise today than it was recorded.
+    Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
     """
     game = SessionState.from_events(archive.events(number)).game
     if game is None:

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from kiosk import StoreFailed, UserInputError, __version__
+from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
@@ -70,7 +70,7 @@ def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
 
 
 def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
-    """The seq of the end of a session that was interrupted; raises BadInput if it was not."""
+    """The seq of the end of a session that was interrupted; raises UserInputError if it was not."""
     last = connection.execute(
         "SELECT seq, type, body FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
     ).fetchone()
@@ -112,7 +112,7 @@ def _type_and_body(event: Event) -> tuple[str, str]:
 _log = logging.getLogger(__name__)
 
 
-class StoreBusy(StoreFailed):
+class StoreBusy(StorageError):
     """Another program holds the database just now; nothing was written, and the same can be tried again."""
 
 
@@ -140,7 +140,7 @@ class Recorder:
     def __init__(self, folder: Path, site: str = "", *, wait_ms: int = 0) -> None:
         """Open the folder's database, and mark the sessions and finish the withdrawals that a crash cut off.
 
-        Raises BadInput if the folder cannot be used, StoreFailed if the disk does not take it, as when it is full.
+        Raises UserInputError if the folder cannot be used, and StorageError if the disk does not take it.
         ``site`` stands before the participants' numbers and codes, where data of several places will be merged. Once
         it is open, every method that writes waits ``wait_ms`` for another program that holds the database, and then
         raises StoreBusy. With 0 the caller never waits and can try again.
@@ -162,7 +162,7 @@ class Recorder:
         try:
             with self.retrying(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
-        except StoreFailed as error:
+        except StorageError as error:
             self._close()
             cause = error.__cause__
             if not isinstance(cause, sqlite3.Error):
@@ -193,8 +193,8 @@ class Recorder:
     ) -> tuple[AllocationSlot, ...]:
         """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
 
-        Without a seed one is drawn and stored. Raises BadInput if the list that is fixed is another one, or if there
-        is no such list; StoreFailed if the disk does not take it. It waits for another program, as opening does.
+        Without a seed one is drawn and stored. Raises UserInputError if another list is fixed or there is none, and
+        StorageError if the disk does not take it. It waits for another program, as opening does.
         """
         with self.retrying(OPENING_WAIT_MS), self._transaction():
             return self._lists(simulated=simulated).create(quotas, block, seed)
@@ -227,7 +227,7 @@ class Recorder:
     def resume(self, number: int) -> Participant:
         """Go on with a session that was interrupted: the next events follow its last one.
 
-        Raises BadInput if there is no such session, or if it ended in another way.
+        Raises UserInputError if there is no such session, or if it ended in another way.
         """
         with self._transaction():
             mark_interrupted(self._connection)
@@ -243,7 +243,7 @@ class Recorder:
         return participant
 
     def append(self, events: Sequence[Event]) -> None:
-        """Write the session's next events, in one transaction; raises StoreFailed if the disk does not take them."""
+        """Write the session's next events, in one transaction; raises StorageError if the disk does not take them."""
         with self._transaction():
             self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
         self._next_seq += len(events)
@@ -275,7 +275,7 @@ class Recorder:
         connection.close()
         try:
             finish_cut_off(self.folder)
-        except StoreFailed as failed:
+        except StorageError as failed:
             # Visitors can come all the same; it is tried again at the next start, and ``verify`` tells of it.
             _log.error("%s", failed)
         return open_for_writing(self.folder)
@@ -299,7 +299,7 @@ class Recorder:
         except sqlite3.Error as error:
             if primary_code(error) in BUSY:
                 raise StoreBusy(f"another program holds the database: {error}") from error
-            raise StoreFailed(f"what happened could not be written: {reason(error, self.folder)}") from error
+            raise StorageError(f"what happened could not be written: {reason(error, self.folder)}") from error
         finally:
             # Whatever went wrong, nothing of it stays; a full disk has already ended the transaction by itself.
             if self._connection.in_transaction:

@@ -177,7 +177,7 @@ _FOLLOWED = (
 
 @contextmanager
 def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[RecordSource]:
-    """What is stored in a data folder now; raises BadInput if there is nothing that can be read."""
+    """What is stored in a data folder now; raises UserInputError if there is nothing that can be read."""
     with closing(open_for_reading(folder)) as connection:
         writing = in_use(folder)
         connection.execute("BEGIN")

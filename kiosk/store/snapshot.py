@@ -62,7 +62,7 @@ class DashboardSnapshot:
 def read_snapshot(folder: Path, since_ms: int, *, simulated: bool | SessionKind) -> DashboardSnapshot:
     """Look at a data folder that is being written; deviations are those since ``since_ms``.
 
-    Raises BadInput if there is none that can be read.
+    Raises UserInputError if there is none that can be read.
     """
     with _looking_at(folder) as connection:
         seen = tuple(_seen(connection, simulated=simulated))

@@ -47,7 +47,7 @@ class Flaw:
 
 
 def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]:
-    """Everything that is wrong with the database of a data folder; raises BadInput if it cannot be opened at all.
+    """Everything that is wrong with the database of a data folder; raises UserInputError if it cannot be opened at all.
 
     A kiosk may be writing meanwhile: all is seen as it stood at one moment.
     """

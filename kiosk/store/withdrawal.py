@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
@@ -54,7 +54,7 @@ class Withdrawal:
 
 
 def find_withdrawal(folder: Path, code: str) -> Withdrawal:
-    """What would go with this code; raises BadInput if nobody has it, or if a kiosk is writing there."""
+    """What would go with this code; raises UserInputError if nobody has it, or if a kiosk is writing there."""
     with closing(open_for_reading(folder)) as connection:
         if in_use(folder):
             raise UserInputError(f"a kiosk is writing in {folder}: close it first, then withdraw")
@@ -64,9 +64,9 @@ def find_withdrawal(folder: Path, code: str) -> Withdrawal:
 def withdraw(folder: Path, code: str) -> Withdrawal:
     """Take out whoever has this code, and replace the copies of the database by a fresh one; returns what went.
 
-    One that was cut off before is finished. Raises BadInput if no participant has the code, or if another program is
-    at the data; nothing has gone then. Raises StoreFailed if the disk did not do all of it; the message says how far it
-    came.
+    A withdrawal that was cut off before is finished. Raises UserInputError if no participant has the code, or if
+    another program uses the data; nothing is deleted then. Raises StorageError if the disk did not do all of it; the
+    message says how far it came.
     """
     found = find_withdrawal(folder, code)
     held = lock_folder(folder)
@@ -92,7 +92,7 @@ def is_unfinished(connection: sqlite3.Connection) -> bool:
 def finish_cut_off(folder: Path) -> None:
     """Finish the withdrawals of a data folder that were cut off; the caller holds its lock.
 
-    Raises StoreFailed if it cannot be done now.
+    Raises StorageError if it cannot be done now.
     """
     with closing(open_for_writing(folder)) as connection:
         _keep_to_oneself(connection)
@@ -146,7 +146,7 @@ def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
             raise UserInputError(
                 f"another program is looking at the data in {folder}: close it, then withdraw"
             ) from error
-        raise StoreFailed(f"nothing was withdrawn: {reason(error, folder)}") from error
+        raise StorageError(f"nothing was withdrawn: {reason(error, folder)}") from error
     finally:
         if connection.in_transaction:
             connection.execute("ROLLBACK")
@@ -200,7 +200,7 @@ def _replace_backups(folder: Path) -> None:
     try:
         fresh = back_up(folder, into, keep=1, amend=_delete_notes) if older else None
         remove_all_but(fresh, into)
-    except (StoreFailed, UserInputError, OSError) as error:
+    except (StorageError, UserInputError, OSError) as error:
         words = reason(error, into) if isinstance(error, OSError) else str(error)
         raise _unfinished(f"the {len(older)} copies in {into} still hold them", words) from error
 
@@ -210,7 +210,7 @@ def _forget(folder: Path) -> None:
     try:
         with closing(open_for_writing(folder)) as connection:
             _delete_notes(connection)
-    except (sqlite3.Error, StoreFailed, UserInputError) as error:
+    except (sqlite3.Error, StorageError, UserInputError) as error:
         words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
         raise _unfinished("that it is finished could not be noted", words) from error
 
@@ -220,8 +220,8 @@ def _delete_notes(connection: sqlite3.Connection) -> None:
     connection.execute("DELETE FROM unfinished_withdrawal")
 
 
-def _unfinished(what: str, words: str) -> StoreFailed:
-    return StoreFailed(
+def _unfinished(what: str, words: str) -> StorageError:
+    return StorageError(
         f"the participant was withdrawn, but {what}: {words}; "
         "give the same command again, or open the kiosk, to finish it"
     )

@@ -64,7 +64,7 @@ class CsvTable:
 
     @classmethod
     def read(cls, file: Path) -> CsvTable:
-        """Read a CSV file; raises BadInput if it is none, or its columns are not those of a questionnaire."""
+        """Read a CSV file; raises UserInputError if it is none, or its columns are not those of a questionnaire."""
         name = f"the table {file}"
         lines, first = _lines(name, file)
         header, *lines = lines or [[]]
@@ -215,7 +215,7 @@ class Heading:
 
 
 def read_items(file: Path, heading: Heading) -> Questionnaire:
-    """The questionnaire that a CSV table holds; raises BadInput with a sentence for every bad cell."""
+    """The questionnaire that a CSV table holds; raises UserInputError with a sentence for every bad cell."""
     table = CsvTable.read(file)
     reading = _Reading(table)
     items = tuple(reading.item(row) for row in table.rows)
@@ -356,7 +356,7 @@ def _yes_or_no(cell: str) -> bool:
 
 
 def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
-    """Write a new file; raises BadInput or StoreFailed if it cannot be, and leaves nothing behind."""
+    """Write a new file; raises UserInputError or StorageError if it cannot be, and leaves nothing behind."""
     text = as_toml(questionnaire)
     if out.exists():
         raise UserInputError(f"{out} is there already; choose another name")

@@ -63,7 +63,7 @@ _WORDS = {
 
 
 def located(settings: Settings, kind: str, name: str) -> Located:
-    """Find something of this kind; raises BadInput with the names that there are."""
+    """Find something of this kind; raises UserInputError with the names that there are."""
     found = settings.locate(kind, name)
     if found is None:
         raise UserInputError(_nothing(settings, kind, name))
@@ -139,7 +139,7 @@ Read = TypeVar("Read")
 
 
 def read_study(settings: Settings) -> StudyConfig:
-    """Everything that a study file names, read; raises BadInput with a sentence for everything that is wrong."""
+    """Everything that a study file names, read; raises UserInputError with a sentence for everything that is wrong."""
     look = _Look(settings)
     look.at("stages", partial(StageOrder.of, settings.stages))
     look.at("shortcuts", partial(shortcuts, settings.shortcuts))

@@ -1,4 +1,4 @@
-"""Checks of the arguments that callers hand to the training layer; each raises BadInput in words."""
+"""Checks of the arguments that callers hand to the training layer; each raises UserInputError in words."""
 
 from __future__ import annotations
 

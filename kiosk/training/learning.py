@@ -143,7 +143,7 @@ class Recipe:
     gamma: float = 0.8
 
     def __post_init__(self) -> None:
-        """Refuse impossible numbers, and texts in place of members, with BadInput."""
+        """Refuse impossible numbers, and texts in place of members, with UserInputError."""
         for name, kind in _KINDS.items():
             one_of(name, getattr(self, name), kind)
         # They go into a file, which takes Python's own numbers only.
@@ -303,7 +303,7 @@ class Learner:
         self._lesson = _lesson(recipe)
 
     def study(self, progress: Progress = lambda _: None, stopped: Callable[[], bool] = lambda: False) -> None:
-        """Play the recipe's episodes that are still to come; raises BadInput if a game does not end.
+        """Play the recipe's episodes that are still to come; raises UserInputError if a game does not end.
 
         ``stopped`` is asked between two batches, and never within one: what is known then is what the same recipe
         knows after as many episodes.

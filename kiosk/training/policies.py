@@ -15,7 +15,7 @@ from kiosk.assistance.policy import STATES, Action, Gate, MoveOutcome, Phase, QT
 
 
 def check_writable(path: Path) -> Path:
-    """Where a file is to be written, links followed; raises BadInput for what no file can take the place of."""
+    """Where a file is to be written, links followed; raises UserInputError for what no file can take the place of."""
     place = path.resolve()
     if place.exists() and not place.is_file():
         raise UserInputError(f"{path} cannot be written: it is not a file")
@@ -25,7 +25,7 @@ def check_writable(path: Path) -> Path:
 
 
 def write_policy(path: Path, content: str | bytes) -> None:
-    """Put a file in its place whole, or raise BadInput and leave what was there untouched."""
+    """Put a file in its place whole, or raise UserInputError and leave what was there untouched."""
     path = check_writable(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.new")
     data = content.encode() if isinstance(content, str) else content

@@ -265,7 +265,7 @@ def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
 ) -> GameResults:
     """Play ``games`` games (2 or more) of ``player`` helped by ``policy``; fixed by ``seed``.
 
-    Raises BadInput if there are too few games, or a game does not end.
+    Raises UserInputError if there are too few games, or a game does not end.
     """
     games = whole("the number of games", games)
     if games < 2:  # noqa: PLR2004 - a spread needs two
@@ -336,6 +336,6 @@ def _batch(table: GameTable, q: Floats, games: int) -> Iterator[tuple[int, ...]]
 
 
 def refuse_endless(flips: int) -> None:
-    """Refuse, with BadInput, a game that was given up."""
+    """Refuse, with UserInputError, a game that was given up."""
     if flips >= ENDLESS:
         raise UserInputError(f"this player does not finish: a game was given up after {ENDLESS:,} flips")

@@ -19,7 +19,7 @@ import psutil
 from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import DISK_FULL, StoreFailed, UserInputError, is_nearly_full, unwritable
+from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable
 from kiosk.config import STAGES
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Effect, Outcome
@@ -81,7 +81,7 @@ class LatencyMonitor(QObject):
 
 
 def make_folder(folder: Path) -> None:
-    """Make the folder for the pictures, if it is not there; raises BadInput or StoreFailed."""
+    """Make the folder for the pictures, if it is not there; raises UserInputError or StorageError."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -123,10 +123,10 @@ class Screenshots:
             raise unwritten(file)
 
 
-def unwritten(picture: Path) -> UserInputError | StoreFailed:
+def unwritten(picture: Path) -> UserInputError | StorageError:
     """Return what to raise when a picture could not be written; Qt does not say why."""
     what = f"the picture {picture} cannot be written"
-    return StoreFailed(f"{what}: {DISK_FULL}") if is_nearly_full(picture.parent) else UserInputError(what)
+    return StorageError(f"{what}: {DISK_FULL}") if is_nearly_full(picture.parent) else UserInputError(what)
 
 
 _NAMES: dict[type[Effect], str] = {

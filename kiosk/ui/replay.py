@@ -118,9 +118,9 @@ class Replay:
             raise self._error
 
     def frames(self, folder: Path) -> Iterator[Path]:
-        """Save a picture after every step that changes the screen, and give its file; raises BadInput if it cannot.
+        """Save a picture after every step that changes the screen, and yield its file.
 
-        On a full disk it raises StoreFailed.
+        Raises UserInputError if a picture cannot be saved, and StorageError on a full disk.
         """
         self._window.set_replay(None)
         for index, step in enumerate(self.player.steps, 1):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Self
 
-from kiosk import StoreFailed
+from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
@@ -51,7 +51,10 @@ class ConditionAssigner:
     """Chooses the next session's condition: the experimenter's, else the list's next, else the study file's."""
 
     def __init__(self, study: StudyConfig, recorder: Recorder, origin: RunContext) -> None:
-        """Fix the list of places, if the study has quotas; raises BadInput if another one is fixed, or StoreFailed."""
+        """Create the allocation list, if the study has targets.
+
+        Raises UserInputError if another list is fixed, and StorageError from the store.
+        """
         self.study = study
         self._recorder = recorder
         self._origin = origin
@@ -80,13 +83,13 @@ class ConditionAssigner:
         return self._choice is not None and self._choice is self._followed
 
     def choose(self, condition: Condition | None, reason: str) -> None:
-        """Have the next session in this condition, or, with None, in the list's; raises StoreFailed."""
+        """Have the next session in this condition, or, with None, in the list's; raises StorageError."""
         name = condition.value if condition else "automatic"
         self._recorder.add_audit_event(AuditEvent.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
         self._choice = None if condition is None else _Choice(condition)
 
     def next_session(self, language: str) -> Provenance:
-        """What the next session is to follow; raises StoreFailed."""
+        """What the next session is to follow; raises StorageError."""
         self._followed = self._choice
         place = self._next_place() if self._listed and self._choice is None else None
         condition = self.chosen or (place.condition if place else self._origin.condition)
@@ -138,7 +141,7 @@ class SessionRecording:
         return record
 
     def write(self, event: WorldEvent, outcome: Outcome) -> None:
-        """Write, hold back or forget an event and what came of it; raises StoreFailed if the disk does not take it.
+        """Write, hold back or forget an event and what came of it; raises StorageError if the disk does not take it.
 
         Where it raises nothing has changed, so the same event can be written again after StoreBusy.
         """
@@ -191,11 +194,11 @@ class BusyWait:
         return self._wait is not None
 
     def try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
-        """Call back soon; raises StoreFailed, and ends the wait, once it has taken too long."""
+        """Call back soon; raises StorageError, and ends the wait, once it has taken too long."""
         self._waited_ms += self._step_ms
         if self._waited_ms > LONGEST_MS:
             self.end()
-            raise StoreFailed(f"{busy}; it was tried for {LONGEST_MS // MS_PER_SECOND} s") from busy
+            raise StorageError(f"{busy}; it was tried for {LONGEST_MS // MS_PER_SECOND} s") from busy
         if self._waited_ms >= TOLD_AFTER_MS:
             self._show(True)  # noqa: FBT003 - it is what is shown
         self._wait = self._clock.after(self._retry_ms, lambda: self._call(call))
@@ -301,7 +304,7 @@ class SessionRunner:
         except StoreBusy as busy:
             self._try_again(partial(self._start, language, tapped_at), busy)
             return
-        except StoreFailed as failure:
+        except StorageError as failure:
             self._give_way(failure)
             return
         self._busy.end()
@@ -320,7 +323,8 @@ class SessionRunner:
         """Go on with a session that was cut off after these events, from the start of the stage it was in.
 
         ``noted`` writes that down once it is known to be possible; if it says no, everything stays as it is. So it does
-        where this raises: UnexpectedEvent if that stage cannot begin anew, BadInput or StoreFailed from the store.
+        where this raises: InvalidTransition if that stage cannot begin anew, UserInputError or StorageError from the
+        store.
         """
         session = Session(provenance.plan, provenance.seed)
         for event in past:
@@ -451,7 +455,7 @@ class SessionRunner:
                 except StoreBusy as busy:
                     self._try_again(self._work, busy)
                     return
-                except StoreFailed as failure:
+                except StorageError as failure:
                     self._give_way(failure)
                     return
                 self._busy.end()
@@ -497,10 +501,10 @@ class SessionRunner:
     def _try_again(self, call: Callable[[], None], busy: StoreBusy) -> None:
         try:
             self._busy.try_again(call, busy)
-        except StoreFailed as failure:
+        except StorageError as failure:
             self._give_way(failure)
 
-    def _give_way(self, failure: StoreFailed) -> None:
+    def _give_way(self, failure: StorageError) -> None:
         _log.error("%s", failure)
         self.pause()
 

@@ -111,7 +111,7 @@ class Window:
 
 
 def check_screen(display: WindowMode) -> None:
-    """Raise BadInput where no window can be opened; Qt itself would end the process."""
+    """Raise UserInputError where no window can be opened; Qt itself would end the process."""
     found = None if display is WindowMode.NOWHERE else obstacle()
     if found is not None:
         raise UserInputError(str(found))

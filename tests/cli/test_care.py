@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.cli.main import recollect
 from kiosk.store import withdrawal as withdrawing
 from kiosk.store.database import FILE
@@ -145,7 +145,7 @@ def test_while_a_kiosk_is_writing_it_is_refused_before_anything_is_asked(day: Pa
 
 def test_what_the_disk_did_not_do_is_said_in_one_sentence(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def failing(*_: object) -> None:
-        raise StoreFailed("nothing was withdrawn: the disk is full")
+        raise StorageError("nothing was withdrawn: the disk is full")
 
     monkeypatch.setattr(withdrawing, "withdraw", failing)
     result = run("withdraw", code_of(day, 1), "--data", day, "--yes")
@@ -158,7 +158,7 @@ def test_the_same_command_finishes_a_withdrawal_that_was_cut_off(day: Path, monk
     assert run("backup", "--data", day).exit_code == 0
 
     def failing(*_: object, **__: object) -> None:
-        raise StoreFailed("disk full")
+        raise StorageError("disk full")
 
     with monkeypatch.context() as patched:
         patched.setattr(withdrawing, "back_up", failing)

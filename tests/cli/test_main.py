@@ -7,7 +7,7 @@ import os
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.cli import main
 
 
@@ -16,7 +16,7 @@ from kiosk.cli import main
     [
         (UserInputError("one", "two"), 2, "recollect: one\nrecollect: two\n"),
         (
-            StoreFailed("it cannot be used: disk full"),
+            StorageError("it cannot be used: disk full"),
             1,
             "recollect: it cannot be used: disk full\n",
         ),

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment.events import (
     NotRecordedReason,
     RobotDisconnected,
@@ -74,7 +74,7 @@ class Failing(PsychDs):
 
 
 def test_nothing_stays_of_a_data_set_that_could_not_be_finished(few: Path, tmp_path: Path) -> None:
-    with pytest.raises(StoreFailed, match="disk full"):
+    with pytest.raises(StorageError, match="disk full"):
         export_dataset(few, tmp_path / "out", Failing)
     assert list(tmp_path.iterdir()) == []
 

@@ -83,12 +83,12 @@ def test_neither_code_nor_seed_nor_typed_text_nor_place_is_told(told: Path, layo
 def test_of_the_allocation_the_blocks_are_told_and_the_seed_is_not(tmp_path: Path) -> None:
     plan = study_plan()
     allocation = Allocation(target_n={"tom": 9, "notom": 9}, block_size=6, seed=SEED)
-    driver = Driver(replace(plan, settings=plan.settings.model_copy(update={"allocation": allocation})), 1)
+    driver = Driver(replace(plan, settings=plan.settings.model_copy(update={"randomisation": allocation})), 1)
     driver.to(Stage.GAME)
     store(tmp_path / "data", [(driver, 1)])
     export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
     (settings,) = (json.loads(path.read_text("utf-8")) for path in (tmp_path / "out").glob("materials/settings/*"))
-    assert settings["allocation"] == {"quotas": {"tom": 9, "notom": 9}, "block": 6}
+    assert settings["randomisation"] == {"target_n": {"tom": 9, "notom": 9}, "block_size": 6}
     assert settings["consent"] == {"adult": plan.settings.consent.adult}
 
 

@@ -30,7 +30,7 @@ from typing import Any
 import click
 from rich.progress import track
 
-from kiosk import DISK_FULL, StoreFailed, program
+from kiosk import DISK_FULL, StorageError, program
 from kiosk.experiment.events import Event, SessionStarted, SpeechFailed
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
@@ -127,7 +127,7 @@ def fill_the_disk(folder: str, seed: int, *, killed: bool) -> None:
         try:
             while True:
                 written = append(recorder, session, chance, written)
-        except StoreFailed as failure:
+        except StorageError as failure:
             say("failed", words=str(failure))
         if killed:
             os.kill(os.getpid(), signal.SIGKILL)

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError, is_nearly_full
+from kiosk import StorageError, UserInputError, is_nearly_full
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
@@ -312,7 +312,7 @@ def test_a_full_disk_is_called_one_whatever_sqlite_says(
     a_day(folder, provenance)
     monkeypatch.setattr(connecting, "is_nearly_full", lambda _: True)
     monkeypatch.setattr(database, "for_writing", failing_with(*what))
-    with pytest.raises(StoreFailed, match=r"the database .* cannot be used: disk full"):
+    with pytest.raises(StorageError, match=r"the database .* cannot be used: disk full"):
         Recorder(folder)
     monkeypatch.setattr(database, "for_reading", failing_with(*what))
     with pytest.raises(UserInputError, match=r"the database .* cannot be read: disk full"):
@@ -350,8 +350,8 @@ def test_a_disk_that_fails_for_now_is_not_called_bad_input(
 ) -> None:
     a_day(folder, provenance)
     monkeypatch.setattr(database, "for_writing", failing_with(sqlite3.SQLITE_BUSY, "database is locked"))
-    with pytest.raises(StoreFailed, match="database is locked"):
+    with pytest.raises(StorageError, match="database is locked"):
         Recorder(folder)
     monkeypatch.undo()
-    with suppress(StoreFailed), Recorder(folder) as recorder:
+    with suppress(StorageError), Recorder(folder) as recorder:
         assert recorder.begin(provenance, COMPLETED).session == 5

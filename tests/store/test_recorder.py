@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError, __version__
+from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, NotRecordedReason, Status
@@ -303,7 +303,7 @@ def test_a_full_disk_fails_in_words_and_nothing_is_half_written(
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         limited(connections[0])
-        with pytest.raises(StoreFailed, match="what happened could not be written: disk full"):
+        with pytest.raises(StorageError, match="what happened could not be written: disk full"):
             recorder.append(many(100))
         assert rows(folder, "SELECT count(*) FROM event") == [(1,)]
         unlimited(connections[0])
@@ -316,7 +316,7 @@ def test_a_disk_that_is_full_when_a_session_begins_keeps_nothing_of_it(
 ) -> None:
     with Recorder(folder) as recorder:
         limited(connections[0])
-        with pytest.raises(StoreFailed, match="disk full"):
+        with pytest.raises(StorageError, match="disk full"):
             recorder.begin(provenance, [START])
         assert rows(folder, "SELECT count(*) FROM session") == [(0,)]
         assert rows(folder, "SELECT count(*) FROM source") == [(0,)]
@@ -325,7 +325,7 @@ def test_a_disk_that_is_full_when_a_session_begins_keeps_nothing_of_it(
 
 
 def test_an_event_without_a_session_is_not_written(folder: Path) -> None:
-    with Recorder(folder) as recorder, pytest.raises(StoreFailed, match="FOREIGN KEY"):
+    with Recorder(folder) as recorder, pytest.raises(StorageError, match="FOREIGN KEY"):
         recorder.append([START])
     assert rows(folder, "SELECT count(*) FROM event") == [(0,)]
 

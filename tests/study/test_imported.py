@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.config import ASSETS
 from kiosk.experiment.questionnaire import ItemOrder, Likert, Questionnaire
 from kiosk.study.csv_import import MODELS, PLAIN, WORDED, Heading, as_toml, read_items, write_questionnaire
@@ -248,6 +248,6 @@ def test_nothing_is_left_of_a_file_that_could_not_be_finished(tmp_path: Path, mo
         raise OSError(28, "No space left on device", str(self), None, str(target))
 
     monkeypatch.setattr(Path, "replace", fail)
-    with pytest.raises(StoreFailed, match="cannot be written: disk full"):
+    with pytest.raises(StorageError, match="cannot be written: disk full"):
         write_questionnaire(Questionnaire.read(SHIPPED[0]), tmp_path / "q.toml")
     assert list(tmp_path.iterdir()) == []

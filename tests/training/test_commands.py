@@ -21,7 +21,7 @@ from kiosk.training import policies
 
 
 def run(*words: str) -> Result:
-    """Call ``recollect`` with these words; BadInput passes through, as it does to ``main``."""
+    """Call ``recollect`` with these words; UserInputError passes through, as it does to ``main``."""
     return CliRunner().invoke(recollect, list(words), catch_exceptions=False)
 
 

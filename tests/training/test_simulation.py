@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import Action, Gate, MoveOutcome, PolicyError, QTable, State
 from kiosk.cli.evidence import difference
@@ -221,7 +221,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkey
     file = tmp_path / "policy.json"
     policies.write_policy(file, "old")
     monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(StoreFailed, match=r"policy\.json cannot be written: disk full"):
+    with pytest.raises(StorageError, match=r"policy\.json cannot be written: disk full"):
         policies.write_policy(file, "new")
     assert file.read_text("utf-8") == "old"
     assert list(tmp_path.iterdir()) == [file]

@@ -45,7 +45,7 @@ class Style:
     @property
     def settings(self) -> Settings:
         """The whole study, looking so."""
-        return whole_study(self.language, contrast=self.palette, board=self.board, text_size=self.text_size)
+        return whole_study(self.language, contrast=self.palette, board_side=self.board, text_size=self.text_size)
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def test_high_contrast_knows_no_pale_tint_and_nothing_that_steps_back() -> None:
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1080, 1920)])
 def test_what_is_said_covers_no_button(make_booth: MakeBooth, qtbot: QtBot, side: str, width: int, height: int) -> None:
-    booth = make_booth(settings=whole_study(board=side))
+    booth = make_booth(settings=whole_study(board_side=side))
     window = booth.app.window
     window.resize(width, height)
     qtbot.waitUntil(lambda: window.contentItem().width() == width)
@@ -149,7 +149,7 @@ def test_what_is_said_covers_no_button(make_booth: MakeBooth, qtbot: QtBot, side
 
 @pytest.mark.parametrize(("side", "left", "right"), [("left", -1.0, -0.5), ("right", 0.5, 1.0)])
 def test_the_avatar_looks_where_the_board_is(make_booth: MakeBooth, side: str, left: float, right: float) -> None:
-    app = make_booth(settings=whole_study(board=side)).app
+    app = make_booth(settings=whole_study(board_side=side)).app
     body = app.embodiments.current
     assert body is not None
     app.screens.board.deal(4, 6, 12, "animals")

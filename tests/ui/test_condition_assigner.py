@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import StoreFailed
+from kiosk import StorageError
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
@@ -65,7 +65,7 @@ def test_what_is_chosen_while_somebody_decides_holds_for_the_session_after_their
 def test_a_list_that_the_disk_does_not_take_is_the_disk_s_failure_and_not_the_study_s(tmp_path: Path) -> None:
     class Full(Recorder):
         def create_allocation_list(self, *_: object, **__: object) -> tuple[AllocationSlot, ...]:
-            raise StoreFailed("the disk is full")
+            raise StorageError("the disk is full")
 
-    with Full(tmp_path) as recorder, pytest.raises(StoreFailed, match="the disk is full"):
+    with Full(tmp_path) as recorder, pytest.raises(StorageError, match="the disk is full"):
         ConditionAssigner(read_study(LISTED), recorder, ORIGIN)

@@ -148,7 +148,7 @@ def test_an_action_of_the_panel_is_done_once(make_booth: MakeBooth, key: Qt.Key)
     booth.app.screens.experimenter.parts[2].wished.connect(lambda action, _choice: wished.append(action))
     booth.item("action-quiet").forceActiveFocus()
     hold(booth.app.window, key)
-    assert wished == ["quiet"]
+    assert wished == ["mute"]
 
 
 def test_a_digit_of_the_pin_counts_once_and_backspace_goes_on(make_booth: MakeBooth) -> None:

@@ -216,7 +216,7 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     card, note, panel = window.screens.experimenter.parts
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
-    line = {"name": MARKUP, "words": PICTURE, "well": False}
+    line = {"name": MARKUP, "message": PICTURE, "is_ok": False}
     panel.set_language(words)
     panel.show_health({"well": False, "summary": MARKUP, "lines": [line]})
     panel.show_records(
@@ -248,7 +248,7 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
 def _names_of_the_panel() -> set[str]:
     """The messages that the panel shows as they stand."""
     files = (QML.parent / "panel").glob("*.qml")
-    return {name for file in files for name in re.findall(r'"(desk-[a-z-]+)"', file.read_text("utf-8"))} | {
+    return {name for file in files for name in re.findall(r'"(console-[a-z-]+)"', file.read_text("utf-8"))} | {
         f"console-counts-{name}" for name in ("dropped", "overridden", "beyond", "withdrawn")
     }
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pytest
 from PySide6.QtCore import Qt
 
-from kiosk import StoreFailed
+from kiosk import StorageError
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Status
 from kiosk.game import Position
@@ -22,12 +22,12 @@ QUICK = short(idle_ms={"game": 3_000, "still_there": 1_000})
 
 def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - the recorder's signature
     """Stand in for a recorder whose disk is full."""
-    raise StoreFailed("what happened could not be written: the disk is full")
+    raise StorageError("what happened could not be written: the disk is full")
 
 
 def refuse_to_begin(self: Recorder, session: Provenance, events: Sequence[Event]) -> None:  # noqa: ARG001 - as above
     """The same where a session is to be stored."""
-    raise StoreFailed("the session could not be stored: the disk is full")
+    raise StorageError("the session could not be stored: the disk is full")
 
 
 def test_a_tap_that_cannot_be_recorded_is_not_shown(

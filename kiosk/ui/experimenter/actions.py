@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
@@ -109,7 +109,7 @@ class AuditLog:
         except StoreBusy as busy:
             self.error = str(busy)
             raise
-        except StoreFailed as failure:
+        except StorageError as failure:
             _log.error("%s", failure)
             self.error = str(failure)
             return False
@@ -220,7 +220,7 @@ class ActionController:
         """Whether there is still patience."""
         try:
             self._busy.try_again(self._act, busy)
-        except StoreFailed as failure:
+        except StorageError as failure:
             self._not_written(failure)
             return False
         self._acts.appendleft(act)
@@ -269,7 +269,7 @@ class ActionController:
             self._booth.assigner.choose(condition, reason)
         except StoreBusy:
             raise
-        except StoreFailed as failure:
+        except StorageError as failure:
             self._not_written(failure)
             return
         # Never a name: the participant may be looking.
@@ -368,7 +368,7 @@ class ActionController:
             self._booth.runner.resume(found.session, found.number, found.past, noted)
         except StoreBusy:
             raise
-        except (UserInputError, InvalidTransition, StoreFailed) as failure:
+        except (UserInputError, InvalidTransition, StorageError) as failure:
             self.tell("console-cannot-resume", why=str(failure))
         else:
             self._hold_for_panel()
@@ -441,7 +441,7 @@ class ActionController:
         self.tell("console-not-written")
         return False
 
-    def _not_written(self, failure: StoreFailed) -> None:
+    def _not_written(self, failure: StorageError) -> None:
         _log.error("%s", failure)
         self._write.error = str(failure)
         self.tell("console-not-written")

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.store.maintenance import FOLDER, FreeSpace, SpaceLevel, back_up, free_space, list_backups
 from kiosk.ui.event_loop import Clock, Executor
@@ -40,10 +40,10 @@ class MaintenanceTasks:
     """How copies are made, and the disk is looked at; another one stands in for it in tests."""
 
     copy: Callable[[], Path]
-    """Raises BadInput or StoreFailed."""
+    """Raises UserInputError or StorageError."""
     last_copy: Callable[[], Path | None]
     free_space: Callable[[], FreeSpace]
-    """Raises BadInput."""
+    """Raises UserInputError."""
 
     @classmethod
     def of(cls, folder: Path, keep: int) -> MaintenanceTasks:
@@ -137,7 +137,7 @@ class MaintenanceScheduler:
     def _copy(self) -> BackupOutcome:
         try:
             return BackupOutcome(self._now_ms(), self._care.copy())
-        except (UserInputError, StoreFailed) as failure:
+        except (UserInputError, StorageError) as failure:
             return BackupOutcome(self._now_ms(), None, str(failure))
 
     def _have_copied(self, copied: BackupOutcome) -> None:

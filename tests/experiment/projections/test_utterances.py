@@ -27,7 +27,7 @@ def asked(number: int, at_ms: int = 0) -> happened.Event:
     return happened.SentenceRequested(at_ms=at_ms, utterance=number, sentence="x")
 
 
-def started(number: int, at_ms: int = 0) -> happened.Event:
+def started(number: int, at_ms: int = 0) -> happened.SpeechStarted:
     """A body began to say a sentence."""
     return happened.SpeechStarted(at_ms=at_ms, utterance=number)
 
@@ -62,15 +62,15 @@ def counted(events: list[Event]) -> SpeechCounts:
 
 def test_a_robot_that_is_lost_in_mid_sentence_failed_to_say_it() -> None:
     ((robot, _),) = attempts([asked(1, 10), started(1, 20), *lost(50)])
-    assert robot == SpeechAttempt(ROBOT, 10, started_ms=20, failed_ms=50)
+    assert robot == SpeechAttempt(ROBOT, 10, started_ms=20, failed_ms=50, heard=started(1, 20))
 
 
 def test_the_avatar_s_new_beginning_is_an_attempt_of_its_own() -> None:
     events = [asked(1, 10), started(1, 20), *lost(50), started(1, 60), finished(1, 90)]
     assert attempts(events) == [
         (
-            SpeechAttempt(ROBOT, 10, started_ms=20, failed_ms=50),
-            SpeechAttempt(AVATAR, 50, started_ms=60, finished_ms=90),
+            SpeechAttempt(ROBOT, 10, started_ms=20, failed_ms=50, heard=started(1, 20)),
+            SpeechAttempt(AVATAR, 50, started_ms=60, finished_ms=90, heard=started(1, 60)),
         )
     ]
 

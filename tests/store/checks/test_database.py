@@ -168,7 +168,12 @@ def test_a_list_that_is_used_up_is_told_of(folder: Path, provenance: Provenance)
 
 @pytest.mark.parametrize(
     "other",
-    [{"quotas": {"tom": 4, "notom": 8}, "block": 6}, {"block": 8}, {"seed": 2}, {"quotas": {"tom": 2, "notom": 2}}],
+    [
+        {"target_n": {"tom": 4, "notom": 8}, "block_size": 6},
+        {"block_size": 8},
+        {"seed": 2},
+        {"target_n": {"tom": 2, "notom": 2}},
+    ],
 )
 def test_another_list_than_the_fixed_one_is_bad_before_the_kiosk_refuses_it(
     other: dict[str, object], folder: Path, provenance: Provenance

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event
 from kiosk.store import maintenance
@@ -215,7 +215,7 @@ def test_a_copy_that_the_disk_does_not_take_leaves_the_older_ones(
 
     with monkeypatch.context() as patched:
         patched.setattr(os, "fsync", full)
-        with pytest.raises(StoreFailed, match=r"the copy in .* could not be written: disk full"):
+        with pytest.raises(StorageError, match=r"the copy in .* could not be written: disk full"):
             back_up(folder, into, keep=1)
     assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock"}
     assert len(events_in(copy)) == 301
@@ -231,7 +231,7 @@ def test_a_copy_that_is_not_whole_is_not_kept(
     damaged = bytearray((folder / FILE).read_bytes())
     damaged[-4096:] = b"\xff" * 4096
     (folder / FILE).write_bytes(damaged)
-    with pytest.raises(StoreFailed, match=r"the copy of .* is not whole: |could not be written: "):
+    with pytest.raises(StorageError, match=r"the copy of .* is not whole: |could not be written: "):
         back_up(folder, into)
     assert list_backups(into) == [older]
     monkeypatch.undo()

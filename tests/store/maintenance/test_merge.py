@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import NotRecordedReason
@@ -416,7 +416,7 @@ def test_a_disk_that_fails_in_the_middle_leaves_nothing(
     there = sorted(milan.parent.iterdir())
     with monkeypatch.context() as patched:
         patched.setattr(merge_module, "insert", failing)
-        with pytest.raises(StoreFailed, match=r"out could not be written: database or disk is full"):
+        with pytest.raises(StorageError, match=r"out could not be written: database or disk is full"):
             merge([milan, girona], out)
     assert sorted(milan.parent.iterdir()) == there
     assert merge([milan, girona], out) == 7

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment.randomisation import AllocationSource
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.database import FILE, open_for_writing
@@ -206,7 +206,7 @@ def test_a_disk_that_does_not_take_it_keeps_everything(
 
     with monkeypatch.context() as patched:
         patched.setattr(withdraw_module, "open_for_writing", unwritable)
-        with pytest.raises(StoreFailed, match="nothing was withdrawn: "):
+        with pytest.raises(StorageError, match="nothing was withdrawn: "):
             withdraw(folder, code)
     assert state(folder) == before
     assert len(list_backups(folder / FOLDER)) == 2
@@ -215,11 +215,11 @@ def test_a_disk_that_does_not_take_it_keeps_everything(
 
 def test_copies_that_could_not_be_replaced_are_told(folder: Path, code: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object, **__: object) -> Path:
-        raise StoreFailed("the disk is full")
+        raise StorageError("the disk is full")
 
     monkeypatch.setattr(withdraw_module, "back_up", full)
     with pytest.raises(
-        StoreFailed, match=r"the participant was withdrawn, but the 2 copies in .* still hold them: the disk is full"
+        StorageError, match=r"the participant was withdrawn, but the 2 copies in .* still hold them: the disk is full"
     ):
         withdraw(folder, code)
     assert ANSWER.encode() not in (folder / FILE).read_bytes()

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.preflight import Severity
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.checks import database_check
@@ -183,11 +183,11 @@ def cut_off(data: Path, code: str, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder whose copies could not be replaced."""
 
     def full(*_: object, **__: object) -> Path:
-        raise StoreFailed("disk full")
+        raise StorageError("disk full")
 
     with monkeypatch.context() as patched:
         patched.setattr(withdraw_module, "back_up", full)
-        with pytest.raises(StoreFailed, match="give the same command again, or open the kiosk, to finish it"):
+        with pytest.raises(StorageError, match="give the same command again, or open the kiosk, to finish it"):
             withdraw(data, code)
     return data
 
@@ -215,7 +215,7 @@ def test_a_withdrawal_that_cannot_be_finished_keeps_no_kiosk_shut(
     cut_off: Path, code: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object, **__: object) -> Path:
-        raise StoreFailed("disk full")
+        raise StorageError("disk full")
 
     with monkeypatch.context() as patched:
         patched.setattr(withdraw_module, "back_up", full)

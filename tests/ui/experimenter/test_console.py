@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtQuick import QQuickItem
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage, Status
@@ -313,7 +313,7 @@ def test_what_the_disk_does_not_take_is_not_done_and_said(assigner: Desk, monkey
 
 def refuse_to_write(*_: object) -> None:
     """A disk that takes nothing."""
-    raise StoreFailed("what happened could not be written: disk I/O error")
+    raise StorageError("what happened could not be written: disk I/O error")
 
 
 def test_visitors_see_neither_panel_nor_card_while_nobody_asks_for_them(assigner: Desk) -> None:

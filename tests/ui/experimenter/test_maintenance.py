@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 import pytest
 
-from kiosk import StoreFailed, UserInputError
+from kiosk import StorageError, UserInputError
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Stage
 from kiosk.experiment.experimenter import AuditEvent
@@ -172,7 +172,7 @@ def test_no_copy_is_made_during_a_session_and_it_is_made_up_for_right_after() ->
     assert place.copies == 1
 
 
-@pytest.mark.parametrize("failure", [UserInputError("no place"), StoreFailed("no room")])
+@pytest.mark.parametrize("failure", [UserInputError("no place"), StorageError("no room")])
 def test_a_copy_that_fails_is_told_and_tried_again(failure: Exception, caplog: pytest.LogCaptureFixture) -> None:
     place = Place()
     place.failure = failure
