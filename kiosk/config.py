@@ -47,7 +47,7 @@ class ConfigModel(BaseModel):
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Read a file; raises UserInputError with a sentence for everything that is wrong, naming the file and the key."""
+        """Read a file; raise UserInputError with a sentence for each fault, naming the file and the key."""
         name = f"the {cls.file_kind} {path}"
         given = _toml(name, path)
         try:

@@ -112,7 +112,7 @@ class _WithoutWords(logging.Formatter):
 def log_into(folder: Path, *, shared: bool = False) -> None:
     """Keep a log in a data folder, in files that never grow large; it holds faults and failures, nothing personal.
 
-    With ``shared`` only lines are added to what another process keeps. Raises UserInputError if it cannot be written there.
+    With ``shared`` only lines are added to what another process keeps. Raises UserInputError if it cannot be written.
     """
     logging.basicConfig(handlers=[log_file(folder, shared=shared)], level=logging.WARNING)
 

@@ -48,7 +48,7 @@ class DecisionCase(BaseModel):
     target_rule: Literal["most_flipped", "most_recent"] = AssistanceConfig().target_rule
 
     def moment(self) -> DecisionContext:
-        """What the case describes; raises UserInputError or ValueError for names that do not exist and impossible boards."""
+        """Return what the case describes; raise UserInputError or ValueError for unknown names and impossible boards."""
         board = Board(SHAPE.rows, SHAPE.columns, tuple(self.board))
         return DecisionContext(
             board=board,

@@ -160,7 +160,7 @@ _TAKEN = {
 
 
 def shortcuts(keys: Keys) -> dict[Action, str]:
-    """The shortcut of every action that has one; raises UserInputError, naming its key, for one that could never be heard."""
+    """Return the shortcut of every action that has one; raise UserInputError for one that can never be heard."""
     found = {Action(name): shortcut for name, shortcut in keys.model_dump().items() if shortcut}
     for action, shortcut in found.items():
         _check(action, shortcut)

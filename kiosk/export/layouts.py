@@ -375,7 +375,7 @@ class Bids(Layout):
         }
 
     def _label(self, kept: SessionRecord) -> str:
-        """What a participant's folder is called; raises UserInputError if that of another is the same for some systems."""
+        """Name a participant's folder; raise UserInputError if some systems take it for that of another."""
         label = bids_label(kept)
         if fold_name(label) in self._labels:
             raise UserInputError(f"two participants would have the folder {label!r} where capitals do not count")

@@ -237,7 +237,7 @@ UNFINISHED = ".unfinished"
 def atomic_directory(out: Path) -> Iterator[Path]:
     """A new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
 
-    Raises UserInputError if it cannot be made, or if there is one already, which the end of the program cut off: it may hold
+    Raises UserInputError if it cannot be made, or if the end of the program cut off an earlier one there: it may hold
     what people said, so somebody should know of it. Raises OSError if the disk does not take all of it.
     """
     made = out.with_name(out.name + UNFINISHED)

@@ -254,7 +254,7 @@ class Newer(UserInputError):
 
 
 def lock_folder(folder: Path) -> FileLock:
-    """Be the only one who writes in a data folder, until the lock is released; raises UserInputError if somebody else does.
+    """Lock a data folder for writing until the lock is released; raise UserInputError if another program writes in it.
 
     It comes before the database is opened: a newer program must not migrate it under a kiosk that runs. Raises
     StorageError on a full disk.

@@ -51,7 +51,7 @@ class FreeSpace:
 
 
 def free_space(folder: Path) -> FreeSpace:
-    """The room that is left for a data folder, whether or not it is there yet; raises UserInputError if nobody can say."""
+    """Return the free space of a data folder, whether or not it exists yet; raise UserInputError if it is unknown."""
     there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
     try:
         return FreeSpace(shutil.disk_usage(there).free // MIB)
@@ -84,7 +84,7 @@ def back_up(
     """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
-    ``amend`` may change the copy before it is checked. Raises UserInputError if there is nothing to copy or no place for it,
+    ``amend`` may change the copy before it is checked. Raises UserInputError if there is nothing to copy or no place,
     StorageError if the copy could not be written whole; older copies are then as they were.
     """
     if keep < 1:

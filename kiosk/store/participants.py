@@ -241,7 +241,7 @@ class AllocationLists:
 
 
 def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> None:
-    """Raise UserInputError if the place of a session was given out again while it was cut off, and that game completed."""
+    """Raise UserInputError if another completed game took the place of a session that was cut off."""
     site, simulated, place, finished = connection.execute(
         """
         SELECT site, simulated, place, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
