@@ -48,7 +48,7 @@ class DecisionCase(BaseModel):
     target_rule: Literal["most_flipped", "most_recent"] = AssistanceConfig().target_rule
 
     def moment(self) -> DecisionContext:
-        """Return what the case describes; raise UserInputError or ValueError for unknown names and impossible boards."""
+        """Return what the case describes; raise UserInputError or ValueError if it cannot be."""
         board = Board(SHAPE.rows, SHAPE.columns, tuple(self.board))
         return DecisionContext(
             board=board,
