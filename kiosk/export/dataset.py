@@ -48,7 +48,7 @@ def export_dataset(
 ) -> Exported:
     """Write the data set of the data folder ``data`` into the new folder ``out``.
 
-    ``tell`` hears how many sessions are done, of how many. Raises UserInputError, writing nothing, if there is nothing to
+    ``tell`` hears how many sessions are done, of how many. Raises UserInputError if there is nothing to
     export or ``out`` cannot be used.
     """
     kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
