@@ -575,9 +575,9 @@ def pin_check(experimenter: ExperimenterConfig) -> Iterator[CheckResult]:
 
 def shortcuts_check(shortcuts: Keys) -> Iterator[CheckResult]:
     """Whether the experimenter can get in and out; shortcuts that are none, or double, are refused with the file."""
-    without = [name for name in ("panel", "leave") if not getattr(shortcuts, name)]
+    without = [name for name in ("panel", "quit") if not getattr(shortcuts, name)]
     if without:
-        remedy = f"give keys.{without[0]} a shortcut, such as 'Ctrl+Shift+P'"
+        remedy = f"give shortcuts.{without[0]} a shortcut, such as 'Ctrl+Shift+P'"
         yield CheckResult.warning(KEYS, f"there is none for {' and '.join(without)}", remedy)
     else:
         yield CheckResult.good(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.quit} leaves the kiosk")

@@ -183,7 +183,7 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
             folder = data or Path(mkdtemp(dir=tmp_path))
             given = {"experimenter": {"pin_hash": LINE}, "randomisation": {"target_n": {}}, **TINY, **sections}
             stack = built.enter_context(ExitStack())
-            condition = None if "allocation" in sections else "tom"
+            condition = None if "randomisation" in sections else "tom"
             settings = Settings.model_validate(given)
             app = stack.enter_context(headless(settings, folder, condition=condition, robot=device))
             qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
