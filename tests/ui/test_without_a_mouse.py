@@ -133,7 +133,7 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
         keyboard.press(Qt.Key.Key_Escape)
     assert not booth.app.experimenter.panel.is_open
     noted = {
-        each.note: each.body["reason"]
+        each.kind: each.body["reason"]
         for each in read_snapshot(booth.data, 0, simulated=True).deviations
         if each.body.get("reason")
     }
