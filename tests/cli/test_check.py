@@ -74,7 +74,7 @@ def test_all_of_a_booth_is_looked_at_and_nothing_is_left_behind(recollect: Recol
     called = recollect("--data", tmp_path / "data", "--json")
     found = json.loads(called.out)
     names = {each["what"] for each in found["findings"]}
-    assert names >= {"study file", "languages", "policy", "PIN", "keys", "screen", "drawing", "sound", "robot"}
+    assert names >= {"study file", "languages", "policy", "PIN", "shortcuts", "screen", "drawing", "sound", "robot"}
     assert names >= {"voice: en", "voice: it", "voice: es", "disk", "data folder", "writing", "database", "places"}
     assert names >= {"clock", "machine", "program", "log", "kept up"}
     assert {each["what"] for each in found["findings"] if each["state"] == "bad"} == {"screen"}
