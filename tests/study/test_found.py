@@ -64,4 +64,4 @@ def test_an_experimenter_who_could_not_get_out_is_told() -> None:
     (told,) = loader.shortcuts_check(Keys())
     (locked,) = loader.shortcuts_check(Keys(quit=""))
     assert (told.state, Keys().quit in told.words) == (Severity.GOOD, True)
-    assert (locked.state, "leave" in locked.words) == (Severity.WARNING, True)
+    assert (locked.state, "quit" in locked.words) == (Severity.WARNING, True)
