@@ -122,6 +122,7 @@ Window {
             cardShadow: root.cardShadow
             onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
             onWon: if (!root.board.practice) feast.begin()
+            onVisibleChanged: if (!visible) helper.stopNoticing()
         }
         ResultView {
             anchors.fill: parent

@@ -16,6 +16,10 @@ Item {
         noticed = place
         attention.restart()
     }
+    // The next visitor must not meet a face that still looks where the last one touched.
+    function stopNoticing() {
+        attention.stop()
+    }
     function towards(place: real, middle: real): real {
         return Math.max(-1, Math.min(1, (place - middle) / (500 * Theme.unit)))
     }
