@@ -16,7 +16,7 @@ from kiosk.experiment.experimenter import pin_matches
 
 def choose(*typed: str, options: tuple[str, ...] = ()) -> Result:
     """Run the command, and type these lines."""
-    return CliRunner().invoke(recollect, ["study", "pin", *options], input="".join(f"{line}\n" for line in typed))
+    return CliRunner().invoke(recollect, ["study", "set-pin", *options], input="".join(f"{line}\n" for line in typed))
 
 
 def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
@@ -28,7 +28,7 @@ def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
 
 
 def test_two_of_the_same_pin_have_lines_of_their_own() -> None:
-    lines = {json.loads(choose("2580", "2580", options=("--json",)).stdout)["pin"] for _ in range(2)}
+    lines = {json.loads(choose("2580", "2580", options=("--json",)).stdout)["pin_hash"] for _ in range(2)}
     assert len(lines) == 2
 
 
