@@ -28,6 +28,7 @@ from kiosk.analysis.calibrate import (
 )
 from kiosk.analysis.memory_likelihood import Array, PlayedGame, move_likelihood
 from kiosk.analysis.policy_figures import STYLE
+from kiosk.analysis.simulated_study import follows_hint
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import Action, QTable
 from kiosk.experiment.condition import Condition, target_rule
@@ -160,7 +161,7 @@ class _Facts:
         """Count in one game."""
         hinted = [flip for flip in game.flips if flip[1] != Action.NO_HELP]
         levels = sum(Action(action).level for _, action, _ in hinted)
-        followed = sum(_follows(flip, game.columns) for flip in hinted)
+        followed = sum(follows_hint(*flip, game.columns) for flip in hinted)
         seen, matched, found = [0] * len(AGES), [0] * len(AGES), 0
         last: dict[int, int] = {}
         for at, (place, action, _) in enumerate(game.flips):
@@ -176,13 +177,6 @@ class _Facts:
             last[place] = at + 1
         complete = 2 * found == len(game.mates)
         return cls(len(game.flips), complete, levels, len(hinted), followed, tuple(seen), tuple(matched))
-
-
-def _follows(flip: tuple[int, int, int], columns: int) -> bool:
-    place, action, target = flip
-    if action == Action.SUG_CARD:
-        return place == target
-    return place % columns == target % columns if action == Action.SUG_COL else place // columns == target // columns
 
 
 def _mean_flips(games: Sequence[_Facts]) -> float:

@@ -106,13 +106,13 @@ def game_measures(game: RecordedGame) -> Numbers:
     }
 
 
-def follows_hint(place: int, action: int, target: int) -> bool:
+def follows_hint(place: int, action: int, target: int, columns: int = BOARD_COLUMNS) -> bool:
     """Whether a flip follows its hint: it is the hinted card, or lies in the hinted row or column."""
     if action == Action.SUG_CARD:
         return place == target
     if action == Action.SUG_COL:
-        return place % BOARD_COLUMNS == target % BOARD_COLUMNS
-    return place // BOARD_COLUMNS == target // BOARD_COLUMNS
+        return place % columns == target % columns
+    return place // columns == target // columns
 
 
 def _measures(game: RecordedGame, rng: np.random.Generator, shifts: Mapping[str, float]) -> Numbers:

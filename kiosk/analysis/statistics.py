@@ -73,16 +73,13 @@ def _require_spread(*groups: Floats) -> None:
 def welch(x: Floats, y: Floats, level: float = 0.95) -> TestResult:
     """Test the difference of two means, x less y, without assuming equal variances; two-sided."""
     _require_spread(x, y)
-    a, b = x.var(ddof=1) / len(x), y.var(ddof=1) / len(y)
-    df = (a + b) ** 2 / (a**2 / (len(x) - 1) + b**2 / (len(y) - 1))
-    return _t_test(x.mean() - y.mean(), math.sqrt(a + b), df, level)
+    return _t_test(x.mean() - y.mean(), *welch_error(x, y), level)
 
 
 def student(x: Floats, y: Floats, level: float = 0.95) -> TestResult:
     """Test the difference of two means, x less y, with a pooled variance; two-sided."""
     _require_spread(x, y)
-    df = len(x) + len(y) - 2
-    return _t_test(x.mean() - y.mean(), pooled_sd(x, y) * math.sqrt(1 / len(x) + 1 / len(y)), df, level)
+    return _t_test(x.mean() - y.mean(), *student_error(x, y), level)
 
 
 def _t_test(difference: float, error: float, df: float, level: float) -> TestResult:
@@ -109,14 +106,21 @@ def equivalence(x: Floats, y: Floats, bound: float, alpha: float = 0.05) -> Test
     """
     test = welch(x, y, 1 - 2 * alpha)
     df, difference = test.df or 0.0, test.estimate or 0.0
-    error = difference / test.statistic if difference else _welch_error(x, y)
+    error, _ = welch_error(x, y)
     sides = [(difference + bound) / error, (bound - difference) / error]
     statistic = min(sides)
     return TestResult(statistic, float(special.stdtr(df, -statistic)), df, difference, test.low, test.high)
 
 
-def _welch_error(x: Floats, y: Floats) -> float:
-    return math.sqrt(x.var(ddof=1) / len(x) + y.var(ddof=1) / len(y))
+def welch_error(x: Floats, y: Floats) -> tuple[float, float]:
+    """Return the standard error of a difference of two means and its degrees of freedom (Welch)."""
+    a, b = x.var(ddof=1) / len(x), y.var(ddof=1) / len(y)
+    return math.sqrt(a + b), float((a + b) ** 2 / (a**2 / (len(x) - 1) + b**2 / (len(y) - 1)))
+
+
+def student_error(x: Floats, y: Floats) -> tuple[float, float]:
+    """Return the same with a variance that both groups share (Student)."""
+    return pooled_sd(x, y) * math.sqrt(1 / len(x) + 1 / len(y)), len(x) + len(y) - 2
 
 
 # Ranks and permutations
@@ -377,7 +381,7 @@ def bayes_factor(t: float, n: int, m: int, scale: float = math.sqrt(0.5)) -> flo
 
 
 ROBUSTNESS = (0.5, math.sqrt(0.5), 1.0, 1.4)
-"""The prior scales over which a Bayes factor is told."""
+"""The prior scales for which a Bayes factor is reported."""
 
 
 # Corrections
