@@ -141,7 +141,7 @@ class Timing(ConfigModel):
     ] = 0
     mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
     finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
-    thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay, if nobody taps them away.")] = (
+    thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay unless they are tapped away.")] = (
         12_000
     )
 
@@ -197,7 +197,7 @@ class Allocation(ConfigModel):
 
     target_n: Annotated[
         dict[str, Annotated[int, Field(ge=1, le=10_000)]],
-        Field(description="How many completed games each condition shall have, per site; empty: no allocation."),
+        Field(description="The target number of completed games of each condition, per site; empty: no allocation."),
     ] = {"tom": 28, "notom": 28}
     block_size: Annotated[
         int, Field(ge=1, le=1000, description="How many visitors make a block, in which every condition has its share.")

@@ -96,7 +96,7 @@ class Explanation:
     """One decision with everything around it.
 
     ``candidates`` are all cards the target rule could choose before this flip; they do not depend on the action, so
-    they are there when no help is given as well. They are empty where nobody helps. ``said`` is the sentence that
+    they are there when no help is given as well. They are empty without an assistant. ``said`` is the sentence that
     was said, where the moment is one that has been.
     """
 
@@ -151,7 +151,7 @@ def explain_decision(
     *,
     overridden: bool = False,
 ) -> Explanation:
-    """Lay open a decision about the coming flip of ``game``; without a mentaliser and a speaker nobody helps."""
+    """Lay open a decision about the coming flip of ``game``; without a mentaliser and a speaker there is no help."""
     candidates = mentaliser.candidates(game) if mentaliser else ()
     sentences = speaker.all_wordings(decision.hint) if speaker and decision.hint else ()
     return Explanation(game.board, decision, candidates, sentences, overridden)
