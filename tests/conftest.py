@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from tempfile import TemporaryDirectory
 
 import pytest
 
+HOME = pytest.StashKey[TemporaryDirectory[str]]()
 
-@pytest.fixture(scope="session", autouse=True)
-def data_home() -> Iterator[None]:
-    """Keep the default data folder of this process, and of those that it starts, in a temporary directory."""
-    with TemporaryDirectory(prefix="recollect-tests-") as home, pytest.MonkeyPatch.context() as environment:
-        environment.setenv("XDG_DATA_HOME", os.fspath(home))
-        yield
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep the default data folder of this process, and of those that it starts, in a temporary directory.
+
+    The commands read the folder when they are imported, so a fixture would come too late.
+    """
+    config.stash[HOME] = TemporaryDirectory(prefix="recollect-tests-")
+    os.environ["XDG_DATA_HOME"] = config.stash[HOME].name
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Delete that directory."""
+    config.stash[HOME].cleanup()
