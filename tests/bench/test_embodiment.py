@@ -36,7 +36,7 @@ FAR_TOO_LONG_MS = 500
 def kiosk(data: Path, pace: ClockMode, fake: FurhatFake) -> Iterator[App]:
     """A kiosk with this robot, which is tried again soon after a loss."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "backoff_initial_ms": 5, "backoff_max_ms": 5}
-    with headless(short(robot=robot), data, mode=RunMode(WindowMode.NOWHERE, pace)) as app:
+    with headless(short(robot=robot, voice={"device": "null"}), data, mode=RunMode(WindowMode.NOWHERE, pace)) as app:
         yield app
 
 

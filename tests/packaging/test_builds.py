@@ -77,7 +77,7 @@ def test_a_built_folder_plays_the_very_session_that_the_checkout_plays(folder: P
 
 def test_the_voice_of_a_build_answers(folder: Path) -> None:
     done = subprocess.run(
-        [folder / "recollect", "_voice", "en", "150", "0.5"],
+        [folder / "recollect", "_voice", json.dumps({"language": "en", "rate": 150, "volume": 0.5, "device": "null"})],
         input='{"quit": true}\n',
         capture_output=True,
         text=True,
