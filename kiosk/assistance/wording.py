@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -24,6 +24,11 @@ _log = logging.getLogger(__name__)
 
 CARD = "card"
 """The variable that is a card's name, and what the messages of cards begin with."""
+
+
+# Parsing a language takes a tenth of a second, and every decision that is explained and every study that is read needs
+# one. A parsed file is never changed: a bundle compiles it into objects of its own.
+_parsed = lru_cache(maxsize=64)(FluentResource)
 
 
 class Catalogue:
@@ -48,7 +53,7 @@ class Catalogue:
         self._next: tuple[Catalogue, ...] = ()
         self._warned: set[str] = set()
         for name, source in sorted(self.sources.items()):
-            resource = FluentResource(source)
+            resource = _parsed(source)
             for entry in resource.body:
                 self._check(entry, (files or {}).get(name, folder / name), source)
             self._bundle.add_resource(resource)
