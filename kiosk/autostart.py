@@ -22,11 +22,11 @@ _ANSWER_S = 1.5
 
 def autostart_check() -> Iterator[CheckResult]:
     """Whether the kiosk is started again when it dies, and comes up with the machine."""
-    keepers = [*(("a supervisor runs",) if supervisor_runs() else ()), *(f"{name} is enabled" for name in enabled())]
-    if keepers:
-        yield CheckResult.good(WHAT, ", ".join(keepers))
+    reasons = [*(("a supervisor runs",) if supervisor_runs() else ()), *(f"{name} is enabled" for name in enabled())]
+    if reasons:
+        yield CheckResult.good(WHAT, ", ".join(reasons))
     else:
-        remedy = "open it with 'recollect keep', or enable the service (packaging/README.md)"
+        remedy = "open it with 'recollect run --supervise', or enable the service (packaging/README.md)"
         yield CheckResult.warning(WHAT, "nobody starts the kiosk again if it dies or hangs", remedy)
 
 
@@ -36,11 +36,10 @@ def supervisor_runs() -> bool:
 
 
 def is_supervisor(command: Sequence[str]) -> bool:
-    """Whether a command line is a supervisor's: ``recollect keep``, or ``python -m kiosk keep``."""
-    try:
-        ours = command[command.index("keep") - 1]
-    except ValueError:
+    """Whether a command line is a supervisor's: ``recollect run --supervise``, or ``python -m kiosk`` with the same."""
+    if "--supervise" not in command or "run" not in command:
         return False
+    ours = command[command.index("run") - 1]
     return ours == "kiosk" or Path(ours).stem == "recollect"
 
 

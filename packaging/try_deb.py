@@ -27,10 +27,10 @@ PIN = f"scrypt:{'0' * 32}:{'0' * 64}"
 
 KEEP = f"""
 printf '[experimenter]\npin = "{PIN}"\n' > study.toml
-recollect keep --json --data {DATA} -- --study study.toml > kept &
+recollect run --supervise --json --data {DATA} --study study.toml > kept &
 supervisor=$!
 for _ in $(seq 300); do grep -q '"ready"' kept && break; sleep 0.1; done
-kill -9 $(pgrep -f '^[^ ]*recollect open')
+kill -9 $(pgrep -f '^[^ ]*recollect run --unattended')
 for _ in $(seq 300); do grep -c '"ready"' kept | grep -q 2 && break; sleep 0.1; done
 kill -TERM $supervisor
 wait $supervisor

@@ -49,7 +49,7 @@ def check_pin(settings: Settings) -> None:
     if not settings.experimenter.pin_hash:
         raise UserInputError(
             "no PIN is set, so the kiosk is not started unattended: put what 'recollect study set-pin' prints into the "
-            "study file, and name the file with --study; 'recollect open' runs a trial without a PIN"
+            "study file, and name the file with --study; 'recollect run' alone opens a trial without a PIN"
         )
 
 

@@ -22,8 +22,7 @@ DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
 
 _COMMANDS = {
-    "open": "kiosk.cli.run:open_kiosk",
-    "keep": "kiosk.cli.run:keep_command",
+    "run": "kiosk.cli.run:run_command",
     "rehearse": "kiosk.cli.rehearse:rehearse",
     "check": "kiosk.cli.check:check_command",
     "study": "kiosk.cli.study:study",
@@ -51,7 +50,7 @@ _WORKERS = {
 }
 """Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
 
-_WITH_A_WINDOW = frozenset({"open", "rehearse", "replay"})
+_WITH_A_WINDOW = frozenset({"run", "rehearse", "replay"})
 
 
 class RootGroup(click.Group):
@@ -80,7 +79,7 @@ def recollect(context: click.Context) -> None:
     Without a command it opens the kiosk.
     """
     if context.invoked_subcommand is None:
-        context.invoke(recollect.get_command(context, "open"))  # type: ignore[arg-type]  # it is in the table
+        context.invoke(recollect.get_command(context, "run"))  # type: ignore[arg-type]  # it is in the table
 
 
 def main() -> Never:
@@ -133,6 +132,6 @@ def _end_at_once_while_opening(arguments: Sequence[str]) -> None:
 
     Raised as an exception while Qt is loaded or the window is built, it would be lost in a callback, or end in a crash.
     """
-    command = next((argument for argument in arguments if not argument.startswith("-")), "open")
+    command = next((argument for argument in arguments if not argument.startswith("-")), "run")
     if command in _WITH_A_WINDOW and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from random import SystemRandom
@@ -17,7 +17,6 @@ from kiosk import UserInputError, program
 from kiosk.cli.composition import check_pin, code_commit, log_into, read_settings
 from kiosk.cli.options import (
     data_option,
-    json_option,
     robot_host_option,
     robot_port_option,
     site_option,
@@ -36,27 +35,50 @@ SEED_BITS = 63
 """As many as the column holds: boards are published, and nobody shall find a seed, and with it the code, by trying."""
 
 
-@click.command("open")
+@click.command("run")
 @data_option
 @study_option
 @robot_host_option
 @robot_port_option
 @site_option
-@click.option("--unattended", is_flag=True, hidden=True, help="Refuse a study without a PIN; the supervisor says so.")
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
-@json_option
-def open_kiosk(
+@click.option(
+    "--supervise",
+    is_flag=True,
+    help="Start the kiosk again whenever it dies or hangs; the study needs a PIN ('recollect study set-pin').",
+)
+@click.option(
+    "--silence",
+    type=click.FloatRange(1, 600),
+    default=Timeouts.silence,
+    show_default=True,
+    help="With --supervise: seconds without a sign of life after which the kiosk hangs.",
+)
+@click.option("--unattended", is_flag=True, hidden=True, help="Refuse a study without a PIN; the supervisor says so.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs; with --supervise a line per event.")
+@click.pass_context
+def run_command(
+    context: click.Context,
     data: Path,
     study: Path | None,
     site: str,
     robot_host: str | None,
     robot_port: int | None,
+    silence: float,
     *,
-    unattended: bool,
     window: bool,
+    supervise: bool,
+    unattended: bool,
     as_json: bool,
 ) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
+    if supervise:
+        options = ("--data", str(data), "--site", site, *(("--study", str(study)) if study else ()))
+        robot = (*(("--robot-host", robot_host) if robot_host is not None else ()),)
+        robot += ("--robot-port", str(robot_port)) if robot_port is not None else ()
+        _refuse_without_pin(study)
+        kiosk = program("run", "--unattended", *options, *robot, *(("--window",) if window else ()))
+        context.exit(_supervise(kiosk, data, silence, as_json=as_json))
     with guarded() as beat:
         told = _open(data, study, site, robot_host, robot_port, beat, unattended=unattended, window=window)
     click.echo(json.dumps(told) if as_json else f"{told['sessions']} sessions were recorded in {data}.")
@@ -101,28 +123,8 @@ _TROUBLE = {
 _log = logging.getLogger(__name__)
 
 
-@click.command()
-@data_option
-@click.option(
-    "--silence",
-    type=click.FloatRange(1, 600),
-    default=Timeouts.silence,
-    show_default=True,
-    help="Seconds without a sign of life after which the kiosk hangs.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print what happens as JSON lines, for programs.")
-@click.argument("options", nargs=-1, type=click.UNPROCESSED)
-@click.pass_context
-def keep_command(
-    context: click.Context, data: Path, silence: float, options: tuple[str, ...], *, as_json: bool
-) -> None:
-    """Open the kiosk and start it again whenever it dies or hangs; it ends when the experimenter leaves it.
-
-    The study needs a PIN: 'recollect study set-pin' prints the lines for its file.
-
-    OPTIONS after -- are those of 'recollect open'.
-    """
-    _refuse_without_pin(options)
+def _supervise(kiosk: Sequence[str], data: Path, silence: float, *, as_json: bool) -> int:
+    """Start the kiosk with this command, again and again, until it is left; returns the exit code."""
     log_into(data, shared=True)
 
     def tell(happening: SupervisorEvent) -> None:
@@ -130,21 +132,17 @@ def keep_command(
             click.echo(json.dumps(asdict(happening) | {"what": happening.what.value}))
         _write_down(happening)
 
-    kiosk = program("open", "--unattended", "--data", str(data), *options)
     supervisor = Supervisor(kiosk, program("_splash"), tell, Timeouts(silence=silence))
     for ending in (signal.SIGINT, signal.SIGTERM):
         signal.signal(ending, lambda *_: supervisor.end())
     code = supervisor.run()
     if code == REFUSED:
         click.echo("recollect: the kiosk refused what it was given, so it is not started again", err=True)
-    context.exit(code)
+    return code
 
 
-def _refuse_without_pin(options: tuple[str, ...]) -> None:
-    """Raise UserInputError for a study without a PIN, before a window is shown; what else is wrong the kiosk says."""
-    only_study = click.Command("open", params=[click.Option(["--study"], type=click.Path(path_type=Path))])
-    only_study.ignore_unknown_options = only_study.allow_extra_args = True
-    study = only_study.make_context("open", list(options), resilient_parsing=True).params["study"]
+def _refuse_without_pin(study: Path | None) -> None:
+    """Raise UserInputError for a study without a PIN, before a window is shown; the kiosk reports other mistakes."""
     try:
         settings = read_settings(study)
     except UserInputError:

@@ -281,8 +281,8 @@ class Session:
     def check(self, event: WorldEvent) -> None:
         """Raise InvalidTransition if this event has no place now."""
         check_expected(self.stage, event)
-        keepers = (self._presence, self._talk, self._scenery.of(self.stage))
-        if not self._can_come(event) or not all(supervisor.accepts(event) for supervisor in keepers):
+        parts = (self._presence, self._talk, self._scenery.of(self.stage))
+        if not self._can_come(event) or not all(part.accepts(event) for part in parts):
             raise InvalidTransition(self.stage, event)
 
     def _can_come(self, event: WorldEvent) -> bool:

@@ -569,7 +569,7 @@ def pin_check(experimenter: ExperimenterConfig) -> Iterator[CheckResult]:
         yield CheckResult.good(PIN, "set")
     else:
         remedy = "put what 'recollect study set-pin' prints into the study file, under [experimenter]"
-        words = "none: every session is a trial, which is not exported, and 'recollect keep' does not start"
+        words = "none: every session is a trial, which is not exported, and 'recollect run --supervise' does not start"
         yield CheckResult.warning(PIN, words, remedy)
 
 

@@ -142,7 +142,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
     command = arguments[0] if arguments else ""
     if "study.toml" in row and not into:
         (newcomer.home / "study.toml").write_text(WITH_PIN)
-    if command == "keep":
+    if "--supervise" in arguments:
         assert is_kept_up(newcomer, arguments)
         return
     has_a_window = command in {"", "replay"}

@@ -1,4 +1,4 @@
-"""``recollect keep`` with the real kiosk, on no screen: it comes back, says so, and ends as it should."""
+"""``recollect run --supervise`` with the real kiosk, on no screen: it comes back, says so, and ends as it should."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ class Kept:
     def kiosk(self) -> int:
         """The process of the kiosk."""
         own = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
-        return next(int(child) for child in own if b"\0open\0" in Path(f"/proc/{child}/cmdline").read_bytes())
+        return next(int(child) for child in own if b"\0--unattended\0" in Path(f"/proc/{child}/cmdline").read_bytes())
 
 
 @contextmanager
 def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Kept]:
     """A supervisor with this data folder and these options; ``before`` is a command that starts it."""
-    command = (*before, *program("keep", "--json", "--data", str(data), *options))
+    command = (*before, *program("run", "--supervise", "--json", "--data", str(data), *options))
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
         try:
@@ -56,7 +56,7 @@ def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Ke
 def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
-    with kept(tmp_path, "--", "--study", str(study)) as supervisor:
+    with kept(tmp_path, "--study", str(study)) as supervisor:
         supervisor.wait_for("ready")
         os.kill(supervisor.kiosk(), signal.SIGKILL)
         assert supervisor.wait_for("died")["detail"] == "signal 9"
@@ -74,7 +74,7 @@ def test_a_kiosk_that_was_killed_is_back_and_the_log_says_what_happened(tmp_path
 
 
 def test_a_study_file_that_cannot_be_used_ends_the_supervisor_in_words(tmp_path: Path) -> None:
-    with kept(tmp_path, "--", "--study", str(tmp_path / "none.toml")) as supervisor:
+    with kept(tmp_path, "--study", str(tmp_path / "none.toml")) as supervisor:
         supervisor.wait_for("refused")
         _, said = supervisor.process.communicate()
         assert supervisor.process.returncode == 2
@@ -86,7 +86,7 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
     (tmp_path / "file").touch()
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
-    command = program("keep", "--data", str(tmp_path / "file"), "--", "--study", str(study))
+    command = program("run", "--supervise", "--data", str(tmp_path / "file"), "--study", str(study))
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
@@ -97,7 +97,7 @@ def test_a_disk_that_takes_nothing_does_not_end_the_supervisor(tmp_path: Path) -
     limit = "import os, resource as r, sys; r.setrlimit(r.RLIMIT_FSIZE, (64, 64)); os.execv(sys.argv[1], sys.argv[1:])"
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
-    with kept(tmp_path, "--", "--study", str(study), before=(sys.executable, "-c", limit)) as supervisor:
+    with kept(tmp_path, "--study", str(study), before=(sys.executable, "-c", limit)) as supervisor:
         assert supervisor.wait_for("died")["detail"] == "exit code 1"
         assert supervisor.wait_for("died")["start"] == 2
 
@@ -106,9 +106,11 @@ def test_a_disk_that_takes_nothing_does_not_end_the_supervisor(tmp_path: Path) -
 def test_a_study_without_a_pin_is_not_kept_up(study: str | None, tmp_path: Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text(study or "")
-    options = () if study is None else ("--", f"--study={file}", "--window")
+    options = () if study is None else (f"--study={file}", "--window")
     data = tmp_path / "data"
-    done = subprocess.run(program("keep", "--data", str(data), *options), capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        program("run", "--supervise", "--data", str(data), *options), capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("recollect: no PIN is set, so the kiosk is not started unattended: ")
     assert "recollect study set-pin" in done.stderr
@@ -118,7 +120,7 @@ def test_a_study_without_a_pin_is_not_kept_up(study: str | None, tmp_path: Path)
 
 def test_a_kiosk_that_is_started_again_unattended_needs_its_pin_still(tmp_path: Path) -> None:
     """The study file may have changed since the supervisor looked at it."""
-    command = program("open", "--unattended", "--data", str(tmp_path / "data"))
+    command = program("run", "--unattended", "--data", str(tmp_path / "data"))
     done = subprocess.run(
         command, env=os.environ | {"QT_QPA_PLATFORM": "offscreen"}, capture_output=True, text=True, check=False
     )

@@ -106,11 +106,11 @@ def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
     study.write_text(WITH_PIN)
     command = [
         str(unpacked / "usr/bin/recollect"),
-        "keep",
+        "run",
+        "--supervise",
         "--json",
         "--data",
         str(tmp_path),
-        "--",
         "--study",
         str(study),
     ]

@@ -17,7 +17,13 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="cage is for Lin
 
 @pytest.mark.parametrize(
     ("supervisor", "code"),
-    [("exit 0", 0), ("exit 2", 2), ("exit 1", 1), ("kill -9 $$", 137), ('[ "$1$2$3$4" = "keep----studya b" ]', 0)],
+    [
+        ("exit 0", 0),
+        ("exit 2", 2),
+        ("exit 1", 1),
+        ("kill -9 $$", 137),
+        ('[ "$1$2$3$4" = "run--supervise--studya b" ]', 0),
+    ],
 )
 def test_the_keepers_exit_code_is_told(tmp_path: Path, supervisor: str, code: int) -> None:
     assert ended(tmp_path, CAGE, supervisor) == code
@@ -33,8 +39,6 @@ def ended(folder: Path, cage: str, supervisor: str) -> int:
         (folder / name).write_text(text)
         (folder / name).chmod(0o755)
     environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "TMPDIR": str(folder)}
-    done = subprocess.run(
-        ["/bin/sh", SCRIPT, "--", "--study", "a b"], env=environment, capture_output=True, check=False
-    )
+    done = subprocess.run(["/bin/sh", SCRIPT, "--study", "a b"], env=environment, capture_output=True, check=False)
     assert sorted(path.name for path in folder.iterdir()) == ["cage", "recollect"]
     return done.returncode

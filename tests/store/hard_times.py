@@ -392,7 +392,7 @@ def said_by_commands(folder: Path, disk: Path, code: str, tally: Tally) -> Itera
         ("merge", str(folder), "--out", str(disk / "merged")),
         ("withdraw", code, "--yes", *data),
         ("rehearse", "--headless", *data),
-        ("open", "--window", *data),
+        ("run", "--window", *data),
     ):
         done = run(command)
         tally.more["commands that named a full disk"] += DISK_FULL in done.stderr
@@ -407,7 +407,7 @@ def run(command: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
         program(*command), env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
         try:
-            out, err = process.communicate(timeout=10 if command[0] == "open" else 60)
+            out, err = process.communicate(timeout=10 if command[0] == "run" else 60)
         except subprocess.TimeoutExpired:
             process.terminate()
             out, err = process.communicate()

@@ -23,17 +23,27 @@ def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize(
     "command",
     [
-        ["/usr/bin/recollect", "keep"],
-        ["python3", "-m", "kiosk", "keep", "--data", "x"],
-        ["/opt/venv/bin/python", "/opt/venv/bin/recollect", "keep"],
-        ["C:/Recollect/recollect.exe", "keep"],
+        ["/usr/bin/recollect", "run", "--supervise"],
+        ["python3", "-m", "kiosk", "run", "--data", "x", "--supervise"],
+        ["/opt/venv/bin/python", "/opt/venv/bin/recollect", "run", "--supervise"],
+        ["C:/Recollect/recollect.exe", "run", "--supervise"],
     ],
 )
 def test_a_supervisor_is_known_by_its_command(command: list[str]) -> None:
     assert is_supervisor(command)
 
 
-@pytest.mark.parametrize("command", [[], ["keep"], ["bookkeeper", "keep"], ["recollect", "open"], ["kiosk", "-m"]])
+@pytest.mark.parametrize(
+    "command",
+    [
+        [],
+        ["run", "--supervise"],
+        ["docker", "run", "--supervise"],
+        ["recollect", "run", "--unattended"],
+        ["recollect", "--supervise"],
+        ["kiosk", "-m"],
+    ],
+)
 def test_nothing_else_is_taken_for_one(command: list[str]) -> None:
     assert not is_supervisor(command)
 
@@ -41,7 +51,7 @@ def test_nothing_else_is_taken_for_one(command: list[str]) -> None:
 @pytest.mark.usefixtures("bare")
 def test_a_kiosk_that_nobody_keeps_up_is_told_of() -> None:
     (found,) = autostart_check()
-    assert (found.state, "recollect keep" in found.remedy) == (Severity.WARNING, True)
+    assert (found.state, "recollect run --supervise" in found.remedy) == (Severity.WARNING, True)
 
 
 @pytest.mark.usefixtures("bare")

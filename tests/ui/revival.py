@@ -133,7 +133,7 @@ class Kept:
         study = folder / "study.toml"
         study.write_text(STUDY + WITH_PIN)
         self.process = subprocess.Popen(
-            [*command, "keep", "--json", "--data", str(self.data), "--", "--study", str(study)],
+            [*command, "run", "--supervise", "--json", "--data", str(self.data), "--study", str(study)],
             env=environment | {"TMPDIR": str(folder)},
             stdout=subprocess.PIPE,
             text=True,

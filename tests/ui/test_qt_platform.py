@@ -70,8 +70,8 @@ def study_with_pin(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize(
     "command",
-    [("open",), ("rehearse",), ("keep", "--")],
-    ids=["open", "rehearse", "keep"],
+    [("run",), ("rehearse",), ("run", "--supervise")],
+    ids=["run", "rehearse", "run supervised"],
 )
 @pytest.mark.parametrize(
     ("screen", "said"),
@@ -90,7 +90,7 @@ def test_a_screen_that_cannot_be_reached_is_refused_in_one_sentence(
     first, *others = done.stderr.splitlines()
     assert (done.returncode, first.startswith(f"recollect: {said}")) == (2, True), done.stderr
     kept = ["recollect: the kiosk refused what it was given, so it is not started again"]
-    assert others == (kept if name == "keep" else [])
+    assert others == (kept if "--supervise" in options else [])
 
 
 def test_a_rehearsal_without_a_screen_does_not_mind_one_that_cannot_be_reached(tmp_path: Path) -> None:
@@ -148,7 +148,7 @@ def test_a_check_of_a_screen_that_cannot_be_reached_says_which_one() -> None:
     assert "cannot be reached" in done.stdout
 
 
-@pytest.mark.parametrize("command", ["open", "_display screens 0", "_display frame"])
+@pytest.mark.parametrize("command", ["run", "_display screens 0", "_display frame"])
 def test_a_library_that_qt_itself_lacks_ends_in_a_sentence(command: str, tmp_path: Path) -> None:
     # As the linker refuses Qt where libegl1 is not installed.
     lacking = """
@@ -170,7 +170,7 @@ main()
         check=False,
     )
     said = done.stdout + done.stderr
-    assert (done.returncode, "Traceback" in said) == (2 if command == "open" else 0, False)
+    assert (done.returncode, "Traceback" in said) == (2 if command == "run" else 0, False)
     assert "the library libEGL.so.1 is missing" in said
     assert "sudo apt-get install libegl1" in said
 

@@ -1,6 +1,6 @@
 # NOT TRIED: written after the documentation alone. Has Recollect started when a user signs in, and again when it ends
 # otherwise than by being left. Run as an administrator:
-#   powershell -ExecutionPolicy Bypass -File keep.ps1 -User BOOTH -Study FILE [-Program PATH] [-Remove]
+#   powershell -ExecutionPolicy Bypass -File supervise.ps1 -User BOOTH -Study FILE [-Program PATH] [-Remove]
 param(
     [Parameter(Mandatory = $true)][string]$User,
     [string]$Study,
@@ -24,10 +24,10 @@ if (-not $Study -or -not (Test-Path $Study)) {
     exit 2
 }
 
-$action = New-ScheduledTaskAction -Execute $Program -Argument "keep -- --study `"$Study`""
+$action = New-ScheduledTaskAction -Execute $Program -Argument "run --supervise --study `"$Study`""
 $trigger = New-ScheduledTaskTrigger -AtLogOn -User $User
 # An exit code that is not 0 is a failure to the scheduler, which starts the task again after a minute, the shortest
-# time that it knows; within that minute the keeper itself has long started the kiosk again.
+# time that it knows; within that minute the supervisor itself has long started the kiosk again.
 $settings = New-ScheduledTaskSettingsSet -RestartCount 999 -RestartInterval (New-TimeSpan -Minutes 1) `
     -ExecutionTimeLimit ([TimeSpan]::Zero) -AllowStartIfOnBatteries -DontStopIfGoingOnBatteries `
     -MultipleInstances IgnoreNew
