@@ -239,6 +239,10 @@ class Game(ConfigModel):
 class AssistanceConfig(ConfigModel):
     """Who helps, and how."""
 
+    name: Annotated[
+        str,
+        Field(max_length=24, description="The helper's name, above what it says; empty: it has none."),
+    ] = "Memo"
     condition: Annotated[
         str,
         Field(

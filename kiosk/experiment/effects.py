@@ -173,11 +173,15 @@ class ShowResult:
 
 @dataclass(frozen=True)
 class ShowItems:
-    """Show a page of items, none of them answered; ``number`` ``of`` so many pages, from 1."""
+    """Show a page of items, none of them answered; ``number`` ``of`` so many pages, from 1.
+
+    With ``rates`` they are about the assistant, which is not there meanwhile.
+    """
 
     items: tuple[Item, ...]
     number: int
     of: int
+    rates: bool = False
 
 
 @dataclass(frozen=True)

@@ -276,8 +276,14 @@ class QuestionnaireStage(StageHandler):
 
     mood = Mood.LISTENING
 
-    def __init__(self, questionnaires: Sequence[Questionnaire], chance: Random, language: str) -> None:
-        """Ask these in a language; ``chance`` shuffles what is to be shuffled."""
+    def __init__(
+        self, questionnaires: Sequence[Questionnaire], chance: Random, language: str, *, rates: bool = False
+    ) -> None:
+        """Ask these in a language; ``chance`` shuffles what is to be shuffled.
+
+        With ``rates`` they are about the assistant, which does not look on.
+        """
+        self._rates = rates
         self._language = language
         self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
         self._number = 0
@@ -338,7 +344,7 @@ class QuestionnaireStage(StageHandler):
         outcome.emit(
             happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
         )
-        outcome.effect(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets)))
+        outcome.effect(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets), self._rates))
 
     @property
     def _sheet(self) -> ItemPage:

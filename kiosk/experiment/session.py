@@ -173,7 +173,7 @@ class StageFactory:
             Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
             Stage.RESULT: lambda: ResultStage(self.speaker, log),
             Stage.QUESTIONS: lambda: QuestionnaireStage(
-                plan.questionnaires, Random(f"{seed}/questions"), plan.language
+                plan.questionnaires, Random(f"{seed}/questions"), plan.language, rates=True
             ),
             Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
             Stage.THANKS: lambda: ThanksStage(self.speaker, settings.timing.thanks_ms),

@@ -29,6 +29,10 @@ class BoardPoint:
     down: float
 
 
+ASIDE = BoardPoint(4.0, 0.5)
+"""Beside the screen and beside the visitor: where a body looks that is being rated."""
+
+
 @dataclass(frozen=True)
 class Health:
     """Whether a body can speak, and how it is, in words for the experimenter."""

@@ -10,10 +10,11 @@ from typing import assert_never
 
 from kiosk.config import ASSETS
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import BoardWait, Effect
+from kiosk.experiment.effects import BoardWait, Effect, Mood
 from kiosk.experiment.events import EmbodimentName, Timer
 from kiosk.experiment.session_config import SessionConfig
-from kiosk.robots.embodiment import Embodiment, EmbodimentSelector
+from kiosk.game import Position
+from kiosk.robots.embodiment import ASIDE, Embodiment, EmbodimentSelector
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.screens.registry import ScreenSet
 
@@ -50,6 +51,9 @@ def sound_for(effects: Iterable[Effect]) -> SoundEffect | None:
     return next((sound for sound in SoundEffect if sound in heard), None)
 
 
+FEELING_MS = 1_800
+"""How long the avatar looks glad at a pair, or thoughtful at two cards that are none, unless the session says more."""
+
 INPUT_GUARD_MS = 400
 """How long a new screen takes no input; the slowest double click that desktops accept by default."""
 
@@ -65,12 +69,16 @@ class Renderer:
         self._timer_expired = timer_expired
         self._waits: dict[Timer, TimerWait] = {}
         self._input_guard: TimerWait | None = None
+        self._calming: TimerWait | None = None
+        self._is_rated = False
         screens.kiosk.screen_changed.connect(self._start_input_guard)
+        screens.kiosk.screen_changed.connect(self._mind_screen)
 
     def begin(self, plan: SessionConfig) -> None:
         """A session begins: everything speaks its language, and tells its contact."""
         self.screens.set_language(plan.catalogue)
         self.screens.debrief.give_contact(plan.settings.consent.contact)
+        self._is_rated = False
         if self.embodiments is not None:
             self.embodiments.begin_session(plan.language)
 
@@ -107,14 +115,20 @@ class Renderer:
                     screens.kiosk.show("practice" if practice else "game")
                 case do.RevealCard(position=position, card=card):
                     screens.board.reveal(position, card)
+                    self._watch_card(position)
                 case do.HideCards(positions=positions):
                     screens.board.hide(positions)
                 case do.MarkMatched(positions=positions):
                     screens.board.mark_matched(positions)
+                    screens.avatar.feel(Mood.HAPPY)
+                    self._start_calming()
                 case do.ShowProgress(pairs_found=pairs_found, moves=moves):
                     screens.board.show_progress(pairs_found, moves)
                 case do.LockBoard(wait=wait):
                     screens.board.lock(wait)
+                    if wait is BoardWait.TURNING_BACK:
+                        screens.avatar.feel(Mood.THINKING)
+                        self._start_calming()
                 case do.UnlockBoard():
                     screens.board.lock(None)
                 case do.HighlightHint(row=row, column=column):
@@ -126,6 +140,7 @@ class Renderer:
                     if self._body is not None:
                         self._body.look_at(None)
                 case do.Speak(utterance=utterance, sentence=sentence):
+                    screens.avatar.feel(None)
                     screens.avatar.say(sentence)
                     if self._body is not None:
                         self._body.say(utterance, sentence)
@@ -143,8 +158,9 @@ class Renderer:
                 case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms):
                     screens.result.show(pairs, moves, time_ms)
                     screens.kiosk.show("result")
-                case do.ShowItems(items=items, number=number, of=pages):
+                case do.ShowItems(items=items, number=number, of=pages, rates=rates):
                     screens.form.show(items, number, pages)
+                    self._let_be_rated(rated=rates)
                     screens.kiosk.show("form")
                 case do.ShowAnswer(item=item, value=value):
                     screens.form.show_answer(item, value)
@@ -181,6 +197,31 @@ class Renderer:
     def _body(self) -> Embodiment | None:
         """The body that helps now."""
         return None if self.embodiments is None else self.embodiments.current
+
+    def _watch_card(self, position: Position) -> None:
+        """The hinted card was turned: the avatar nods."""
+        board = self.screens.board
+        if board.is_marked(position):
+            self.screens.avatar.gesture("nod")
+
+    def _start_calming(self) -> None:
+        """What the avatar feels about a move passes."""
+        if self._calming is not None:
+            self._calming.cancel()
+        self._calming = self._clock.after(FEELING_MS, partial(self.screens.avatar.feel, None))
+
+    def _let_be_rated(self, *, rated: bool) -> None:
+        """Nobody who is being rated looks on: the avatar leaves, a robot looks aside; both come back afterwards."""
+        if rated == self._is_rated:
+            return
+        self._is_rated = rated
+        self.screens.avatar.leave(away=rated)
+        if self._body is not None:
+            self._body.look_at(ASIDE if rated else None)
+
+    def _mind_screen(self) -> None:
+        if self.screens.kiosk.shown != "form":
+            self._let_be_rated(rated=False)
 
     def _start_input_guard(self) -> None:
         """Take no input for a moment: the second half of a double click belongs to what was shown before."""

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from itertools import chain
+from math import pi, sin
 from pathlib import Path
+from random import Random
 
+import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
 from kiosk.experiment.effects import Mood
+from kiosk.robots.audio import Clip, mouth_shapes
 from kiosk.robots.embodiment import BoardPoint, Health
 from kiosk.ui.screens.avatar import AvatarBody, AvatarScreen
 from kiosk.ui.voice import Voice
 from tests.robots.recording import Reports
 
+RATE = 22_050
 AVATAR = Path(__file__).parents[2] / "kiosk" / "ui" / "qml" / "Avatar.qml"
 
 
@@ -127,3 +133,40 @@ def test_between_visitors_it_is_silent_calm_and_ready_to_try_its_voice_again(
 
 def test_its_health_is_its_voices(avatar: AvatarBody) -> None:
     assert avatar.health.message == "the avatar is there; the voice is a fake"
+
+
+def test_its_lips_form_the_sounds_and_move_without_them_where_the_voice_knows_none(
+    qtbot: QtBot, avatar: AvatarBody, face: AvatarScreen, voice: VoiceFake
+) -> None:
+    formed: list[tuple[object, object]] = []
+    face.spoke.connect(lambda: formed.append((face.property("mouth"), face.property("mouthShape"))))
+    voice.shapes = ("round", "teeth")
+    avatar.say(1, "Oohs")
+    voice.started.emit(1, [0.5, 0.25, 0.75])
+    qtbot.waitUntil(lambda: (0.75, "") in formed)
+    assert [step for step in formed if step[0]] == [(0.5, "round"), (0.25, "teeth"), (0.75, "")]
+
+
+def test_every_shape_of_the_voice_is_one_that_the_mouth_can_form() -> None:
+    noise = Random(1)
+    sounds = [
+        [0.4 * sin(2 * pi * frequency * step / RATE) for step in range(RATE // 5)]
+        for frequency in (200, 1000, 2000, 4000)
+    ]
+    samples = np.array([*chain.from_iterable(sounds), *(0.001 * noise.random() for _ in range(RATE // 5))])
+    shapes = set(mouth_shapes(Clip.of(samples, RATE)))
+    assert shapes == {"closed", "round", "open", "wide", "teeth"}
+    drawn = (AVATAR.parent / "AvatarMouth.qml").read_text("utf-8")
+    assert all(f"{shape}: {{ gape" in drawn for shape in shapes)
+
+
+def test_what_it_feels_about_the_game_shows_only_where_the_session_shows_no_mood(
+    avatar: AvatarBody, face: AvatarScreen
+) -> None:
+    face.feel(Mood.HAPPY)
+    assert face.property("mood") == "happy"
+    avatar.express(Mood.SAD)
+    assert face.property("mood") == "sad"
+    avatar.express(Mood.IDLE)
+    face.feel(None)
+    assert face.property("mood") == "idle"

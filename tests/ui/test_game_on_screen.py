@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QObject, QPoint, Qt
@@ -13,9 +14,12 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
+from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait
 from kiosk.game import Position
+from kiosk.robots.embodiment import ASIDE, BoardPoint
 from kiosk.ui.app import App
+from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.headless import headless
@@ -185,3 +189,98 @@ def test_beside_a_robot_the_board_has_the_whole_width_and_the_sentence_stands_be
 
     qtbot.waitUntil(lambda: len(said()) == 1)
     assert item_centre(said()[0]).y() > board.mapToScene(board.boundingRect().bottomLeft()).y()
+
+
+def renderer(app: App) -> Renderer:
+    """Shows what a session asks for, without one."""
+    return Renderer(app.screens, app.clock, lambda _: None)
+
+
+def test_the_helper_points_at_the_card_the_row_or_the_column_of_a_hint(app: App) -> None:
+    face = find(app, "face")
+    assert not face.property("points")
+    for row, column in ((0, 5), (None, 2), (3, None)):
+        app.screens.board.highlight(row, column)
+        assert face.property("points")
+        aim = face.mapToScene(face.property("aim"))
+        card = find(app, f"card-{6 * (row or 0) + (4 if column is None else column)}")
+        size = card.width()
+        assert abs(aim.x() - item_centre(card).x()) < size
+        assert abs(aim.y() - item_centre(card).y()) < size
+    app.screens.board.clear_highlight()
+    assert not face.property("points")
+
+
+@pytest.mark.parametrize("moves", [True], indirect=True)
+def test_the_helper_nods_when_the_hinted_card_is_turned_and_at_no_other(app: App) -> None:
+    nods: list[str] = []
+    app.screens.avatar.gestured.connect(nods.append)
+    app.screens.board.highlight(None, 3)
+    perform = renderer(app).perform
+    perform([do.RevealCard(Position(1, 1), "cat")])
+    assert nods == []
+    perform([do.RevealCard(Position(2, 3), "cat")])
+    assert nods == ["nod"]
+
+
+@pytest.mark.parametrize("moves", [True], indirect=True)
+def test_the_helper_is_glad_at_a_pair_and_thoughtful_at_a_miss_and_calm_again_soon(app: App, qtbot: QtBot) -> None:
+    def mood() -> object:
+        return app.screens.avatar.property("mood")
+
+    perform = renderer(app).perform
+    perform([do.RevealCard(position, "cat") for position in CAT])
+    perform([do.MarkMatched(CAT)])
+    assert mood() == "happy"
+    perform([do.LockBoard(BoardWait.TURNING_BACK)])
+    assert mood() == "thinking"
+    qtbot.waitUntil(lambda: mood() == "idle")
+
+
+@pytest.mark.parametrize("moves", [True], indirect=True)
+def test_the_eyes_of_the_helper_follow_the_pointer(app: App) -> None:
+    face = find(app, "face")
+    QTest.mouseMove(app.window, QPoint(10, 10))
+    QTest.mouseMove(app.window, QPoint(20, 20))
+    assert face.property("gazeX") == -1
+    QTest.mouseMove(app.window, item_centre(face) + QPoint(60, 0))
+    assert 0 < face.property("gazeX") < 1
+
+
+def test_the_helper_leaves_the_screen_while_it_is_rated_and_only_then(app: App, qtbot: QtBot) -> None:
+    def seen() -> bool:
+        return find_item(app.window.contentItem(), "face") is not None
+
+    body, shown = Watcher(), renderer(app)
+    shown.embodiments = SimpleNamespace(current=body)  # type: ignore[assignment] # all that is asked of it
+    perform = shown.perform
+    perform([do.ShowItems((), 1, 1)])
+    assert seen()
+    perform([do.ShowItems((), 1, 2, rates=True), do.ShowItems((), 2, 2, rates=True)])
+    qtbot.waitUntil(lambda: not seen())
+    assert body.looked == [ASIDE]
+    perform([do.ShowThanks()])
+    qtbot.waitUntil(seen)
+    assert body.looked == [ASIDE, None]
+
+
+class Watcher:
+    """A body of which only is kept where it looks."""
+
+    def __init__(self) -> None:
+        self.looked: list[BoardPoint | None] = []
+
+    def look_at(self, place: BoardPoint | None) -> None:
+        """Look there."""
+        self.looked.append(place)
+
+
+@pytest.mark.parametrize("moves", [True], indirect=True)
+def test_the_helper_has_the_name_of_the_study_file_and_may_have_none(app: App, qtbot: QtBot) -> None:
+    def names() -> list[QQuickItem]:
+        return [item for item in items(app.window.contentItem()) if item.property("text") == "Memo"]
+
+    app.screens.avatar.say("Look at column 2.")
+    qtbot.waitUntil(lambda: len(names()) == 1)
+    app.screens.avatar.call("")
+    assert names() == []

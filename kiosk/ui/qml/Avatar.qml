@@ -7,35 +7,47 @@ Item {
     id: avatar
 
     required property string mood
-    required property real mouth
+    required property real mouth    // how far it is open, 0 .. 1
+    property string mouthShape: "open" // which sound it forms: closed, round, open, wide or teeth
     required property real gazeX
     required property real gazeY
     required property bool blinking
     required property int motion
+    // What the arm points at, in this item; it only does while `points`.
+    property bool points: false
+    property point aim
+    // Whether it breathes; something else that moves may need every frame.
+    property bool breathes: true
 
     // The one place where moods differ. Left and right are the visitor's.
     //   tilt degrees, dx dy zoom: head;  sh: shoulders px down;  earL earR: degrees out from upright;
     //   bLi bLo bRi bRo: brow ends px up (inner, outer);  upL upR low slant: lids;  lx ly: own gaze;
-    //   smile span skew wave mx: mouth;  cheek: 0 flat .. 1 lifted
+    //   smile span skew wave mx: mouth;  cheek: 0 flat .. 1 lifted;  hLx hLy hRx hRy: hands, below 480 out of sight
     readonly property var poses: ({
         idle:      { tilt: 2, dx: 0, dy: 0, zoom: 1, sh: 0, earL: 62, earR: 62, bLi: 0, bLo: 0, bRi: 2, bRo: 2,
                      upL: 0.93, upR: 0.93, low: 0.95, slant: 3, lx: 0, ly: 0,
-                     smile: 0.65, span: 62, skew: 0, wave: 0, mx: 0, cheek: 0.3 },
+                     smile: 0.65, span: 62, skew: 0, wave: 0, mx: 0, cheek: 0.3,
+                     hLx: 70, hLy: 540, hRx: 330, hRy: 540 },
         happy:     { tilt: -5, dx: 6, dy: -8, zoom: 1.02, sh: -6, earL: 34, earR: 34, bLi: 13, bLo: 8, bRi: 13, bRo: 8,
                      upL: 0.9, upR: 0.9, low: -0.16, slant: 0, lx: 0, ly: -0.4,
-                     smile: 1.35, span: 92, skew: 0, wave: 0, mx: 0, cheek: 1 },
+                     smile: 1.35, span: 92, skew: 0, wave: 0, mx: 0, cheek: 1,
+                     hLx: 30, hLy: 290, hRx: 370, hRy: 290 },
         confused:  { tilt: 12, dx: -21, dy: 0, zoom: 1, sh: -3, earL: 12, earR: 118, bLi: 15, bLo: 17, bRi: -9, bRo: -1,
                      upL: 1, upR: 0.62, low: 0.9, slant: 0, lx: 0, ly: 0,
-                     smile: -0.15, span: 66, skew: 5, wave: 20, mx: 3, cheek: 0 },
+                     smile: -0.15, span: 66, skew: 5, wave: 20, mx: 3, cheek: 0,
+                     hLx: 70, hLy: 540, hRx: 262, hRy: 352 },
         sad:       { tilt: -6, dx: 4, dy: 17, zoom: 0.98, sh: 9, earL: 140, earR: 140, bLi: 14, bLo: -9, bRi: 14, bRo: -9,
                      upL: 0.68, upR: 0.68, low: 0.95, slant: 13, lx: 0, ly: 0.25,
-                     smile: -0.85, span: 54, skew: 0, wave: 0, mx: 0, cheek: 0 },
+                     smile: -0.85, span: 54, skew: 0, wave: 0, mx: 0, cheek: 0,
+                     hLx: 70, hLy: 540, hRx: 330, hRy: 540 },
         thinking:  { tilt: -8, dx: 18, dy: -2, zoom: 1, sh: 0, earL: 57, earR: 24, bLi: -7, bLo: 1, bRi: 8, bRo: 13,
                      upL: 0.8, upR: 0.95, low: 0.8, slant: 0, lx: 0.75, ly: -0.8,
-                     smile: 0.05, span: 44, skew: 9, wave: 3, mx: 20, cheek: 0.1 },
+                     smile: 0.05, span: 44, skew: 9, wave: 3, mx: 20, cheek: 0.1,
+                     hLx: 70, hLy: 540, hRx: 246, hRy: 356 },
         listening: { tilt: 8, dx: -8, dy: 6, zoom: 1.05, sh: 2, earL: 4, earR: 6, bLi: 9, bLo: 8, bRi: 9, bRo: 8,
                      upL: 0.98, upR: 0.98, low: 1, slant: 0, lx: 0, ly: 0,
-                     smile: 0.3, span: 42, skew: 0, wave: 0, mx: 0, cheek: 0.3 }
+                     smile: 0.3, span: 42, skew: 0, wave: 0, mx: 0, cheek: 0.3,
+                     hLx: 70, hLy: 540, hRx: 330, hRy: 540 }
     })
     readonly property string grille: "M 184 396 H 216 M 178 411 H 222 M 184 426 H 216"
     property var origin: poses.idle
@@ -49,6 +61,43 @@ Item {
     property real eyeY: gazeY
     property real turnX: gazeX      // the face turns a little, after the eyes
     property real turnY: gazeY
+    property real reaching: points ? 1 : 0
+    property real dip: 0            // a nod: px the head goes down
+    property real waving: 0         // 0 at rest .. 1 the right hand is up
+    property real sway: 0           // which way it waves just now, -1 .. 1
+    property real jab: 0            // how far the finger pokes at what it points at, 0 .. 1
+    property real breath: 0         // 0 out .. 1 in
+
+    // In the drawing's own coordinates.
+    readonly property real size: Math.min(width / 400, height / 440)
+    readonly property point goal: Qt.point((aim.x - width / 2) / size + 200, (aim.y - height / 2) / size + 220)
+    readonly property int near: goal.x < 200 ? -1 : 1
+    readonly property point leftHand: Qt.point(trail.hLx, trail.hLy)
+    readonly property point rightHand: Qt.point(trail.hRx + (372 + 16 * sway - trail.hRx) * waving,
+                                                trail.hRy + (284 - trail.hRy) * waving)
+
+    // Where a hand is that points: the forearm goes straight from beside the shoulder towards the target.
+    function pointingHand(side: int): point {
+        const x = side < 0 ? 92 : 308, y = 416
+        const far = Math.max(1, Math.hypot(goal.x - x, goal.y - y))
+        const length = 112 + 10 * jab
+        return Qt.point(x + (goal.x - x) / far * length, y + (goal.y - y) / far * length)
+    }
+    function reached(side: int, rest: point): point {
+        if (near !== side)
+            return rest
+        const goal = pointingHand(side)
+        return Qt.point(rest.x + (goal.x - rest.x) * reaching, rest.y + (goal.y - rest.y) * reaching)
+    }
+    // Small gestures; each starts anew when it is asked for again.
+    function nod() {
+        if (motion > 0)
+            nodding.restart()
+    }
+    function wave() {
+        if (motion > 0)
+            greeting.restart()
+    }
 
     function pick(): var {
         return poses[mood] ?? poses.idle
@@ -75,6 +124,47 @@ Item {
         NumberAnimation { target: avatar; property: "lead"; to: 1; duration: avatar.motion; easing.type: Easing.OutCubic }
         NumberAnimation { target: avatar; property: "lag"; to: 1; duration: avatar.motion * 1.5; easing.type: Easing.OutBack }
     }
+    SequentialAnimation {
+        id: nodding
+        NumberAnimation { target: avatar; property: "dip"; to: 15; duration: 150; easing.type: Easing.OutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: 190; easing.type: Easing.InOutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 9; duration: 140; easing.type: Easing.OutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: 220; easing.type: Easing.InOutQuad }
+    }
+    SequentialAnimation {
+        id: greeting
+        NumberAnimation { target: avatar; property: "waving"; to: 1; duration: 350; easing.type: Easing.OutBack }
+        SequentialAnimation {
+            loops: 3
+            NumberAnimation { target: avatar; property: "sway"; to: 1; duration: 170; easing.type: Easing.InOutSine }
+            NumberAnimation { target: avatar; property: "sway"; to: -1; duration: 250; easing.type: Easing.InOutSine }
+            NumberAnimation { target: avatar; property: "sway"; to: 0; duration: 130; easing.type: Easing.InOutSine }
+        }
+        NumberAnimation { target: avatar; property: "waving"; to: 0; duration: 350; easing.type: Easing.InQuad }
+    }
+    SequentialAnimation {
+        id: poking
+        running: avatar.points && avatar.visible && avatar.motion > 0
+        PauseAnimation { duration: 500 }
+        SequentialAnimation {
+            loops: 2
+            NumberAnimation { target: avatar; property: "jab"; to: 1; duration: 130; easing.type: Easing.OutQuad }
+            NumberAnimation { target: avatar; property: "jab"; to: 0; duration: 220; easing.type: Easing.InOutQuad }
+        }
+    }
+    // Breath is slow, and seen as well at twelve pictures a second, which cost a fifth of sixty.
+    Timer {
+        readonly property real period: 3800
+        property real phase: 0
+        interval: 83
+        repeat: true
+        running: avatar.breathes && avatar.visible && avatar.motion > 0
+        onTriggered: {
+            phase = (phase + interval / period) % 1
+            avatar.breath = (1 - Math.cos(2 * Math.PI * phase)) / 2
+        }
+    }
+    Behavior on reaching { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion * 1.2; easing.type: Easing.OutBack; easing.overshoot: 1 } }
     Behavior on shut { enabled: avatar.motion > 0; NumberAnimation { duration: Math.min(60, avatar.motion / 3) } }
     Behavior on eyeX { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion / 3; easing.type: Easing.OutCubic } }
     Behavior on eyeY { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion / 3; easing.type: Easing.OutCubic } }
@@ -117,14 +207,14 @@ Item {
     Item { // the 400 x 440 drawing, scaled as a whole
         width: 400; height: 440
         anchors.centerIn: parent
-        scale: Math.min(avatar.width / 400, avatar.height / 440)
+        scale: avatar.size
 
         Item { // the bust ends at the lower edge of the item, however far the shoulders move
             width: 400; height: 440
             clip: true
 
             Shape {
-                y: avatar.trail.sh
+                y: avatar.trail.sh - 3 * avatar.breath
                 antialiasing: true
                 ShapePath { // neck
                     strokeWidth: -1
@@ -154,7 +244,7 @@ Item {
                 }
             }
             Shape { // the loudspeaker glows with the voice, so one sees who speaks without looking at the mouth
-                y: avatar.trail.sh
+                y: avatar.trail.sh - 3 * avatar.breath
                 antialiasing: true
                 Groove {
                     strokeWidth: 9
@@ -169,7 +259,7 @@ Item {
         }
 
         Item {
-            x: avatar.pose.dx; y: avatar.pose.dy
+            x: avatar.pose.dx; y: avatar.pose.dy + avatar.dip - 2 * avatar.breath
             width: 400; height: 340
             transformOrigin: Item.Bottom
             rotation: avatar.pose.tilt
@@ -236,11 +326,26 @@ Item {
                 AvatarMouth {
                     x: 200 + avatar.pose.mx; y: 270
                     open: avatar.mouth
+                    form: avatar.mouthShape
                     smile: avatar.pose.smile
                     span: avatar.pose.span
                     skew: avatar.pose.skew
                     wave: avatar.pose.wave
                 }
+            }
+        }
+
+        // In front of everything: a hand may come up to the chin.
+        Repeater {
+            model: [-1, 1]
+            AvatarArm {
+                required property int modelData
+                side: modelData
+                shoulder: Qt.point(200 + modelData * 92, 408 + avatar.trail.sh - 3 * avatar.breath)
+                hand: avatar.reached(modelData, modelData < 0 ? avatar.leftHand : avatar.rightHand)
+                goal: avatar.goal
+                pointing: avatar.near === modelData ? Math.min(1, Math.max(0, avatar.reaching)) : 0
+                visible: hand.y < 480
             }
         }
     }

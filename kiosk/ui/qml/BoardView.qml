@@ -32,6 +32,9 @@ FocusScope {
     readonly property point marked: Qt.point(
         table.x + (board.markColumn < 0 ? table.width * 0.75 : (board.markColumn + 0.5) * cell),
         table.y + (board.markRow < 0 ? 0 : (board.markRow + 0.5) * cell))
+    // Whether a card turns, or a pair is on its way to the tray: what else moves on the screen had better wait.
+    readonly property bool moves: turning > 0 || joy.under
+    property int turning: 0
     // Every pair was found, and is in the tray.
     signal won()
 
@@ -237,6 +240,8 @@ FocusScope {
             Behavior on rest { NumberAnimation { duration: Theme.motion } }
 
             readonly property real turning: face.turn
+            readonly property bool turns: turning > 0 && turning < 1
+            onTurnsChanged: view.turning += turns ? 1 : -1
 
             objectName: "card-" + index
             width: GridView.view.cellWidth
@@ -348,6 +353,7 @@ FocusScope {
             target: view.board
             // A new board begins at its first card for those who play by keyboard.
             function onModelReset() {
+                view.turning = 0
                 cards.currentIndex = 0
                 cards.focus = true
                 joy.cancel()

@@ -8,10 +8,12 @@ Item {
 
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
+    property string speaker: ""         // whose words they are; empty where nobody has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
-    readonly property real room: height - tail - (hasSpeaker ? 3 : 2) * Theme.gap
+    readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
+    readonly property real room: height - tail - tag - (hasSpeaker ? 3 : 2) * Theme.gap
 
     opacity: sentence === "" ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
@@ -34,7 +36,7 @@ Item {
     Rectangle {
         id: box
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom; bottomMargin: bubble.tail }
-        height: words.height + 2 * Theme.gap
+        height: words.height + bubble.tag + 2 * Theme.gap
         radius: Theme.radius
         color: Theme.white
         border.color: Theme.sea
@@ -43,7 +45,7 @@ Item {
         Text {
             id: words
             textFormat: Text.PlainText
-            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap }
+            anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))
@@ -54,6 +56,14 @@ Item {
             wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
+        }
+        PlainText {
+            id: name
+            anchors { left: parent.left; top: parent.top; leftMargin: Theme.gap; topMargin: 0.6 * Theme.gap }
+            visible: bubble.speaker !== ""
+            text: bubble.speaker
+            font { pixelSize: Theme.small; bold: true }
+            color: Theme.sea
         }
     }
     Shape {

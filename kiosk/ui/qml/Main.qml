@@ -146,6 +146,11 @@ Window {
             words: root.kiosk.words
         }
     }
+    // Where the mouse is; a finger is only seen where it touches.
+    HoverHandler {
+        acceptedDevices: PointerDevice.Mouse | PointerDevice.TouchPad
+        onPointChanged: helper.follow(helper.mapFromItem(null, point.position.x, point.position.y))
+    }
     SidePanel {
         id: helper
         readonly property bool below: !root.wide || root.whole
@@ -155,6 +160,9 @@ Window {
         height: below ? root.room - stage.height : root.room
         visible: !root.whole || root.speaks
         avatar: root.avatar
+        quiet: boardView.visible && boardView.moves
+        marks: boardView.visible && boardView.marks
+        marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
     }
     Feast {
         id: feast

@@ -8,8 +8,18 @@ Item {
 
     required property AvatarScreen avatar
 
+    // What a hint marks, in this item: the face looks there and points at it.
+    property bool marks: false
+    property point marked
+    // Whether something else moves that needs every frame; the face then does not breathe.
+    property bool quiet: false
+    // Where the visitor's pointer was last seen, in this item.
+    property point pointer
     // What the visitor has just touched, in this item; for a moment the face looks there.
     property point noticed
+    readonly property bool looks: marks || notices || follows
+    readonly property point lookedAt: marks ? marked : notices ? noticed : pointer
+    readonly property bool follows: following.running
     readonly property bool notices: attention.running
 
     function notice(place: point) {
@@ -19,31 +29,54 @@ Item {
     // The next visitor must not meet a face that still looks where the last one touched.
     function stopNoticing() {
         attention.stop()
+        following.stop()
+    }
+    function follow(place: point) {
+        pointer = place
+        following.restart()
     }
     function towards(place: real, middle: real): real {
         return Math.max(-1, Math.min(1, (place - middle) / (500 * Theme.unit)))
     }
 
-    PauseAnimation { id: attention; duration: 1200 }
+    Timer { id: attention; interval: 1200 }
+    Timer { id: following; interval: 2500 }
+    Connections {
+        target: panel.avatar
+        function onGestured(name) {
+            if (name === "wave")
+                face.wave()
+            else
+                face.nod()
+        }
+    }
 
     Bubble {
         anchors { left: parent.left; right: parent.right; top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: 4 * Theme.unit }
         sentence: panel.avatar.bubble
         hasSpeaker: panel.avatar.present
+        speaker: panel.avatar.name
     }
     Avatar {
         id: face
         objectName: "face"
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom }
+        // How far it has gone out of sight, through the lower edge.
+        property real gone: panel.avatar.away ? 1 : 0
+        Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
         width: Math.min(parent.width - 40 * Theme.unit, parent.height * 0.52 * 400 / 440)
         height: width * 440 / 400
         mood: panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
         mouth: Theme.motion === 0 ? 0 : panel.avatar.mouth
-        gazeX: panel.notices ? panel.towards(panel.noticed.x, face.x + face.width / 2) : panel.avatar.gazeX
-        gazeY: panel.notices ? panel.towards(panel.noticed.y, face.y + face.height / 2) : panel.avatar.gazeY
+        mouthShape: panel.avatar.mouthShape
+        gazeX: panel.looks ? panel.towards(panel.lookedAt.x, face.x + face.width / 2) : panel.avatar.gazeX
+        gazeY: panel.looks ? panel.towards(panel.lookedAt.y, face.y + face.height / 2) : panel.avatar.gazeY
+        points: panel.marks
+        aim: Qt.point(panel.marked.x - face.x, panel.marked.y - face.y)
+        breathes: !panel.quiet
         blinking: panel.avatar.blinking
         motion: Theme.motion * 1.5
-        visible: panel.avatar.present
+        visible: panel.avatar.present && gone < 1
     }
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import chain, repeat
 from random import Random
 
 from PySide6.QtCore import Property, QObject, QTimer, Signal
@@ -31,6 +32,8 @@ class AvatarScreen(QObject):
     changed = Signal()
     spoke = Signal()
     """The mouth moved; apart from ``changed``, because it happens 25 times a second."""
+    gestured = Signal(str)
+    """It makes a small gesture, ``nod`` or ``wave``."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -42,6 +45,31 @@ class AvatarScreen(QObject):
         self._glance = (0.0, 0.0)
         self._blinking = False
         self._mouth = 0.0
+        self._mouth_shape = ""
+        self._feeling: Mood | None = None
+        self._away = False
+        self._name = ""
+
+    def call(self, name: str) -> None:
+        """Give it a name, which stands above what it says; an empty one is not shown."""
+        self._name = name
+        self.changed.emit()
+
+    def feel(self, mood: Mood | None) -> None:
+        """Let its face follow the game, for as long as the session shows no mood of its own; None: calm again."""
+        if mood is not self._feeling:
+            self._feeling = mood
+            self.changed.emit()
+
+    def leave(self, *, away: bool) -> None:
+        """Go out of sight while people rate it, or come back."""
+        if away != self._away:
+            self._away = away
+            self.changed.emit()
+
+    def gesture(self, name: str) -> None:
+        """Make a small gesture, ``nod`` or ``wave``."""
+        self.gestured.emit(name)
 
     def appear(self, *, present: bool) -> None:
         """Show the face, or leave the place to another body; the bubble stays."""
@@ -62,7 +90,8 @@ class AvatarScreen(QObject):
         """Say nothing, and look calmly at whoever comes."""
         self._bubble = ""
         self._mood = Mood.IDLE
-        self._ponders = False
+        self._ponders = self._away = False
+        self._feeling = None
         self._gaze = self._glance = (0.0, 0.0)
         self._mouth = 0.0
         self.changed.emit()
@@ -88,9 +117,9 @@ class AvatarScreen(QObject):
         self._blinking = shut
         self.changed.emit()
 
-    def open_mouth(self, how_far: float) -> None:
-        """Open the mouth, from 0 to 1."""
-        self._mouth = how_far
+    def open_mouth(self, how_far: float, shape: str = "") -> None:
+        """Open the mouth, from 0 to 1, in the shape of a sound: closed, round, open, wide or teeth."""
+        self._mouth, self._mouth_shape = how_far, shape
         self.spoke.emit()
 
     @Property(bool, notify=changed)
@@ -101,8 +130,20 @@ class AvatarScreen(QObject):
     @Property(str, notify=changed)
     def mood(self) -> str:
         """The name of the mood."""
-        mood = Mood.THINKING if self._ponders and self._mood is Mood.IDLE else self._mood
+        mood = self._mood
+        if mood is Mood.IDLE:
+            mood = Mood.THINKING if self._ponders else self._feeling or Mood.IDLE
         return mood.value
+
+    @Property(str, notify=changed)
+    def name(self) -> str:
+        """Its name; empty if it has none."""
+        return self._name
+
+    @Property(bool, notify=changed)
+    def away(self) -> bool:
+        """Whether it is out of sight while people rate it."""
+        return self._away
 
     @Property(str, notify=changed)
     def bubble(self) -> str:
@@ -129,6 +170,11 @@ class AvatarScreen(QObject):
         """How far the mouth is open."""
         return self._mouth
 
+    @Property(str, notify=spoke)
+    def mouthShape(self) -> str:  # noqa: N802 - QML's convention
+        """The shape of the sound that is spoken; empty where only its loudness is known."""
+        return self._mouth_shape
+
 
 class AvatarBody(QObject):
     """The avatar as a body: says a sentence with its voice, and moves its mouth to it."""
@@ -149,7 +195,7 @@ class AvatarBody(QObject):
         self._face = face
         self._voice = voice
         self._listener = listener
-        self._loudness: list[float] = []
+        self._steps: list[tuple[float, str]] = []
         self._mouth = QTimer(self)
         self._mouth.setInterval(LOUDNESS_MS)
         self._mouth.timeout.connect(self._move_mouth)
@@ -207,7 +253,9 @@ class AvatarBody(QObject):
 
     def _started(self, utterance: int, loudness: list[float]) -> None:
         self._found_words()
-        self._loudness = loudness[::-1]
+        # An engine may know the loudness alone.
+        shapes = chain(self._voice.shapes, repeat(""))
+        self._steps = list(zip(loudness, shapes, strict=False))[::-1]
         self._mouth.start()
         self._listener.speech_started(utterance)
 
@@ -220,7 +268,7 @@ class AvatarBody(QObject):
         self._listener.speech_failed(utterance, why)
 
     def _move_mouth(self) -> None:
-        self._face.open_mouth(self._loudness.pop() if self._loudness else 0.0)
+        self._face.open_mouth(*(self._steps.pop() if self._steps else (0.0, "")))
 
     def _found_words(self) -> None:
         self._searching.stop()

@@ -169,6 +169,12 @@ class BoardScreen(QAbstractListModel):
         row, column = self._mark_row, self._mark_column
         return (None if row == _NOWHERE else row, None if column == _NOWHERE else column)
 
+    def is_marked(self, position: Position) -> bool:
+        """Whether a card lies where the mark is."""
+        row, column = self.highlighted
+        marked = (row, column) != (None, None)
+        return marked and row in (None, position.row) and column in (None, position.column)
+
     @property
     def accepts_taps(self) -> bool:
         """Whether a tap counts."""

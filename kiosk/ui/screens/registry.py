@@ -62,6 +62,8 @@ class ScreenSet:
         """The screens of a study, all of them empty; they live as long as ``owner``."""
         catalogues = [plan.catalogue for plan in study.plans]
         first, resolve = catalogues[0], study.settings.resolve_asset
+        avatar = AvatarScreen(owner)
+        avatar.call(study.settings.assistance.name)
         return cls(
             kiosk=KioskScreen(first, owner),
             attract=AttractScreen(_pictures(study, partial(resolve, "cards")), catalogues, owner),
@@ -74,7 +76,7 @@ class ScreenSet:
             result=ResultScreen(first, owner),
             debrief=DebriefScreen(first, owner),
             thanks=ThanksScreen(owner),
-            avatar=AvatarScreen(owner),
+            avatar=avatar,
             experimenter=ExperimenterScreen(owner),
         )
 

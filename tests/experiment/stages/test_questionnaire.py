@@ -41,7 +41,7 @@ def test_the_questions_come_one_by_one() -> None:
     driver.go_on()
     assert driver.view.mood is Mood.LISTENING
     for number, item in enumerate(("enjoyed", "helped", "understood"), 1):
-        assert driver.view.page == do.ShowItems((likert(item),), number=number, of=3)
+        assert driver.view.page == do.ShowItems((likert(item),), number=number, of=3, rates=True)
         assert driver.noted(happened.QuestionnairePageShown)[-1] == happened.QuestionnairePageShown(
             at_ms=driver.now, questionnaire="closing", items=(item,)
         )
@@ -175,7 +175,7 @@ def test_a_required_item_holds_its_page_and_is_named(item: Item) -> None:
     assert driver.go_on().effects[-1] == do.ShowValidationErrors((item.id,))
     driver.answer(some_answer(item), item.id)
     driver.go_on()
-    assert driver.view.page == do.ShowItems((PAGE,), 2, 2)
+    assert driver.view.page == do.ShowItems((PAGE,), 2, 2, rates=True)
 
 
 @pytest.mark.parametrize(("name", "nothing"), [("text", ""), ("multiple", ())])
