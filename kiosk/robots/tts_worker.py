@@ -52,12 +52,22 @@ class SpeechSource:
         """The name of the voice; None if there is none."""
         return self.engine.voice if self.pack is None else self.pack.voice
 
+    @property
+    def spoken_by(self) -> dict[str, str]:
+        """The engine, its version, the voice and the hash of the pack, if there is one, that speak most sentences."""
+        if self.pack is not None:
+            return self.pack.spoken_by | {"pack": self.pack.sha256}
+        engine = self.engine
+        return {"engine": engine.name, "engine_version": engine.version, "voice": engine.voice or "", "pack": ""}
+
     def clip(self, text: str) -> tuple[Clip, dict[str, str]]:
-        """The sound of a sentence, with the engine, version, voice and hash of the pack that it came from."""
-        parts = None if self.pack is None else self.pack.find(text)
-        if self.pack is not None and parts:
-            clip = joined([Clip.read(part) for part in parts], PAUSE_MS)
-            return clip, self.pack.spoken_by | {"pack": self.pack.sha256}
+        """The sound of a sentence, with the engine, version, voice and hash of the pack that it came from.
+
+        A clip that was changed since its pack was made is not of this pack any more: the engine speaks instead.
+        """
+        parts = None if self.pack is None else self.pack.clips_of(text)
+        if parts:
+            return joined(parts, PAUSE_MS), self.spoken_by
         engine = self.engine
         by = {"engine": engine.name, "engine_version": engine.version, "voice": engine.voice or "", "pack": ""}
         return levelled(trimmed(engine.render(text))), by
@@ -223,7 +233,8 @@ def run_tts_worker(options: Mapping[str, Any]) -> None:
         return
     with closing(create_player(commands.put, source.rate, device, volume)) as player:
         spoken = source.engine.spoken if source.pack is None else source.pack.described
-        report("ready", voice=source.voice, spoken=spoken, device=player.device, why=player.why)
+        by = source.spoken_by
+        report("ready", voice=source.voice, spoken=spoken, by=by, device=player.device, why=player.why)
         TtsWorker(source, player, report, commands).run()
 
 

@@ -103,6 +103,19 @@ class VoicePack:
             begin = end
         return found if found and all(path.is_file() for path in found) else None
 
+    def clips_of(self, text: str) -> list[Clip] | None:
+        """The sounds that say a text; None if one is missing, cannot be read or was changed since it was made."""
+        clips = []
+        for path in self.find(text) or ():
+            try:
+                content = path.read_bytes()
+                if hashlib.sha256(content).hexdigest() != self.clips[path.stem]["sha256"]:
+                    return None
+                clips.append(Clip.from_bytes(content))
+            except (OSError, wave.Error, EOFError):
+                return None
+        return clips or None
+
     def _key(self, text: str) -> str:
         return key_of(self.language, text.strip())
 

@@ -57,6 +57,8 @@ class DashboardSnapshot:
     sessions: tuple[SnapshotSession, ...]
     resumable: tuple[SnapshotSession, ...]
     deviations: tuple[SnapshotAuditEvent, ...]
+    packs: frozenset[tuple[str, str]] = frozenset()
+    """The language and the hash of every pack of clips that spoke in the newest sessions."""
 
 
 def read_snapshot(folder: Path, since_ms: int, *, simulated: bool | SessionKind) -> DashboardSnapshot:
@@ -71,6 +73,7 @@ def read_snapshot(folder: Path, since_ms: int, *, simulated: bool | SessionKind)
             seen[:LAST],
             tuple(session for session in seen if session.resumable),
             tuple(_deviations(connection, since_ms)),
+            frozenset(connection.execute(_PACKS, {"simulated": int(simulated), "limit": LOOKED_BACK})),
         )
 
 
@@ -132,6 +135,13 @@ _SESSIONS = """
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished')
     FROM session LEFT JOIN participant ON participant.session = session.id
     WHERE session.simulated = :simulated ORDER BY session.id DESC LIMIT :limit
+"""
+
+
+_PACKS = """
+    SELECT DISTINCT language, json_extract(event.body, '$.pack') FROM event JOIN session ON session.id = event.session
+    WHERE type = 'SpeechStarted' AND json_extract(event.body, '$.pack') <> '' AND session.id IN
+        (SELECT id FROM session WHERE simulated = :simulated ORDER BY id DESC LIMIT :limit)
 """
 
 

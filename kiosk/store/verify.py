@@ -35,6 +35,7 @@ class Verification(Enum):
     PLACES = "lists meet their quotas, and sessions their places"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
+    VOICE = "one voice speaks each language of a study"
 
 
 @dataclass(frozen=True)
@@ -217,6 +218,35 @@ def _finished(connection: sqlite3.Connection) -> _Found:
         )
 
 
+def _voice(connection: sqlite3.Connection) -> _Found:
+    """Find sessions of participants in which the pack of clips, or what renders sentences, is not the one before.
+
+    A site's sessions of one language are compared; rehearsals and trials are left out.
+    """
+    rows = connection.execute(
+        """
+        SELECT site, language, session.id, json_extract(event.body, '$.engine'), json_extract(event.body, '$.engine_version'),
+            json_extract(event.body, '$.voice'), coalesce(json_extract(event.body, '$.pack'), '')
+        FROM event JOIN session ON session.id = session
+        WHERE type = 'SpeechStarted' AND simulated = 0 ORDER BY session.id, seq
+        """
+    )
+    last: dict[tuple[str, str, bool], tuple[str, int]] = {}
+    for site, language, session, engine, version, voice, pack in rows:
+        if not engine:
+            continue
+        speaker = " ".join(part for part in (voice, "of", engine, version) if part)
+        speaker = f"the pack {pack[:_SHORT]} ({speaker})" if pack else speaker
+        place = (site, language, bool(pack))
+        before, where = last.get(place, (speaker, session))
+        if before != speaker:
+            yield f"session {session}", f"{language!r} is spoken by {speaker}; in session {where} it was {before}"
+        last[place] = (speaker, session)
+
+
+_SHORT = 12
+"""So many digits of a hash tell two packs apart."""
+
 _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.FILE: _file,
     Verification.REFERENCES: _references,
@@ -230,5 +260,6 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.PLACES: _places,
     Verification.WITHDRAWN: _withdrawn,
     Verification.FINISHED: _finished,
+    Verification.VOICE: _voice,
 }
 """What looks for the flaws of each check."""

@@ -45,6 +45,8 @@ class Voice(QObject):
     """The sentence's number, and its loudness (0 to 1) at each step of 40 ms."""
     spoken_by: Mapping[str, Any] = {}
     """What speaks the sentence under way: engine, engine_version, voice, pack, device and volume."""
+    pack: tuple[str, str] = ("", "")
+    """The language, and the hash of the pack of clips that speaks it; empty without one."""
     shapes: tuple[str, ...] = ()
     """The shapes of its mouth at each step of 40 ms."""
     finished = Signal(int)
@@ -244,6 +246,7 @@ class EngineVoice(Voice):
         if kind == "ready":
             self._ready = True
             self._name = event.get("voice")
+            self.pack = (self._language, str(event.get("by", {}).get("pack", "")))
             self._notice_device(event)
         if kind == "device":
             self._notice_device(event)

@@ -96,6 +96,18 @@ def test_what_a_pack_lacks_is_rendered_and_told_apart(pack: VoicePack, monkeypat
     assert pack.missing([REASON, f"{REASON} {PLACE}", "Something else."]) == ("Something else.",)
 
 
+def test_a_clip_that_was_changed_is_not_played_as_if_it_were_of_its_pack(
+    pack: VoicePack, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tts_worker, "create_engine", lambda *_: Engine())
+    source = SpeechSource("en", 150, str(pack.folder))
+    assert source.clip(REASON)[1]["pack"] == source.spoken_by["pack"] == pack.sha256
+    tone(1, 0.02).write(pack.path(key_of("en", REASON)))
+    clip, by = source.clip(REASON)
+    assert by["pack"] == ""
+    assert clip.samples.tolist() == levelled(trimmed(Engine().render(REASON))).samples.tolist()
+
+
 def test_a_pack_is_rendered_once_and_its_hash_depends_on_its_clips(pack: VoicePack) -> None:
     engine = Engine()
     more = render_pack(engine, "en", [REASON, PLACE, "Goodbye!"], pack.folder, lambda _: None)

@@ -38,6 +38,16 @@ def test_the_last_sessions_come_first_with_where_and_how_they_ended(tmp_path: Pa
     ]
 
 
+def test_the_packs_that_spoke_lately_are_known_by_language(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder:
+        begin(
+            recorder, *(happened.SpeechStarted(at_ms=1, utterance=n, engine="x", pack=p) for n, p in enumerate("aab"))
+        )
+        begin(recorder, happened.SpeechStarted(at_ms=1, utterance=1), ENDED)
+        assert read_snapshot(tmp_path, 0, simulated=False).packs == {("en", "a"), ("en", "b")}
+        assert read_snapshot(tmp_path, 0, simulated=True).packs == frozenset()
+
+
 def test_only_so_many_sessions_are_shown(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         for _ in range(LAST + 2):

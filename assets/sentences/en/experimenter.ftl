@@ -40,6 +40,7 @@ console-robot-none = There is none
 console-avatar = Avatar
 console-voice = Voice
 console-voice-quiet = silent on purpose
+console-voice-changed = another voice pack than in earlier sessions; "recollect verify" names them
 console-disk = Disk
 console-disk-free = { $free } free
 console-disk-warn = only { $free } free: make room this evening

@@ -40,6 +40,7 @@ console-robot-none = No hay
 console-avatar = Avatar
 console-voice = Voz
 console-voice-quiet = en silencio a propósito
+console-voice-changed = otro paquete de voz que en sesiones anteriores; los nombra "recollect verify"
 console-disk = Disco
 console-disk-free = { $free } libres
 console-disk-warn = solo { $free } libres: haga sitio esta noche

@@ -40,6 +40,7 @@ console-robot-none = Non ce n’è
 console-avatar = Avatar
 console-voice = Voce
 console-voice-quiet = in silenzio di proposito
+console-voice-changed = pacchetto vocale diverso da quello delle sessioni precedenti; li elenca "recollect verify"
 console-disk = Disco
 console-disk-free = { $free } liberi
 console-disk-warn = solo { $free } liberi: fare spazio stasera

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -30,6 +30,7 @@ from kiosk.ui.experimenter.status import (
     condition_name,
     health_lines,
     health_summary,
+    is_pack_changed,
     session_rows,
 )
 from kiosk.ui.experimenter.view_model import PanelScreen, Row
@@ -137,6 +138,7 @@ class Panel:
         self._looking = False
         self._looks = 0
         self._unread = ""
+        self._packs: frozenset[tuple[str, str]] = frozenset()
         self._stirred_at = 0
         self._tick: TimerWait | None = None
         screen.set_language({name: catalogue.text(name) for name in WORDS})
@@ -214,7 +216,8 @@ class Panel:
             self._look(self._have_looked)
 
     def _show_health(self) -> None:
-        found = health_lines(self._state(), self._booth.assigner.study, self._catalogue)
+        changed = is_pack_changed(self._booth.voice.pack, self._packs)
+        found = health_lines(replace(self._state(), pack_changed=changed), self._booth.assigner.study, self._catalogue)
         if self._unread:
             found = (*found, HealthLine(self._catalogue.text("console-database"), self._unread, is_ok=False))
         whole = health_summary(found, self._catalogue)
@@ -227,6 +230,7 @@ class Panel:
         self._looking = False
         self._unread = seen if isinstance(seen, str) else ""
         if isinstance(seen, DashboardSnapshot):
+            self._packs = seen.packs
             self._screen.show_records(session_rows(seen, self._catalogue, played=self._under_way))
 
     @property

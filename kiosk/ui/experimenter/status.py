@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from math import ceil
@@ -78,6 +78,8 @@ class HealthInputs:
     has_pin: bool
     screen: str
     screen_well: bool
+    pack_changed: bool = False
+    """Whether the pack of clips is not the one of earlier sessions."""
 
 
 def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
@@ -119,7 +121,15 @@ def _voice(state: HealthInputs, catalogue: Catalogue) -> HealthLine:
     name = catalogue.text("console-voice")
     if state.muted:
         return HealthLine(name, catalogue.text("console-voice-quiet"), is_ok=False)
+    if state.voice.is_ok and state.pack_changed:
+        return HealthLine(name, catalogue.text("console-voice-changed"), is_ok=False)
     return HealthLine(name, state.voice.message, state.voice.is_ok)
+
+
+def is_pack_changed(pack: tuple[str, str], earlier: Iterable[tuple[str, str]]) -> bool:
+    """Whether the pack of a language, by its hash, is another one than any that spoke it in earlier sessions."""
+    language, sha256 = pack
+    return bool(sha256) and any(spoken == language and each != sha256 for spoken, each in earlier)
 
 
 def _disk(state: HealthInputs, catalogue: Catalogue) -> HealthLine:

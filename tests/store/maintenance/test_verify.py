@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import sqlite3
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from kiosk import UserInputError
+from kiosk.experiment.events import SpeechStarted
 from kiosk.store.database import FILE
 from kiosk.store.participants import codes
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
 from kiosk.store.withdrawal import withdraw
-from tests.store.visitors import a_day
+from tests.store.visitors import BEGUN, a_day
 
 OTHER_CODE = next(codes("MI", 12345))
 
@@ -166,6 +169,32 @@ def test_a_schema_that_is_not_ours_is_found(day: Path, words: str, statements: l
         for statement in statements:
             connection.execute(statement)
     assert found(day) == {Verification.SCHEMA: [words]}
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "words"),
+    [
+        (
+            {"pack": "a" * 64},
+            {"pack": "b" * 64},
+            "'en' is spoken by the pack bbbbbbbbbbbb (anna of person); in session 1",
+        ),
+        ({}, {"engine_version": "2"}, "'en' is spoken by anna of person 2; in session 1 it was anna of person"),
+        ({"pack": "a"}, {"pack": "a"}, ""),
+        ({"pack": "a"}, {}, ""),
+    ],
+)
+def test_a_voice_that_changed_in_the_middle_of_a_study_is_found(
+    folder: Path, provenance: Provenance, first: dict[str, Any], second: dict[str, Any], words: str
+) -> None:
+    with Recorder(folder) as recorder:
+        for number, told in enumerate((first, second, second)):
+            spoken = SpeechStarted(at_ms=0, utterance=1, **({"engine": "person", "voice": "anna"} | told))
+            session = replace(provenance, seed=number, simulated=False)
+            recorder.begin(session, (*BEGUN, spoken))
+    flaws = found(folder).get(Verification.VOICE, [])
+    assert len(flaws) == bool(words)
+    assert not words or flaws[0].startswith(f"session 2: {words}")
 
 
 def test_one_code_that_two_people_have_is_found(day: Path) -> None:

@@ -13,7 +13,14 @@ from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.maintenance import BackupOutcome
-from kiosk.ui.experimenter.status import Clocks, HealthInputs, HealthLine, health_lines, health_summary
+from kiosk.ui.experimenter.status import (
+    Clocks,
+    HealthInputs,
+    HealthLine,
+    health_lines,
+    health_summary,
+    is_pack_changed,
+)
 from tests.samples import CATALOGUES
 
 STUDY = read_study(Settings())
@@ -45,6 +52,15 @@ def test_all_is_well_in_one_line_of_every_language(language: str) -> None:
     assert health_summary(found, CATALOGUES[language]) == HealthLine("", CATALOGUES[language].text("console-all-well"))
 
 
+def test_a_pack_is_changed_if_another_one_spoke_the_same_language() -> None:
+    earlier = {("en", "a"), ("it", "b")}
+    assert not is_pack_changed(("en", "a"), earlier)
+    assert not is_pack_changed(("es", "c"), earlier)
+    assert not is_pack_changed(("en", ""), earlier)
+    assert is_pack_changed(("en", "b"), earlier)
+    assert is_pack_changed(("en", "a"), {*earlier, ("en", "b")})
+
+
 @pytest.mark.parametrize("language", CATALOGUES)
 @pytest.mark.parametrize("noted", [each for each in AuditEvent if each in DEVIATIONS])
 def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, language: str) -> None:
@@ -58,6 +74,11 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
         (replace(WELL, robot=Health(is_ok=False, message="it is gone")), "Robot", "it is gone"),
         (replace(WELL, voice=Health(is_ok=False, message="no voice")), "Voice", "no voice"),
         (replace(WELL, muted=True), "Voice", "silent on purpose"),
+        (
+            replace(WELL, pack_changed=True),
+            "Voice",
+            'another voice pack than in earlier sessions; "recollect verify" names them',
+        ),
         (replace(WELL, free_space=FreeSpace(300)), "Disk", "only 300 MiB free: make room this evening"),
         (replace(WELL, free_space=FreeSpace(3)), "Disk", "only 3 MiB free: nobody can begin"),
         (replace(WELL, free_space=None), "Disk", "nobody can tell how much is free"),
