@@ -225,8 +225,9 @@ def _voice(connection: sqlite3.Connection) -> _Found:
     """
     rows = connection.execute(
         """
-        SELECT site, language, session.id, json_extract(event.body, '$.engine'), json_extract(event.body, '$.engine_version'),
-            json_extract(event.body, '$.voice'), coalesce(json_extract(event.body, '$.pack'), '')
+        SELECT site, language, session.id, json_extract(event.body, '$.engine'),
+            json_extract(event.body, '$.engine_version'), json_extract(event.body, '$.voice'),
+            coalesce(json_extract(event.body, '$.pack'), '')
         FROM event JOIN session ON session.id = session
         WHERE type = 'SpeechStarted' AND simulated = 0 ORDER BY session.id, seq
         """

@@ -24,6 +24,7 @@ from kiosk.ui.experimenter.status import (
 from tests.samples import CATALOGUES
 
 STUDY = read_study(Settings())
+CHANGED = 'another voice pack than in earlier sessions; "recollect verify" names them'
 NOW = 1_800_000_000_000
 MINUTE, HOUR = 60_000, 3_600_000
 WELL = HealthInputs(
