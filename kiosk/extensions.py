@@ -45,6 +45,17 @@ _BUILT_IN: Mapping[ExtensionGroup, Mapping[str, str]] = {
         "furhat": "kiosk.robots.furhat:Furhat",
         "furhat-realtime": "kiosk.robots.furhat_realtime:FurhatRealtime [realtime]",
     },
+    ExtensionGroup.ITEMS: {
+        "likert": "kiosk.experiment.items:Likert",
+        "differential": "kiosk.experiment.items:Differential",
+        "slider": "kiosk.experiment.items:Slider",
+        "pictures": "kiosk.experiment.items:Pictures",
+        "single": "kiosk.experiment.items:Single",
+        "multiple": "kiosk.experiment.items:Multiple",
+        "integer": "kiosk.experiment.items:Integer",
+        "text": "kiosk.experiment.items:ShortText",
+        "page": "kiosk.experiment.items:TextPage",
+    },
 }
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")

@@ -11,7 +11,15 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, STAGES, Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import ConsentPage, Information, Page, Purpose
-from kiosk.experiment.questionnaire import Integer, Likert, Multiple, Option, Questionnaire, ShortText, Single
+from kiosk.experiment.items import (
+    Integer,
+    Likert,
+    Multiple,
+    Option,
+    ShortText,
+    Single,
+)
+from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Board
 

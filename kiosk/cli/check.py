@@ -34,6 +34,7 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.config import Settings
+from kiosk.experiment.questionnaire import load_item
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
 from kiosk.preflight import Check, CheckResult, Severity
@@ -187,7 +188,7 @@ def extensions_check() -> Iterator[CheckResult]:
 
 _LOADERS: Mapping[ExtensionGroup, Callable[[Extension], object]] = {
     ExtensionGroup.ROBOTS: load_driver,
-    ExtensionGroup.ITEMS: Extension.load,
+    ExtensionGroup.ITEMS: load_item,
     ExtensionGroup.ACTIONS: Extension.load,
 }
 

@@ -15,7 +15,8 @@ from kiosk import UserInputError, program
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
 from kiosk.config import Settings
-from kiosk.experiment.questionnaire import ItemOrder, Questionnaire, TextPage
+from kiosk.experiment.items import TextPage
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_config import Source, StudyConfig
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import renamed_items

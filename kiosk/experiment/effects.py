@@ -7,7 +7,8 @@ from enum import Enum
 
 from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, Timer
 from kiosk.experiment.information import ConsentPage, Page
-from kiosk.experiment.questionnaire import Answer, Item
+from kiosk.experiment.items import Answer
+from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 
 

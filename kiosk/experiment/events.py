@@ -17,7 +17,7 @@ from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import Action, FlipInMove, GateDecision, MoveOutcome, Phase
-from kiosk.experiment.questionnaire import Answer
+from kiosk.experiment.items import Answer
 from kiosk.game import FlipRejection, Position
 
 

@@ -14,7 +14,7 @@ from pydantic import Field, field_validator
 
 from kiosk import UserInputError
 from kiosk.config import ConfigModel, code_of
-from kiosk.experiment.questionnaire import Name, Text, refuse_twice
+from kiosk.experiment.items import Name, Text, refuse_twice
 
 PUBLISHING = "share"
 """The purpose of the consent that stands for publishing; where it is offered, it has to be ticked."""

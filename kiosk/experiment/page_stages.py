@@ -13,8 +13,17 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
 from kiosk.experiment.information import Information, Page
+from kiosk.experiment.items import (
+    Answer,
+    TextPage,
+    in_language,
+)
 from kiosk.experiment.projections import Measures, measure
-from kiosk.experiment.questionnaire import Answer, Item, ItemOrder, Questionnaire, TextPage, in_language
+from kiosk.experiment.questionnaire import (
+    Item,
+    ItemOrder,
+    Questionnaire,
+)
 from kiosk.experiment.session_state import effective_answer
 
 

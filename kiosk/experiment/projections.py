@@ -7,7 +7,13 @@ from dataclasses import dataclass
 
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
-from kiosk.experiment.questionnaire import Answer, Questionnaire, Rating
+from kiosk.experiment.items import (
+    Answer,
+    Rating,
+)
+from kiosk.experiment.questionnaire import (
+    Questionnaire,
+)
 from kiosk.experiment.session_state import CARDS_IN_A_MOVE, Interval, ItemResponse, SessionState, elapsed_ms
 
 

@@ -41,7 +41,9 @@ from kiosk.experiment.events import (
     Timer,
     TimerExpired,
 )
-from kiosk.experiment.questionnaire import Answer
+from kiosk.experiment.items import (
+    Answer,
+)
 from kiosk.game import Board, Position
 
 CARDS_IN_A_MOVE = 2

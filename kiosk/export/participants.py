@@ -10,18 +10,17 @@ from functools import cached_property, partial
 
 from kiosk.experiment.events import EmbodimentName, PracticeEnd, Stage, Status
 from kiosk.experiment.information import PUBLISHING
+from kiosk.experiment.items import (
+    Rating,
+    ShortText,
+    TextPage,
+    in_language,
+)
 from kiosk.experiment.labels import fold_name
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
 from kiosk.experiment.questionnaire import (
-    Integer,
     Item,
-    Multiple,
-    Rating,
-    ShortText,
-    Single,
-    TextPage,
     facts,
-    in_language,
 )
 from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
@@ -339,16 +338,17 @@ def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable
     """An item's column: what was asked, and what could be answered, in each version of its questionnaire."""
     items, language = [item for _, item in asked_as], study.language
     newest = items[0]
-    choices = [item for item in items if isinstance(item, Single | Multiple)]
-    numbers = [_ends(item) for item in items if isinstance(item, Integer | Rating)]
+    formats = [item.answer_format for item in items]
+    choices = [each for each in formats if each.options]
+    numbers = [each.ends for each in formats if each.ends is not None]
     kind = ColumnKind.TEXT
     levels: dict[str, Level] = {}
     least: int | None = None
     most: int | None = None
     if len(choices) == len(items):
-        kind = ColumnKind.NAMES if any(isinstance(item, Multiple) for item in choices) else ColumnKind.TEXT
-        for item in choices:
-            for option in item.options:
+        kind = ColumnKind.NAMES if any(each.several for each in choices) else ColumnKind.TEXT
+        for each in choices:
+            for option in each.options:
                 levels.setdefault(option.id, Level(option.id, in_language(option.text, language)))
     elif len(numbers) == len(items):
         kind, least, most = ColumnKind.WHOLE, min(low for low, _ in numbers), max(high for _, high in numbers)
@@ -362,10 +362,6 @@ def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable
         least=least,
         most=most,
     )
-
-
-def _ends(item: Integer | Rating) -> tuple[int, int]:
-    return (item.lowest, item.highest) if isinstance(item, Integer) else item.ends
 
 
 def _item_called(name: str, item: Item) -> str:

@@ -16,7 +16,16 @@ from kiosk.experiment.events import (
     SpeechFailed,
 )
 from kiosk.experiment.information import Purpose
-from kiosk.experiment.questionnaire import Item, Questionnaire, Rating, ShortText, differences, summed
+from kiosk.experiment.items import (
+    Rating,
+    ShortText,
+)
+from kiosk.experiment.questionnaire import (
+    Item,
+    Questionnaire,
+    differences,
+    summed,
+)
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.store.session_records import EventRecord, SessionRecord
 

@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from kiosk.experiment.items import (
+    Rating,
+    ShortText,
+)
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
-from kiosk.experiment.questionnaire import KINDS, Item, Questionnaire, Rating, ShortText
+from kiosk.experiment.questionnaire import (
+    KINDS,
+    Item,
+    Questionnaire,
+)
 from kiosk.experiment.session_state import ItemResponse
 from kiosk.export.columns import (
     PARTICIPANT,
@@ -49,7 +57,7 @@ class _Answer:
 
     @property
     def scored(self) -> int | None:
-        return self.item.scored(self.number) if self.number is not None and isinstance(self.item, Rating) else None
+        return None if self.answered.value is None else self.item.score(self.answered.value)
 
 
 def _answers(kept: SessionRecord) -> Iterator[_Answer]:
@@ -94,7 +102,8 @@ def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answ
         (
             Variable(
                 "value",
-                "The last answer: a number, the name of an option, or several with a semicolon between them.",
+                "The last answer: a number, the name of an option, or several with a semicolon between them, in the "
+                "order in which a ranking has them.",
                 empty=_UNANSWERED + typed,
             ),
             value,
@@ -106,9 +115,9 @@ def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answ
         (
             Variable(
                 "scored",
-                "The number as it counts in its scale: turned round if the item is reversed.",
+                "The answer as it counts: of a rating, the number, turned round if the item is reversed.",
                 ColumnKind.WHOLE,
-                empty="the answer is none, or the item is no rating",
+                empty="the answer is none, or answers of its kind are not counted",
             ),
             lambda row: row.scored,
         ),

@@ -17,7 +17,7 @@ from kiosk.config import ConfigModel
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
-from kiosk.experiment.questionnaire import can_be_kept
+from kiosk.experiment.items import can_be_kept
 from kiosk.language_codes import distance
 
 

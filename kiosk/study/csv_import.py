@@ -20,24 +20,61 @@ from tomlkit.items import Array, InlineTable, Table
 
 from kiosk import UserInputError, unwritable
 from kiosk.errors import error_message, validation_errors, validation_messages
-from kiosk.experiment.questionnaire import (
-    Differential,
-    Integer,
-    ItemOrder,
-    Likert,
-    Multiple,
-    Pictures,
-    Questionnaire,
-    ShortText,
-    Single,
-    Slider,
-    TextPage,
-)
+from kiosk.experiment.items import BaseItem
+from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
 from kiosk.language_codes import is_right, standard
 
-PLAIN = ("id", "kind", "points", "scale", "reverse", "required", "lowest", "highest", "longest", "pictures")
-"""Columns with one value, whatever the language."""
-WORDED = ("text", "lowest", "highest", "left", "right", "options")
+_YES = dict.fromkeys(
+    (
+        *("yes", "y", "true", "1", "x", "vero", "sì", "si", "verdadero", "sí", "ja", "j", "wahr", "oui", "o", "vrai"),
+        *("sim", "verdadeiro", "waar", "sand", "sant", "tak", "prawda", "ano", "pravda"),
+    ),
+    True,
+)
+_NO = dict.fromkeys(
+    (
+        *("no", "n", "false", "0", "falso", "nein", "falsch", "non", "faux", "não", "nee", "onwaar", "falsk", "nej"),
+        *("nei", "nie", "fałsz", "ne", "nepravda"),
+    ),
+    False,
+)
+"""Spreadsheet programs and people write truth in their own language."""
+
+
+def field_reader(field_: FieldInfo) -> Callable[[str], Any] | None:
+    """How the cell of a field is read; None if it is words, with a column for each language."""
+    kinds = [each for each in get_args(field_.annotation) if each is not NoneType] or [field_.annotation]
+    kind = get_args(kinds[0])[0] if hasattr(kinds[0], "__metadata__") else kinds[0]
+    if (get_origin(kind) or kind) in {dict, tuple} or get_origin(field_.annotation) in {dict, tuple}:
+        return None
+    return {int: _number, bool: _yes_or_no}.get(kind, str)
+
+
+def _number(cell: str) -> int:
+    if not re.fullmatch(r"-?\d{1,9}", cell, re.ASCII):
+        raise ValueError(f"it must be a whole number, but it is {cell!r}")
+    return int(cell)
+
+
+def _yes_or_no(cell: str) -> bool:
+    if cell.lower() not in _YES | _NO:
+        raise ValueError(f"it must be yes or no, but it is {cell!r}")
+    return (_YES | _NO)[cell.lower()]
+
+
+_COLUMNS = ("id", "kind", "points", "scale", "reverse", "required", "lowest", "highest", "longest", "pictures")
+_WORDED = ("text", "lowest", "highest", "left", "right", "options")
+_FIELDS = {key: field for model in ITEM_KINDS.values() for key, field in model.model_fields.items()}
+
+PLAIN = (
+    *_COLUMNS,
+    *(key for key, field in _FIELDS.items() if key not in (*_COLUMNS, *_WORDED) and field_reader(field)),
+)
+"""Columns with one value, whatever the language; a kind of another package adds those of its own fields."""
+WORDED = (
+    *_WORDED,
+    *(key for key, field in _FIELDS.items() if key not in (*_COLUMNS, *_WORDED) and not field_reader(field)),
+)
 """Columns that there is one of for each language, such as text_en."""
 NEEDED = ("id", "kind")
 
@@ -172,37 +209,6 @@ def _languages(columns: Sequence[str]) -> tuple[str, ...]:
     return tuple(worded[1] for worded in filter(None, map(_worded, columns)) if worded[0] == "text")
 
 
-Model = type[Likert | Differential | Slider | Pictures | Single | Multiple | Integer | ShortText | TextPage]
-
-MODELS: Mapping[str, Model] = {
-    "likert": Likert,
-    "differential": Differential,
-    "slider": Slider,
-    "pictures": Pictures,
-    "single": Single,
-    "multiple": Multiple,
-    "integer": Integer,
-    "text": ShortText,
-    "page": TextPage,
-}
-
-_YES = dict.fromkeys(
-    (
-        *("yes", "y", "true", "1", "x", "vero", "sì", "si", "verdadero", "sí", "ja", "j", "wahr", "oui", "o", "vrai"),
-        *("sim", "verdadeiro", "waar", "sand", "sant", "tak", "prawda", "ano", "pravda"),
-    ),
-    True,
-)
-_NO = dict.fromkeys(
-    (
-        *("no", "n", "false", "0", "falso", "nein", "falsch", "non", "faux", "não", "nee", "onwaar", "falsk", "nej"),
-        *("nei", "nie", "fałsz", "ne", "nepravda"),
-    ),
-    False,
-)
-"""Spreadsheet programs and people write truth in their own language."""
-
-
 @dataclass(frozen=True)
 class Heading:
     """What a questionnaire has besides its items."""
@@ -249,28 +255,28 @@ class _Reading:
     def item(self, row: CsvRow) -> Any:
         """The item of a row, or None."""
         kind = row.cells.get("kind", "")
-        if kind not in MODELS:
-            what = f"it must be one of {', '.join(MODELS)}, but it is {kind!r}" if kind else "it is empty"
+        if kind not in ITEM_KINDS:
+            what = f"it must be one of {', '.join(ITEM_KINDS)}, but it is {kind!r}" if kind else "it is empty"
             self._blame(row, "kind", what)
             return None
-        given, used = self._given(row, MODELS[kind])
+        given, used = self._given(row, ITEM_KINDS[kind])
         for column in (column for column in row.cells if column not in used):
             self._blame(row, column, f"an item of the kind {kind!r} has none, so the cell must be empty")
         try:
-            return MODELS[kind].model_validate(given)
+            return ITEM_KINDS[kind].model_validate(given)
         except ValidationError as error:
             # What is missing was said when its cell was read.
             for fault in (fault for fault in validation_errors(error) if fault["type"] != "missing"):
-                what = error_message(fault, MODELS[kind])
+                what = error_message(fault, ITEM_KINDS[kind])
                 self._blame(row, self._column(fault["loc"]), f"it {what}" if what.startswith("must ") else what)
             return None
 
-    def _given(self, row: CsvRow, model: Model) -> tuple[dict[str, Any], set[str]]:
+    def _given(self, row: CsvRow, model: type[BaseItem]) -> tuple[dict[str, Any], set[str]]:
         """What a row gives for the fields of a model, and the columns that it stands in."""
         given: dict[str, Any] = {}
         used: set[str] = set()
         for key, field_ in model.model_fields.items():
-            reading = _reading(field_)
+            reading = field_reader(field_)
             columns = (key,) if reading else tuple(f"{key}_{language}" for language in self.table.languages)
             used |= set(columns)
             filled = [column for column in columns if column in row.cells]
@@ -332,27 +338,6 @@ class _Reading:
 
     def _blame(self, row: CsvRow, column: str, what: str) -> None:
         self.faults.append(f"{self.table.name}, row {row.number}, column {column}: {what}")
-
-
-def _reading(field_: FieldInfo) -> Callable[[str], Any] | None:
-    """How the cell of a field is read; None if it is words, with a column for each language."""
-    kinds = [each for each in get_args(field_.annotation) if each is not NoneType] or [field_.annotation]
-    kind = get_args(kinds[0])[0] if hasattr(kinds[0], "__metadata__") else kinds[0]
-    if (get_origin(kind) or kind) in {dict, tuple} or get_origin(field_.annotation) in {dict, tuple}:
-        return None
-    return {int: _number, bool: _yes_or_no}.get(kind, str)
-
-
-def _number(cell: str) -> int:
-    if not re.fullmatch(r"-?\d{1,9}", cell, re.ASCII):
-        raise ValueError(f"it must be a whole number, but it is {cell!r}")
-    return int(cell)
-
-
-def _yes_or_no(cell: str) -> bool:
-    if cell.lower() not in _YES | _NO:
-        raise ValueError(f"it must be yes or no, but it is {cell!r}")
-    return (_YES | _NO)[cell.lower()]
 
 
 def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:

@@ -30,18 +30,15 @@ from kiosk.config import (
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.experimenter import shortcuts
 from kiosk.experiment.information import PUBLISHING, Information, check_alike
-from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
-from kiosk.experiment.questionnaire import (
+from kiosk.experiment.items import (
     Choice,
-    Item,
-    Multiple,
     Pictures,
-    Questionnaire,
     ShortText,
-    Single,
     TextPage,
     in_language,
 )
+from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.randomisation import allocation_slots
 from kiosk.experiment.session_config import SessionConfig, Source, StudyConfig
 from kiosk.experiment.transitions import StageOrder
@@ -121,12 +118,11 @@ def _between(what: str, named: Sequence[tuple[str, Path]]) -> Iterator[str]:
 
 
 def _of_options(item: Item) -> Iterator[str]:
-    if not isinstance(item, Single | Multiple):
+    if not isinstance(item, Choice):
         return
-    choice: Choice = item
-    for one, other in alike(choice.ids):
+    for one, other in alike(item.ids):
         yield f"the options {one!r} and {other!r} {ONE_NAME}"
-    for option in choice.ids:
+    for option in item.ids:
         misread = read_as(option)
         if misread:
             yield f"the option {option!r} is taken for {misread} by programs that read tables; choose another id"

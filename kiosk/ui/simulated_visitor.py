@@ -15,17 +15,8 @@ from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
 from kiosk.experiment.events import Stage
-from kiosk.experiment.questionnaire import (
-    Differential,
-    Integer,
-    Item,
-    Likert,
-    Multiple,
-    Pictures,
-    ShortText,
-    Single,
-    Slider,
-)
+from kiosk.experiment.items import Act, Tap, Typing
+from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 
 LEFT = Qt.MouseButton.LeftButton
@@ -142,8 +133,6 @@ def _in_view(item: QQuickItem, place: QPoint) -> bool:
 Errand = Callable[[], None]
 """One thing that is done at one moment."""
 
-WORDS = ("perché no", "qué bien", "Ça va", "it was fun", "23 pairs, or so", "mañana")
-
 
 class FormFiller:
     """Fills in the items of one page; what is chosen is chance's."""
@@ -157,48 +146,14 @@ class FormFiller:
     def errands(self, items: tuple[Item, ...]) -> Iterator[Errand]:
         """What is to be done for these items, in their order."""
         for number, item in enumerate(items):
-            yield from self._item(item, last=number == len(items) - 1)
+            yield from map(self._do, item.simulate(self._chance, last=number == len(items) - 1))
 
-    def _item(self, item: Item, *, last: bool) -> Iterator[Errand]:
-        match item:
-            case Likert() | Differential() | Pictures():
-                yield partial(self._click, f"answer-{item.id}-{self._chance.randint(*item.ends)}")
-            case Slider():
-                yield partial(self._click, f"slider-{item.id}", self._chance.uniform(0.05, 0.95))
-            case Single() | Multiple():
-                most = len(item.ids) if isinstance(item, Multiple) else 1
-                for option in self._chance.sample(item.ids, self._chance.randint(1, most)):
-                    yield partial(self._click, f"option-{item.id}-{option}")
-            case Integer():
-                yield from self._number(item)
-            case ShortText():
-                yield from self._text(item, last=last)
-
-    def _number(self, item: Integer) -> Iterator[Errand]:
-        """With the keys on the screen, or by a step up and a step down."""
-        if self._chance.random() < 1 / 3:
-            yield partial(self._click, f"more-{item.id}")
-            yield partial(self._click, f"more-{item.id}")
-            yield partial(self._click, f"less-{item.id}")
-            return
-        yield partial(self._click, f"number-{item.id}")
-        yield from self._keys(str(self._chance.randint(item.lowest, item.highest)))
-        yield partial(self._click, "key-done")
-
-    def _text(self, item: ShortText, *, last: bool) -> Iterator[Errand]:
-        """With a real keyboard, or with the keys on the screen; at the end of a page, nobody taps "Done"."""
-        words = self._chance.choice(WORDS)[: item.longest]
-        yield partial(self._click, f"text-{item.id}")
-        if self._chance.random() < 1 / 2:
-            yield partial(self._type, words)
-        else:
-            yield from self._keys(words.lower())
-        if not last:
-            yield partial(self._click, "key-done")
-
-    def _keys(self, text: str) -> Iterator[Errand]:
-        for letter in text:
-            yield partial(self._click, "key-space" if letter == " " else f"key-{letter}")
+    def _do(self, act: Act) -> Errand:
+        match act:
+            case Tap(name, across):
+                return partial(self._click, name, across)
+            case Typing(text):
+                return partial(self._type, text)
 
 
 THINKING_MS = (500, 1_600)

@@ -17,7 +17,15 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Effect, Outcome
 from kiosk.experiment.events import EmbodimentName, Event, SessionEvent, Stage, Timer, WorldEvent
-from kiosk.experiment.questionnaire import Answer, Integer, Item, Multiple, Rating, Single, TextPage
+from kiosk.experiment.items import (
+    Answer,
+    Integer,
+    Multiple,
+    Rating,
+    Single,
+    TextPage,
+)
+from kiosk.experiment.questionnaire import Item
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Position

@@ -15,7 +15,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import BoardWait, Outcome
 from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer, WorldEvent
-from kiosk.experiment.questionnaire import TextPage
+from kiosk.experiment.items import TextPage
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.game import Position

@@ -27,7 +27,7 @@ from kiosk.experiment.events import (
     from_record,
     to_record,
 )
-from kiosk.experiment.questionnaire import Answer
+from kiosk.experiment.items import Answer
 from kiosk.game import FlipRejection, Position
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import whole

@@ -12,7 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Stage, Status, Timer
 from kiosk.experiment.information import ConsentPage, Page, Purpose
-from kiosk.experiment.questionnaire import ShortText
+from kiosk.experiment.items import ShortText
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Position
 from tests.experiment.driver import SPEECH_TIME, Driver, Voice, driven_to, with_memory

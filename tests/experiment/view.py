@@ -16,7 +16,7 @@ from kiosk.experiment.events import (
     Status,
     WorldEvent,
 )
-from kiosk.experiment.questionnaire import Answer
+from kiosk.experiment.items import Answer
 from kiosk.game import Position
 
 

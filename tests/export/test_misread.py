@@ -17,7 +17,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as some
 
 from kiosk.experiment.events import Stage
-from kiosk.experiment.questionnaire import Integer, ShortText
+from kiosk.experiment.items import Integer, ShortText
 from kiosk.export.columns import ExportOption, Label, format_cell, marked, unmarked
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, Layout, PsychDs

@@ -13,8 +13,9 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment.events import Stage
+from kiosk.experiment.items import Integer
 from kiosk.experiment.labels import fold_name, is_reserved
-from kiosk.experiment.questionnaire import Integer, Questionnaire
+from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.export.columns import ExportOption, distinct
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, CsvFile, Layout, PsychDs, TsvFile, distinct_files, write_json, write_text

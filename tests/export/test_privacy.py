@@ -16,7 +16,7 @@ import pytest
 
 from kiosk.config import Allocation, ConsentConfig, RobotConfig
 from kiosk.experiment.events import ResponseGiven, Stage
-from kiosk.experiment.questionnaire import ShortText
+from kiosk.experiment.items import ShortText
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, Layout, PsychDs

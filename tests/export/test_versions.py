@@ -12,7 +12,8 @@ from click.testing import CliRunner
 
 from kiosk.cli.main import recollect
 from kiosk.experiment.events import Stage
-from kiosk.experiment.questionnaire import Answer, Multiple, Questionnaire, ShortText, Single
+from kiosk.experiment.items import Answer, Multiple, ShortText, Single
+from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs

@@ -11,7 +11,15 @@ from types import MappingProxyType
 from kiosk.config import ASSETS
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage
-from kiosk.experiment.questionnaire import Answer, Integer, Item, Multiple, Questionnaire, Rating, Single, TextPage
+from kiosk.experiment.items import (
+    Answer,
+    Integer,
+    Multiple,
+    Rating,
+    Single,
+    TextPage,
+)
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder

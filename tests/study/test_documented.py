@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Settings
-from kiosk.experiment.questionnaire import Questionnaire
-from kiosk.study.csv_import import MODELS, PLAIN, WORDED, Heading, read_items
+from kiosk.experiment.questionnaire import ITEM_KINDS, Questionnaire
+from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
 
 PAGE = (Path(__file__).parents[2] / "docs" / "extend.md").read_text("utf-8")
 
@@ -21,7 +21,7 @@ def shown(language: str) -> list[str]:
 
 
 def test_the_questionnaire_can_be_used() -> None:
-    (text,) = (block for block in shown("toml") if "[[items]]" in block)
+    text, _example_of_a_package = (block for block in shown("toml") if "[[items]]" in block)
     read = Questionnaire.model_validate(tomllib.loads(text))
     assert [item.id for item in read.scales["LOAD"]] == ["W1", "W2"]
     assert (read.unworded("en"), read.unworded("it")) == ((), ())
@@ -44,12 +44,12 @@ def test_the_table_can_be_brought_in(tmp_path: Path) -> None:
 
 def test_every_kind_and_every_column_is_told() -> None:
     named = {name for row in re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
-    assert set(MODELS) - named == set()
+    assert set(ITEM_KINDS) - named == set()
     assert {*PLAIN, *(f"{stem}_en" for stem in WORDED)} - named == set()
 
 
-@pytest.mark.parametrize("kind", MODELS)
+@pytest.mark.parametrize("kind", ITEM_KINDS)
 def test_every_key_of_a_kind_is_told(kind: str) -> None:
     (row,) = re.findall(rf"^\| `{kind}` \|.*$", PAGE, re.MULTILINE)
     of_all = {"id", "kind", "text", "required", "scale"}
-    assert set(MODELS[kind].model_fields) - of_all - set(re.findall(r"`(\w+)`", row)) == set()
+    assert set(ITEM_KINDS[kind].model_fields) - of_all - set(re.findall(r"`(\w+)`", row)) == set()

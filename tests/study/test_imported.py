@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 
 from kiosk import StorageError, UserInputError
 from kiosk.config import ASSETS
-from kiosk.experiment.questionnaire import ItemOrder, Likert, Questionnaire
-from kiosk.study.csv_import import MODELS, PLAIN, WORDED, Heading, as_toml, read_items, write_questionnaire
+from kiosk.experiment.items import Likert
+from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
+from kiosk.study.csv_import import PLAIN, WORDED, Heading, as_toml, read_items, write_questionnaire
 from tests.study.bad_tables import HEAD, LIKERT, TABLES, rows
 
 HEADING = Heading(id="q", version="1", note="ours", per_page=4, order=ItemOrder.SHUFFLED)
@@ -35,7 +36,7 @@ def read(folder: Path, table: str | bytes) -> Questionnaire:
 def test_every_bad_cell_is_named(table: str | bytes, says: tuple[str, ...], tmp_path: Path) -> None:
     with pytest.raises(UserInputError) as refused:
         read(tmp_path, table)
-    places = {"{table}": f"the table {tmp_path / 'table.csv'}", "{kinds}": ", ".join(MODELS)}
+    places = {"{table}": f"the table {tmp_path / 'table.csv'}", "{kinds}": ", ".join(ITEM_KINDS)}
     for name, place in places.items():
         says = tuple(sentence.replace(name, place) for sentence in says)
     assert refused.value.sentences == says

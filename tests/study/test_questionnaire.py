@@ -11,7 +11,15 @@ from pydantic import ValidationError
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS
-from kiosk.experiment.questionnaire import KINDS, Answer, Likert, Questionnaire, Rating, Slider, TextPage, in_language
+from kiosk.experiment.items import (
+    Answer,
+    Likert,
+    Rating,
+    Slider,
+    TextPage,
+    in_language,
+)
+from kiosk.experiment.questionnaire import KINDS, Questionnaire
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 FINE = """

@@ -9,7 +9,8 @@ import pytest
 
 from kiosk.config import ASSETS
 from kiosk.experiment.information import Information, check_alike
-from kiosk.experiment.questionnaire import ItemOrder, Likert, Questionnaire, Rating
+from kiosk.experiment.items import Likert, Rating
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 
 LANGUAGES = ("en", "it", "es")
 QUESTIONNAIRES = sorted((ASSETS / "questionnaires").glob("*.toml"))

@@ -18,7 +18,8 @@ from kiosk.config import ASSETS
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, Status, WorldEvent
-from kiosk.experiment.questionnaire import Multiple, Questionnaire
+from kiosk.experiment.items import Multiple
+from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.game import Position
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository

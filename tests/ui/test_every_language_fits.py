@@ -24,7 +24,8 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.information import Information
-from kiosk.experiment.questionnaire import Item, Questionnaire, TextPage
+from kiosk.experiment.items import TextPage
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.screens.registry import ScreenSet

@@ -8,7 +8,8 @@ from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
-from kiosk.experiment.questionnaire import Answer, Item, Questionnaire
+from kiosk.experiment.items import Answer
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.simulated_visitor import UiDriver, find_item
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth

@@ -8,7 +8,7 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.experiment.questionnaire import Answer, ShortText
+from kiosk.experiment.items import Answer, ShortText
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.ui.conftest import Booth, MakeBooth

@@ -20,7 +20,8 @@ from pytestqt.qtbot import QtBot
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.information import ConsentPage, Information
-from kiosk.experiment.questionnaire import Item, Questionnaire, Single
+from kiosk.experiment.items import Single
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.view_model import AuthorisationStep

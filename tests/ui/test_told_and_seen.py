@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 
-from kiosk.experiment.questionnaire import Answer
+from kiosk.experiment.items import Answer
 from kiosk.ui.simulated_visitor import lay_out
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.looking import LEAST_CHANGE, is_control, painted, place, strongest_change, texts

@@ -12,7 +12,8 @@ from PySide6.QtTest import QTest
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.experimenter import hash_pin
-from kiosk.experiment.questionnaire import Item, Questionnaire, TextPage
+from kiosk.experiment.items import TextPage
+from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.app import App
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.experimenter.view_model import AuthorisationStep

@@ -2,74 +2,46 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
-from PySide6.QtQml import QmlElement
+from PySide6.QtQml import QJSValue, QmlElement
 
 from kiosk.assistance.wording import Catalogue
-from kiosk.experiment.questionnaire import (
+from kiosk.experiment.items import (
     Answer,
-    Differential,
     Integer,
-    Item,
-    Likert,
     Multiple,
     Pictures,
     ShortText,
     Single,
-    Slider,
     TextPage,
     can_be_kept,
     in_language,
 )
+from kiosk.experiment.questionnaire import Item
 from kiosk.ui.input import before, fitting
 
 
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """An item as QML shows it; ``scale`` tells where the pictures of a scale are."""
-    shown = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
-    return shown | _ends(item, catalogue.language) | _choice(item, catalogue, scale)
+    shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
+    shown |= item.view(catalogue.language) | {
+        "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""
+    }
+    if isinstance(item, Pictures):
+        folder = scale(item.pictures)
+        files = (folder / f"{point}.svg" for point in range(1, item.points + 1))
+        shown["pictures"] = [QUrl.fromLocalFile(str(file)).toString() for file in files]
+    if isinstance(item, Integer):
+        shown["range"] = catalogue.text("form-range", lowest=item.lowest, highest=item.highest)
+    return shown
 
 
-def _ends(item: Item, language: str) -> dict[str, Any]:
-    """The words at the two ends of a rating."""
-    match item:
-        case Likert() | Pictures():
-            return {"left": in_language(item.lowest, language), "right": in_language(item.highest, language)}
-        case Differential() | Slider():
-            return {"left": in_language(item.left, language), "right": in_language(item.right, language)}
-    return {}
-
-
-def _choice(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
-    """What there is to choose from, or how much can be typed."""
-    match item:
-        case Likert() | Differential() | Pictures():
-            return {"points": item.points, "pictures": _pictures(item, scale)}
-        case Slider():
-            return {"lowest": item.lowest, "highest": item.highest}
-        case Integer():
-            field = item.input
-            words = catalogue.text("form-range", lowest=item.lowest, highest=item.highest)
-            return {"range": words, "minus": field.has_minus, "widest": field.longest, "pattern": field.pattern}
-        case Single() | Multiple():
-            language = catalogue.language
-            return {"options": [{"id": each.id, "text": in_language(each.text, language)} for each in item.options]}
-        case ShortText():
-            return {"longest": item.longest}
-    return {}
-
-
-def _pictures(item: Likert | Differential | Pictures, scale: Callable[[str], Path]) -> list[str]:
-    """The addresses of the pictures, from the lowest point on; none where points are numbers."""
-    if not isinstance(item, Pictures):
-        return []
-    folder = scale(item.pictures)
-    return [QUrl.fromLocalFile(str(folder / f"{point}.svg")).toString() for point in range(1, item.points + 1)]
-
+_log = logging.getLogger(__name__)
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
@@ -212,6 +184,22 @@ class FormScreen(QObject):
         chosen = before if isinstance(before, tuple) else ()
         after = set(chosen) ^ {option}
         self._answer(item, tuple(known for known in self._options(item) if known in after) or None)
+
+    @Slot(str, "QVariant")
+    def give(self, item: str, value: object) -> None:
+        """Take the answer to an item of another package: a whole number, a text or several; null takes it back.
+
+        What the item does not take is not an answer; it is written into the log.
+        """
+        plain = value.toVariant() if isinstance(value, QJSValue) else value
+        if isinstance(plain, float) and plain.is_integer():
+            # A number of QML's has no whole kind.
+            plain = int(plain)
+        answer = tuple(plain) if isinstance(plain, list) else plain
+        if answer is None or (isinstance(answer, int | str | tuple) and self._item(item).accepts(answer)):
+            self._answer(item, answer)
+        else:
+            _log.warning("the item %s was given %r, which is no answer to it", item, type(plain).__name__)
 
     @Slot(str, str)
     def draft(self, item: str, text: str) -> None:

@@ -12,8 +12,17 @@ from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Event, Stage, Status
+from kiosk.experiment.items import (
+    Answer,
+    Multiple,
+    ShortText,
+    TextPage,
+)
 from kiosk.experiment.projections import item_responses
-from kiosk.experiment.questionnaire import Answer, ItemOrder, Multiple, Questionnaire, ShortText, TextPage
+from kiosk.experiment.questionnaire import (
+    ItemOrder,
+    Questionnaire,
+)
 from kiosk.experiment.session_state import ItemResponse, SessionState, effective_answer
 from tests.experiment.driver import driven_to
 from tests.samples import ABOUT_YOU, CLOSING, likert, options, questionnaire, whole

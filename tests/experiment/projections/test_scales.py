@@ -10,8 +10,12 @@ from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.items import (
+    Integer,
+    Slider,
+    TextPage,
+)
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
-from kiosk.experiment.questionnaire import Integer, Slider, TextPage
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from tests.samples import likert, questionnaire
 

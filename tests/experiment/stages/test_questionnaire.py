@@ -15,13 +15,10 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import Stage, Status
-from kiosk.experiment.questionnaire import (
-    KINDS,
+from kiosk.experiment.items import (
     Answer,
     Differential,
     Integer,
-    Item,
-    ItemOrder,
     Multiple,
     Pictures,
     ShortText,
@@ -29,6 +26,7 @@ from kiosk.experiment.questionnaire import (
     Slider,
     TextPage,
 )
+from kiosk.experiment.questionnaire import KINDS, Item, ItemOrder
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, driven_to, some_answer, with_memory
 from tests.samples import ABOUT_YOU, likert, options, plan, questionnaire

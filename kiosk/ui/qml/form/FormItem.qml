@@ -38,7 +38,7 @@ Rectangle {
             number.text = text
     }
     function take() {
-        way.forceActiveFocus(Qt.TabFocusReason)
+        (guest.active ? guest : way).forceActiveFocus(Qt.TabFocusReason)
     }
 
     objectName: `item-${item.id}`
@@ -78,9 +78,27 @@ Rectangle {
         Loader {
             id: way
             x: box.alone ? (parent.width - width) / 2 : 0
-            active: box.ways[box.item.kind] !== null
+            active: (box.ways[box.item.kind] ?? null) !== null
             visible: active
-            sourceComponent: box.ways[box.item.kind]
+            sourceComponent: box.ways[box.item.kind] ?? null
+        }
+        // A kind of another package, drawn by its own file.
+        Loader {
+            id: guest
+            readonly property var drawn: item
+            width: parent.width
+            active: box.item.source !== ""
+            visible: active
+            Component.onCompleted: if (active) setSource(box.item.source, {
+                item: box.item, answer: box.answer ?? null, theme: Theme, alone: box.alone
+            })
+            onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
+        }
+        Binding {
+            target: guest.item
+            property: "answer"
+            value: box.answer ?? null
+            when: guest.item !== null
         }
     }
 
