@@ -56,6 +56,12 @@ _BUILT_IN: Mapping[ExtensionGroup, Mapping[str, str]] = {
         "text": "kiosk.experiment.items:ShortText",
         "page": "kiosk.experiment.items:TextPage",
     },
+    ExtensionGroup.ACTIONS: {
+        "no_help": "kiosk.assistance.policy:NO_HELP",
+        "sug_col": "kiosk.assistance.policy:SUG_COL",
+        "sug_row": "kiosk.assistance.policy:SUG_ROW",
+        "sug_card": "kiosk.assistance.policy:SUG_CARD",
+    },
 }
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from kiosk.assistance.policy import NO_GATE, STATES, Action, Gate, QTable, State
+from kiosk.assistance.policy import ACTIONS, NO_GATE, STATES, ActionSpec, Gate, QTable, State
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, STAGES, Settings
 from kiosk.experiment.condition import Condition
@@ -81,13 +81,13 @@ INFORMATION = Information(
 """An information sheet with two purposes, of which one is required."""
 
 
-def policy_that(choose: Callable[[State], Action], gate: Gate = NO_GATE) -> QTable:
+def policy_that(choose: Callable[[State], ActionSpec], gate: Gate = NO_GATE) -> QTable:
     """A table whose greedy action in every state is the chosen one."""
-    values = [[float(action is choose(state)) for action in Action] for state in STATES]
+    values = [[float(action is choose(state)) for action in ACTIONS] for state in STATES]
     return QTable.freeze("made for a test", gate, values, {"by": "hand"})
 
 
-def always(action: Action, gate: Gate = NO_GATE) -> QTable:
+def always(action: ActionSpec, gate: Gate = NO_GATE) -> QTable:
     """A table that always takes this action."""
     return policy_that(lambda _: action, gate)
 
@@ -95,7 +95,7 @@ def always(action: Action, gate: Gate = NO_GATE) -> QTable:
 def mixed(seed: int = 0, gate: Gate = NO_GATE) -> QTable:
     """A table that takes any action anywhere, drawn by a seed."""
     rng = Random(seed)
-    chosen = {state: rng.choice(list(Action)) for state in STATES}
+    chosen = {state: rng.choice(list(ACTIONS)) for state in STATES}
     return policy_that(chosen.__getitem__, gate)
 
 

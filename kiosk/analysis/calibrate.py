@@ -22,7 +22,7 @@ from kiosk import UserInputError
 from kiosk.analysis.data import load_study, load_table
 from kiosk.analysis.memory_likelihood import Array, MoveLikelihood, PlayedGame, move_likelihood
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ActionSpec, QTable, find_action
 from kiosk.experiment.condition import Condition
 from kiosk.training.simulated_players import PEOPLE_FORMAT, PopulationPlayer
 
@@ -155,8 +155,8 @@ def _hint(board: _Board, hints: Any, actions: Any, key: tuple[str, str, int]) ->
     """The action and the target with one flip; without a hint, none."""
     cell = hints.get(key[:2], {}).get(key[2])
     if cell is None:
-        return int(Action.NO_HELP), -1
-    return int(Action[actions[key].upper()]), board.place(cell)
+        return int(ActionSpec.NO_HELP), -1
+    return int(find_action(actions[key])), board.place(cell)
 
 
 def _policies(folder: Path) -> dict[str, QTable]:

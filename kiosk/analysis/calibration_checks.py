@@ -30,7 +30,7 @@ from kiosk.analysis.memory_likelihood import Array, PlayedGame, move_likelihood
 from kiosk.analysis.policy_figures import STYLE
 from kiosk.analysis.simulated_study import follows_hint
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ACTIONS, ActionSpec, QTable
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.training.simulation import RecordedGame, record_games
 from kiosk.training.vectorised_game import CARDS, COLUMNS
@@ -159,8 +159,8 @@ class _Facts:
     @classmethod
     def of(cls, game: PlayedGame) -> _Facts:
         """Count in one game."""
-        hinted = [flip for flip in game.flips if flip[1] != Action.NO_HELP]
-        levels = sum(Action(action).level for _, action, _ in hinted)
+        hinted = [flip for flip in game.flips if flip[1] != int(ActionSpec.NO_HELP)]
+        levels = sum(ACTIONS[action].level for _, action, _ in hinted)
         followed = sum(follows_hint(*flip, game.columns) for flip in hinted)
         seen, matched, found = [0] * len(AGES), [0] * len(AGES), 0
         last: dict[int, int] = {}
@@ -170,7 +170,7 @@ class _Facts:
                 mate = game.mates[first]
                 hit = mate == place
                 found += hit
-                if action == Action.NO_HELP and mate in last:
+                if action == int(ActionSpec.NO_HELP) and mate in last:
                     age = next(n for n, (_, top) in enumerate(AGES) if at - 1 - last[mate] <= top or n == len(AGES) - 1)
                     seen[age] += 1
                     matched[age] += hit

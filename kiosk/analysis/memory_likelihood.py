@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ACTIONS, ActionSpec
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -114,7 +114,7 @@ def _collect(groups: dict[int, _Moves], number: int, game: PlayedGame) -> None:
         closed = [card for one in range(len(game.mates)) if one < game.mates[one] for card in (one, game.mates[one])]
         closed = [card for card in closed if card not in found]
         chosen = [closed.index(flip[0]) for flip in move]
-        hinted = [flip[1] != Action.NO_HELP for flip in move]
+        hinted = [flip[1] != int(ActionSpec.NO_HELP) for flip in move]
         lines = [
             [hint and _in_line(card, flip, game.columns) for card in closed]
             for flip, hint in zip(move, hinted, strict=True)
@@ -134,12 +134,12 @@ def _collect(groups: dict[int, _Moves], number: int, game: PlayedGame) -> None:
 
 def _in_line(card: int, flip: tuple[int, int, int], columns: int) -> bool:
     _, action, target = flip
-    match action:
-        case Action.SUG_COL:
+    match ACTIONS[action]:
+        case ActionSpec.SUG_COL:
             return card % columns == target % columns
-        case Action.SUG_ROW:
+        case ActionSpec.SUG_ROW:
             return card // columns == target // columns
-        case Action.SUG_CARD:
+        case ActionSpec.SUG_CARD:
             return card == target
     return False
 

@@ -10,11 +10,16 @@ import matplotlib as mpl
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from kiosk.assistance.policy import Action, MoveOutcome, Phase, QTable, State
+from kiosk.assistance.policy import ActionSpec, MoveOutcome, Phase, QTable, State
 
 COLOURS = ("#f2f0eb", "#bcd4e6", "#6fa3cc", "#1f5a8c")
 """No help, column, row, card: light to dark, as the help grows."""
-SIGNS = {Action.NO_HELP: "none", Action.SUG_COL: "column", Action.SUG_ROW: "row", Action.SUG_CARD: "card"}
+SIGNS = {
+    ActionSpec.NO_HELP: "none",
+    ActionSpec.SUG_COL: "column",
+    ActionSpec.SUG_ROW: "row",
+    ActionSpec.SUG_CARD: "card",
+}
 HEADS = {
     MoveOutcome.F_CORRECT: "first card,\nafter a match",
     MoveOutcome.F_WRONG: "first card,\nafter a miss",
@@ -45,25 +50,41 @@ class FigureSample(Protocol):
         ...
 
 
+def sign(action: ActionSpec) -> str:
+    """What an action is called in a figure."""
+    return SIGNS.get(action, action.label)
+
+
+def _colours(number: int) -> list[str]:
+    """A colour for each action; those of packages share one."""
+    return [*COLOURS, *["#cc79a7"] * (number - len(COLOURS))]
+
+
 def heat_map(policy: QTable, visits: Mapping[State, int], ending: str) -> bytes:
     """The greedy action in each of the 48 states: a row per phase and last assistance, a column per outcome.
 
     States never met in training (``visits`` says so; an empty mapping means unknown) carry a dot. ``ending`` is
     "png" or "svg".
     """
-    rows = [(phase, last) for phase in Phase for last in Action]
+    rows = [(phase, last) for phase in Phase for last in policy.actions]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 6.4), layout="constrained")
         axes = figure.subplots()
-        grid = [[int(policy.action(State(*row, outcome))) for outcome in MoveOutcome] for row in rows]
-        axes.imshow(grid, cmap=ListedColormap(COLOURS), vmin=0, vmax=len(Action) - 1, aspect="auto")
+        grid = [[policy.actions.index(policy.action(State(*row, outcome))) for outcome in MoveOutcome] for row in rows]
+        axes.imshow(
+            grid,
+            cmap=ListedColormap(_colours(len(policy.actions))),
+            vmin=0,
+            vmax=len(policy.actions) - 1,
+            aspect="auto",
+        )
         for y, row in enumerate(rows):
             for outcome in MoveOutcome:
                 _cell(axes, y, State(*row, outcome), policy, visits)
         axes.set_xticks(range(len(MoveOutcome)), [HEADS[outcome] for outcome in MoveOutcome])
-        axes.set_yticks(range(len(rows)), [f"{phase.name.lower()}, last {SIGNS[last]}" for phase, last in rows])
+        axes.set_yticks(range(len(rows)), [f"{phase.name.lower()}, last {sign(last)}" for phase, last in rows])
         axes.tick_params(length=0, top=True, labeltop=True, bottom=False, labelbottom=False)
-        for line in range(len(Action), len(rows), len(Action)):
+        for line in range(len(policy.actions), len(rows), len(policy.actions)):
             axes.axhline(line - 0.5, color="black", linewidth=1)
         axes.set_xlabel(f"What the table {policy.name!r} does; a dot: never met in training")
         return _rendered(figure, ending)
@@ -74,8 +95,8 @@ def _cell(axes: Any, y: int, state: State, policy: QTable, visits: Mapping[State
         axes.text(state.outcome, y, "·", ha="center", va="center", color="#777777")
         return
     action = policy.action(state)
-    ink = "white" if action is Action.SUG_CARD else "black"
-    axes.text(state.outcome, y, SIGNS[action], ha="center", va="center", color=ink)
+    ink = "white" if action is ActionSpec.SUG_CARD else "black"
+    axes.text(state.outcome, y, sign(action), ha="center", va="center", color=ink)
 
 
 def distributions(samples: Sequence[FigureSample], ending: str) -> bytes:

@@ -30,7 +30,7 @@ from kiosk.analysis.sequential import bayes_factors
 from kiosk.analysis.simulated_study import HIGHEST_SUM, LOWEST_SUM, PACE_SPREAD, SCALES, SECONDS_PER_FLIP
 from kiosk.analysis.statistics import benjamini_hochberg, holm, student_error, two_sided, welch_error
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ACTIONS, QTable
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.training.simulation import (
@@ -109,7 +109,7 @@ def _arm(job: PowerJob, name: str, games: int, rng: np.random.Generator, *, firs
     played = simulate_games(policy, PopulationPlayer(**job.people), where or TargetRule.RANDOM, games, seed)
     tallies = np.array(played.tallies, dtype=float)
     flips = tallies[:, T_FLIPS]
-    levels = sum(tallies[:, T_COL + action - SUG_COL] * action.level for action in Action if action)
+    levels = sum(tallies[:, T_COL + int(action) - SUG_COL] * action.level for action in ACTIONS if int(action))
     with np.errstate(invalid="ignore"):
         hints = tallies[:, T_FIRST] + tallies[:, T_SECOND]
         followed = (tallies[:, T_FOLLOWED_FIRST] + tallies[:, T_FOLLOWED_SECOND]) / hints

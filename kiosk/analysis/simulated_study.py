@@ -18,7 +18,7 @@ import numpy as np
 
 from kiosk.analysis.data import COLUMNS, DESCRIPTION
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ACTIONS, ActionSpec, QTable
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.export.columns import CODEBOOK_VERSION
 from kiosk.export.layouts import file_of, new_folder
@@ -86,11 +86,11 @@ def game_measures(game: RecordedGame) -> Numbers:
         matched = at % 2 == 1 and game.mates[game.flips[at - 1][0]] == place
         if at % 2 == 1 and led_on:
             led += matched
-        hit = action != Action.NO_HELP and follows_hint(place, action, target)
+        hit = action != int(ActionSpec.NO_HELP) and follows_hint(place, action, target)
         led_on = at % 2 == 0 and hit
-        if action != Action.NO_HELP:
+        if action != int(ActionSpec.NO_HELP):
             hints += 1
-            levels += Action(action).level
+            levels += ACTIONS[action].level
             followed += hit
             first += at % 2 == 0
             followed_first += led_on
@@ -108,9 +108,9 @@ def game_measures(game: RecordedGame) -> Numbers:
 
 def follows_hint(place: int, action: int, target: int, columns: int = BOARD_COLUMNS) -> bool:
     """Whether a flip follows its hint: it is the hinted card, or lies in the hinted row or column."""
-    if action == Action.SUG_CARD:
+    if action == int(ActionSpec.SUG_CARD):
         return place == target
-    if action == Action.SUG_COL:
+    if action == int(ActionSpec.SUG_COL):
         return place % columns == target % columns
     return place // columns == target // columns
 
@@ -217,7 +217,7 @@ def _flips(person: SimulatedParticipant) -> Iterator[tuple[dict[str, Any], dict[
         second = at % 2 == 1
         move = game.flips[at - at % 2 : at - at % 2 + 2]
         matched = game.mates[move[0][0]] == move[1][0] if len(move) > 1 else None
-        helped = action != Action.NO_HELP
+        helped = action != int(ActionSpec.NO_HELP)
         followed: Any = follows_hint(place, action, target) if helped else ""
         base = {"participant_id": person.name, "board": BOARD, "flip": at + 1, "followed": followed}
         base["move_card"] = "second" if second else "first"
@@ -225,7 +225,7 @@ def _flips(person: SimulatedParticipant) -> Iterator[tuple[dict[str, Any], dict[
         flip = {"stage": "game", "row": row + 1, "column": column + 1, "hinted": helped, "decision_ms": pace}
         flip["matched"] = matched if second else ""
         hint = {
-            "action": Action(action).label,
+            "action": ACTIONS[action].label,
             "target_row": target // BOARD_COLUMNS + 1,
             "target_column": target % BOARD_COLUMNS + 1,
             "move_matched": matched if matched is not None else "",

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove, Gate, GateDecision, Phase, QTable, State
+from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, GateDecision, Phase, Precision, QTable, State
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 
 
@@ -21,32 +21,47 @@ class Policy(Protocol):
         """When the table is asked at all."""
         ...
 
-    def row(self, state: State) -> tuple[float, ...]:
-        """The four action values of a state."""
+    @property
+    def actions(self) -> tuple[ActionSpec, ...]:
+        """What it chooses among; the first is no help."""
         ...
 
-    def action(self, state: State) -> Action:
+    def row(self, state: State) -> tuple[float, ...]:
+        """The values of a state, one for each action."""
+        ...
+
+    def action(self, state: State) -> ActionSpec:
         """The action to take in a state."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What was decided before a flip, and from what: state, gate, row of the table, action, and the hint if any."""
+    """What was decided before a flip, and from what: state, gate, row of the table, action, and the hint if any.
+
+    An action that needs no target is a remark: something is said, and there is no hint.
+    """
 
     state: State
     gate_decision: GateDecision
     q: tuple[float, ...]
-    action: Action
+    action: ActionSpec
     hint: Hint | None
+    actions: tuple[ActionSpec, ...] = ACTIONS
+    """The actions that the values in ``q`` are of."""
+
+    @property
+    def is_remark(self) -> bool:
+        """Whether something is said that points nowhere."""
+        return self.hint is None and self.action is not ActionSpec.NO_HELP
 
 
 def decide(
     game: Concentration,
-    last: Action,
+    last: ActionSpec,
     policy: Policy,
     point: Callable[[Concentration], Target],
-    override: Action | None = None,
+    override: ActionSpec | None = None,
 ) -> Decision:
     """The decision before the coming flip of ``game``, after ``last``; ``point`` is asked only if there is a hint.
 
@@ -55,12 +70,12 @@ def decide(
     state, verdict = State.of(game, last), policy.gate.decide(game)
     action = override
     if action is None:
-        action = policy.action(state) if verdict.is_open else Action.NO_HELP
+        action = policy.action(state) if verdict.is_open else ActionSpec.NO_HELP
     hint = None
-    if action is not Action.NO_HELP:
+    if action.needs_target:
         target = point(game)
         hint = Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
-    return Decision(state, verdict, policy.row(state), action, hint)
+    return Decision(state, verdict, policy.row(state), action, hint, policy.actions)
 
 
 class Assistant:
@@ -70,7 +85,7 @@ class Assistant:
         """Take a table, whose gate it obeys, and a mentaliser, whose condition it does not know."""
         self._policy = policy
         self._mentaliser = mentaliser
-        self._last = Action.NO_HELP
+        self._last = ActionSpec.NO_HELP
 
     def decide(self, game: Concentration) -> Decision:
         """Decide how much to help with the coming flip of ``game``, and where to point; the game must not be over."""
@@ -84,10 +99,14 @@ class Assistant:
 
 
 class HintWording(Protocol):
-    """Whoever knows all that can be said with a hint."""
+    """Knows all that can be said with a hint or a remark."""
 
     def all_wordings(self, hint: Hint) -> tuple[str, ...]:
         """All the sentences that there are for one hint."""
+        ...
+
+    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
+        """All the sentences that there are for an action without a place."""
         ...
 
 
@@ -116,9 +135,9 @@ class Explanation:
         decision = self.decision
         return {
             "state": {part: getattr(decision.state, part).name.lower() for part in ("game", "last", "outcome")}
-            | {"index": decision.state.index},
+            | {"index": decision.state.index_in(decision.actions)},
             "gate": {"open": decision.gate_decision.is_open, "reason": decision.gate_decision.value},
-            "q": {action.label: value for action, value in zip(Action, decision.q, strict=True)},
+            "q": {action.label: value for action, value in zip(decision.actions, decision.q, strict=True)},
             "action": decision.action.label,
             **({"overridden": True} if self.overridden else {}),
             **self._pointing(decision.hint),
@@ -153,7 +172,11 @@ def explain_decision(
 ) -> Explanation:
     """Lay open a decision about the coming flip of ``game``; without a mentaliser and a speaker there is no help."""
     candidates = mentaliser.candidates(game) if mentaliser else ()
-    sentences = speaker.all_wordings(decision.hint) if speaker and decision.hint else ()
+    sentences: tuple[str, ...] = ()
+    if speaker and decision.hint:
+        sentences = speaker.all_wordings(decision.hint)
+    elif speaker and decision.is_remark:
+        sentences = speaker.all_remarks(decision.action)
     return Explanation(game.board, decision, candidates, sentences, overridden)
 
 
@@ -189,8 +212,8 @@ class UpcomingFlip:
     ``before`` is the help with the flip before it, ``action`` the help with this one.
     """
 
-    before: Action
-    action: Action
+    before: ActionSpec
+    action: ActionSpec
     nf: int
     phase: Phase
 
@@ -198,10 +221,10 @@ class UpcomingFlip:
         """The reward "retrieval": how much of a match was the player's own. A first card never matches."""
         if not matched:
             return 0.0
-        hints = sum(action is not Action.NO_HELP for action in (self.before, self.action))
+        hints = sum(action.needs_target for action in (self.before, self.action))
         if hints == 0:
             return 1.0
-        if self.action is Action.SUG_CARD or hints > 1:
+        if self.action.precision is Precision.CARD or hints > 1:
             return 0.0
         return 1 - (COST - (len(Phase) - self.phase)) / (2 * self.nf)
 
@@ -222,23 +245,28 @@ class LearningTable:
         """The gate of the frozen table."""
         return self._frozen.gate
 
-    def row(self, state: State) -> tuple[float, ...]:
-        """The four action values of a state, as they are now."""
-        return tuple(self._values[state.index])
+    @property
+    def actions(self) -> tuple[ActionSpec, ...]:
+        """The actions of the frozen table."""
+        return self._frozen.actions
 
-    def action(self, state: State) -> Action:
+    def row(self, state: State) -> tuple[float, ...]:
+        """The values of a state as they are now, one for each action."""
+        return tuple(self._values[state.index_in(self.actions)])
+
+    def action(self, state: State) -> ActionSpec:
         """The greedy action; ties go to the lowest, which helps least."""
         row = self.row(state)
-        return Action(row.index(max(row)))
+        return self.actions[row.index(max(row))]
 
-    def learn(self, state: State, action: Action, sample: float) -> None:
+    def learn(self, state: State, action: ActionSpec, sample: float) -> None:
         """Move one value towards a sample, by no more than a step."""
-        wish = RATE * (sample - self._values[state.index][action])
-        self._values[state.index][action] += max(-self._step, min(self._step, wish))
+        row, column = self._values[state.index_in(self.actions)], self.actions.index(action)
+        row[column] += max(-self._step, min(self._step, RATE * (sample - row[column])))
 
     def frozen(self) -> QTable:
         """The table as it is now; unless something was learnt, it is the one that it began as, to the sha256."""
-        return QTable.freeze(self._frozen.name, self.gate, self._values, self._frozen.training)
+        return QTable.freeze(self._frozen.name, self.gate, self._values, self._frozen.training, self.actions)
 
 
 @dataclass(slots=True)
@@ -246,7 +274,7 @@ class _Pending:
     """A decision that is still being paid for, flip by flip."""
 
     state: State
-    action: Action
+    action: ActionSpec
     paid: float = 0.0
     weight: float = 1.0
 
@@ -287,7 +315,8 @@ class LearningAssistant(Assistant):
     def _collect(self, game: Concentration) -> None:
         """Pay for the flip that was made since the last decision."""
         if self._coming is not None and self._pending is not None:
-            self._pending.pay(self._coming.value(matched=game.last_match == game.flips))
+            worth = self._coming.value(matched=game.last_match == game.flips)
+            self._pending.pay(worth - self._coming.action.cost)
         self._coming = None
 
     def _learn(self, to_come: float) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from random import Random
 
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove, Precision
 from kiosk.game import Concentration, Position
 
 
@@ -69,7 +69,7 @@ class Target:
 class Hint:
     """One act of help with the coming flip: the action says how much of the target is given away."""
 
-    action: Action
+    action: ActionSpec
     card: FlipInMove
     target: Target
     name: str
@@ -77,12 +77,14 @@ class Hint:
     @property
     def row(self) -> int | None:
         """The row that is pointed at, from 0, or None if the action does not name one."""
-        return self.target.position.row if self.action in (Action.SUG_ROW, Action.SUG_CARD) else None
+        given = self.action.precision in (Precision.ROW, Precision.CARD)
+        return self.target.position.row if given else None
 
     @property
     def column(self) -> int | None:
         """The column that is pointed at, from 0, or None if the action does not name one."""
-        return self.target.position.column if self.action in (Action.SUG_COL, Action.SUG_CARD) else None
+        given = self.action.precision in (Precision.COLUMN, Precision.CARD)
+        return self.target.position.column if given else None
 
     def followed_by(self, flipped: Position) -> bool:
         """Whether flipping this card follows the hint: it is the hinted card, or lies in the hinted row or column."""

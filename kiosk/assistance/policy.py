@@ -8,34 +8,109 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from enum import Enum, IntEnum
+from functools import cache
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from kiosk import UserInputError
 from kiosk.config import policy_path
+from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.game import Concentration
 
 
-class Action(IntEnum):
-    """How much to help with the coming flip; the number is the column of the Q-table."""
+class Precision(Enum):
+    """How much of a card's place is given away."""
 
-    NO_HELP = 0
-    SUG_COL = 1
-    SUG_ROW = 2
-    SUG_CARD = 3
+    NOTHING = "nothing"
+    COLUMN = "column"
+    ROW = "row"
+    CARD = "card"
+
+
+@dataclass(frozen=True)
+class ActionSpec:
+    """One thing that the assistant can do before a flip; equal ones are the same object.
+
+    ``message`` begins the names of the messages that say it: with ``point`` they are ``point-first-column`` and so on.
+    An action that needs no target is said with the message of this name alone. ``cost`` is taken from the reward in
+    training, on top of what the reward itself takes for a place that is given away.
+    """
+
+    NO_HELP: ClassVar[ActionSpec]
+    SUG_COL: ClassVar[ActionSpec]
+    SUG_ROW: ClassVar[ActionSpec]
+    SUG_CARD: ClassVar[ActionSpec]
+
+    name: str
+    precision: Precision = Precision.NOTHING
+    needs_target: bool = False
+    message: str = ""
+    cost: float = 0.0
+    sentences: Path | None = None
+    """A folder with the sentences of an action from another package, one file for each language, such as en.ftl."""
+
+    def __post_init__(self) -> None:
+        """Refuse with a ValueError what cannot be carried out."""
+        if self.needs_target != (self.precision is not Precision.NOTHING):
+            raise ValueError(f"{self.name}: an action needs a target if it gives a place away, and only then")
+        if not 0 <= self.cost <= 1:
+            raise ValueError(f"{self.name}: its cost must be from 0 to 1, not {self.cost!r}")
+
+    @property
+    def messages(self) -> tuple[str, ...]:
+        """The names of the messages that say it."""
+        if not self.needs_target:
+            return (self.message,) if self.message else ()
+        return tuple(f"{self.message}-{card.value}-{self.precision.value}" for card in FlipInMove)
+
+    def __index__(self) -> int:
+        """The column in a table with the usual four actions; raises ValueError for any other."""
+        return ACTIONS.index(self)
 
     @property
     def label(self) -> str:
         """The name used in policy files and records."""
-        return self.name.lower()
+        return self.name
 
     @property
     def level(self) -> float:
         """How much assistance this is, for the measure "assistance per flip": none 0, column .5, row 1, card 2."""
-        return _LEVELS[self]
+        return _LEVELS[self.precision]
 
 
-_LEVELS = {Action.NO_HELP: 0.0, Action.SUG_COL: 0.5, Action.SUG_ROW: 1.0, Action.SUG_CARD: 2.0}
+_LEVELS = {Precision.NOTHING: 0.0, Precision.COLUMN: 0.5, Precision.ROW: 1.0, Precision.CARD: 2.0}
+
+POINT = "point"
+"""What the messages begin with that say where a card lies."""
+
+NO_HELP = ActionSpec("no_help")
+SUG_COL = ActionSpec("sug_col", Precision.COLUMN, needs_target=True, message=POINT)
+SUG_ROW = ActionSpec("sug_row", Precision.ROW, needs_target=True, message=POINT)
+SUG_CARD = ActionSpec("sug_card", Precision.CARD, needs_target=True, message=POINT)
+ACTIONS = (NO_HELP, SUG_COL, SUG_ROW, SUG_CARD)
+"""The actions of a policy that says nothing else, in the order of its columns."""
+
+ActionSpec.NO_HELP, ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD = ACTIONS
+
+
+def load_action(extension: Extension) -> ActionSpec:
+    """Import an action; raises UserInputError if it is none."""
+    action = extension.load()
+    if not isinstance(action, ActionSpec):
+        raise extension.broken(f"{extension.entry.value} is no kiosk.assistance.policy.ActionSpec")
+    if action.name != extension.name:
+        raise extension.broken(f"its name must be {extension.name!r}, not {action.name!r}")
+    if not extension.is_built_in and not action.message:
+        raise extension.broken("it has no message that it could be said with")
+    if action.sentences is not None and not (action.sentences / "en.ftl").is_file():
+        raise extension.broken(f"there are no sentences {action.sentences / 'en.ftl'}")
+    return action
+
+
+@cache
+def find_action(name: str) -> ActionSpec:
+    """Return the action of a name; raises UserInputError if no package has it, or the package is broken."""
+    return load_action(find(ExtensionGroup.ACTIONS, name))
 
 
 class Phase(IntEnum):
@@ -84,35 +159,45 @@ class State:
     """What the learning layer sees before a flip."""
 
     game: Phase
-    last: Action
+    last: ActionSpec
     outcome: MoveOutcome
 
     @property
     def index(self) -> int:
-        """The row of the Q-table, 0-47."""
-        return (self.game * len(Action) + self.last) * len(MoveOutcome) + self.outcome
+        """The row of a Q-table with the usual four actions, 0-47."""
+        return self.index_in(ACTIONS)
+
+    def index_in(self, actions: tuple[ActionSpec, ...]) -> int:
+        """The row of a Q-table with these actions, from 0."""
+        return (self.game * len(actions) + actions.index(self.last)) * len(MoveOutcome) + self.outcome
 
     @property
     def label(self) -> str:
         """The name used in policy files: ``beginning/no_help/f_correct``."""
-        return "/".join(part.name.lower() for part in (self.game, self.last, self.outcome))
+        return "/".join((self.game.name.lower(), self.last.label, self.outcome.name.lower()))
 
     @classmethod
-    def at(cls, index: int) -> Self:
-        """The state with this index."""
+    def at(cls, index: int, actions: tuple[ActionSpec, ...] = ACTIONS) -> Self:
+        """The state with this index in a table with these actions."""
         rest, outcome = divmod(index, len(MoveOutcome))
-        game, last = divmod(rest, len(Action))
-        return cls(Phase(game), Action(last), MoveOutcome(outcome))
+        game, last = divmod(rest, len(actions))
+        return cls(Phase(game), actions[last], MoveOutcome(outcome))
 
     @classmethod
-    def of(cls, game: Concentration, last: Action) -> Self:
+    def of(cls, game: Concentration, last: ActionSpec) -> Self:
         """The state before the next flip of ``game``, when the previous decision was ``last``."""
         phase = Phase.of(game.pairs_found, game.board.pairs)
         return cls(phase, last, MoveOutcome.of(FlipInMove.coming(game), last_move_matched=game.last_move_matched))
 
 
-STATES: tuple[State, ...] = tuple(State.at(index) for index in range(len(Phase) * len(Action) * len(MoveOutcome)))
-"""All 48 states, in the order of the Q-table's rows."""
+@cache
+def states_with(actions: tuple[ActionSpec, ...]) -> tuple[State, ...]:
+    """All states of a table with these actions, in the order of its rows."""
+    return tuple(State.at(index, actions) for index in range(len(Phase) * len(actions) * len(MoveOutcome)))
+
+
+STATES = states_with(ACTIONS)
+"""The 48 states with the usual four actions."""
 
 
 class GateDecision(Enum):
@@ -170,7 +255,6 @@ NONE = "none"
 DECIMALS = 6
 """Values are frozen to this many decimals: readable, and the same to the last digit on every machine."""
 
-_ACTIONS = [action.label for action in Action]
 _KEYS = {"format", "name", "gate", "training", "actions", "values", "sha256"}
 _LARGEST = sys.float_info.max
 
@@ -183,6 +267,8 @@ class PolicyError(UserInputError):
 class QTable:
     """A frozen table of shape 48 x 4 (states x actions), the gate it was trained behind, and how it was made.
 
+    With n actions it has the shape 12 n x n; ``actions`` names its columns, of which the first is no help.
+
     ``training`` is whatever the trainer wants to be known of how the table came about; it must be JSON.
     """
 
@@ -190,21 +276,35 @@ class QTable:
     gate: Gate
     values: tuple[tuple[float, ...], ...]
     training: Mapping[str, Any]
+    actions: tuple[ActionSpec, ...] = ACTIONS
 
     @classmethod
-    def freeze(cls, name: str, gate: Gate, values: Sequence[Sequence[float]], training: Mapping[str, Any]) -> Self:
+    def freeze(
+        cls,
+        name: str,
+        gate: Gate,
+        values: Sequence[Sequence[float]],
+        training: Mapping[str, Any],
+        actions: tuple[ActionSpec, ...] = ACTIONS,
+    ) -> Self:
         """A table as it will stand in its file: values rounded to DECIMALS."""
         # Adding 0.0 turns -0.0 into 0.0, which would otherwise hash differently.
-        return cls(name, gate, tuple(tuple(round(float(v), DECIMALS) + 0.0 for v in row) for row in values), training)
+        rounded = tuple(tuple(round(float(v), DECIMALS) + 0.0 for v in row) for row in values)
+        return cls(name, gate, rounded, training, actions)
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """All its states, in the order of its rows."""
+        return states_with(self.actions)
 
     def row(self, state: State) -> tuple[float, ...]:
-        """The four action values of a state."""
-        return self.values[state.index]
+        """The values of a state, one for each action."""
+        return self.values[state.index_in(self.actions)]
 
-    def action(self, state: State) -> Action:
+    def action(self, state: State) -> ActionSpec:
         """The greedy action; ties go to the lowest, which helps least."""
         row = self.row(state)
-        return Action(row.index(max(row)))
+        return self.actions[row.index(max(row))]
 
     @property
     def sha256(self) -> str:
@@ -214,7 +314,7 @@ class QTable:
     @classmethod
     def blank(cls) -> Self:
         """The table that never helps, behind the usual gate."""
-        return cls.freeze(NONE, Gate(), [[0.0] * len(Action) for _ in STATES], {})
+        return cls.freeze(NONE, Gate(), [[0.0] * len(ACTIONS) for _ in STATES], {})
 
     @classmethod
     def named(cls, name: str) -> Self:
@@ -253,8 +353,8 @@ class QTable:
             "name": self.name,
             "gate": asdict(self.gate),
             "training": dict(self.training),
-            "actions": _ACTIONS,
-            "values": {state.label: list(self.row(state)) for state in STATES},
+            "actions": [action.label for action in self.actions],
+            "values": {state.label: list(self.row(state)) for state in self.states},
         }
 
     @classmethod
@@ -266,13 +366,13 @@ class QTable:
             raise ValueError(f"it lacks {' and '.join(sorted(missing))}")
         if foreign:
             raise ValueError(f"it has a key that no policy has: {min(foreign)!r}")
-        if document["actions"] != _ACTIONS:
-            raise ValueError(f"its actions are {document['actions']}, but the assistant has {_ACTIONS}")
+        actions = _named_actions(document["actions"])
         if not isinstance(document["name"], str):
             raise ValueError(f"its name must be text, not {document['name']!r}")
         if not isinstance(document["training"], dict):
             raise ValueError(f"its training must say by name how it was made, not {document['training']!r}")
-        table = cls(document["name"], _gate(document["gate"]), _values(document["values"]), document["training"])
+        values = _values(document["values"], actions)
+        table = cls(document["name"], _gate(document["gate"]), values, document["training"], actions)
         # The hash comes last: a file whose shape is wrong deserves the better sentence.
         if document["sha256"] != table.sha256:
             raise ValueError("its sha256 does not fit its content, so it was changed after it was made")
@@ -294,23 +394,41 @@ def _hash(document: Mapping[str, Any]) -> str:
     return hashlib.sha256(canonical.encode()).hexdigest()
 
 
-def _values(rows: Any) -> tuple[tuple[float, ...], ...]:
+def check_actions(actions: Sequence[ActionSpec]) -> tuple[ActionSpec, ...]:
+    """Return a set of actions that a table can have; raises ValueError for any other."""
+    labels = [action.label for action in actions]
+    if labels[:1] != [NO_HELP.label] or len(set(labels)) < len(labels):
+        raise ValueError(f"its actions are {labels}, but the first must be {NO_HELP.label!r}, and none may stand twice")
+    return tuple(actions)
+
+
+def _named_actions(names: Any) -> tuple[ActionSpec, ...]:
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"its actions must be a list of names, not {names!r}")
+    try:
+        return check_actions([find_action(name) for name in names])
+    except UserInputError as error:
+        raise ValueError(str(error)) from error
+
+
+def _values(rows: Any, actions: tuple[ActionSpec, ...]) -> tuple[tuple[float, ...], ...]:
     if not isinstance(rows, dict):
         raise ValueError("its values are not given by state")
-    names = {state.label for state in STATES}
+    states = states_with(actions)
+    names = {state.label for state in states}
     for name in rows:
         if name not in names:
             raise ValueError(f"it names a state that does not exist: {name!r}")
-    absent = [state.label for state in STATES if state.label not in rows]
+    absent = [state.label for state in states if state.label not in rows]
     if absent:
-        raise ValueError(f"its table has {len(rows)} states, not {len(STATES)}: {absent[0]!r} is missing")
-    return tuple(_row(state, rows[state.label]) for state in STATES)
+        raise ValueError(f"its table has {len(rows)} states, not {len(states)}: {absent[0]!r} is missing")
+    return tuple(_row(state, rows[state.label], actions) for state in states)
 
 
-def _row(state: State, row: Any) -> tuple[float, ...]:
-    if not isinstance(row, list) or len(row) != len(Action):
-        raise ValueError(f"state {state.label!r} must have {len(Action)} values, one per action, not {row!r}")
-    for action, value in zip(Action, row, strict=True):
+def _row(state: State, row: Any, actions: tuple[ActionSpec, ...]) -> tuple[float, ...]:
+    if not isinstance(row, list) or len(row) != len(actions):
+        raise ValueError(f"state {state.label!r} must have {len(actions)} values, one per action, not {row!r}")
+    for action, value in zip(actions, row, strict=True):
         if isinstance(value, bool) or not isinstance(value, int | float) or not -_LARGEST <= value <= _LARGEST:
             raise ValueError(f"the value of {action.label} in state {state.label!r} is {value!r}, not a finite number")
     return tuple(float(value) for value in row)

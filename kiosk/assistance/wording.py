@@ -16,7 +16,7 @@ from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import ASSETS, read_text
 from kiosk.language_codes import babel_codes, standard
 
@@ -129,6 +129,10 @@ class Catalogue:
     def messages(self) -> frozenset[str]:
         """The names of all messages."""
         return frozenset(name for name in self.written if not name.startswith("-"))
+
+    def wordings_of(self, message: str) -> int:
+        """How many wordings a message has in this catalogue; 0 for one that is a single text, or is not there."""
+        return len(self._bundle.get_message(message).attributes) if message in self else 0
 
     def __contains__(self, message: str) -> bool:
         """Whether there is such a message."""
@@ -250,6 +254,14 @@ class PlainSentences:
         """All that could be said with a hint."""
         return self._wording.catalogue.wordings(pointing(hint), **place(hint))
 
+    def remark(self, action: ActionSpec) -> str:
+        """What is said by an action without a place."""
+        return self._wording.say(action.message)
+
+    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
+        """All that could be said by an action without a place."""
+        return self._wording.catalogue.wordings(action.message)
+
 
 class ReasonedSentences(PlainSentences):
     """Says first what this player's history gives as the reason, then where."""
@@ -273,16 +285,13 @@ def reasoning(hint: Hint) -> str:
 
 def pointing(hint: Hint) -> str:
     """The message that says where a hint points."""
-    return f"point-{hint.card.value}-{_PRECISION[hint.action]}"
+    return f"{hint.action.message}-{hint.card.value}-{hint.action.precision.value}"
 
 
 def place(hint: Hint) -> dict[str, str | int]:
     """The rows and columns that a hint gives away, counted from 1 as people do."""
     given = {"row": hint.row, "column": hint.column}
     return {name: number + 1 for name, number in given.items() if number is not None}
-
-
-_PRECISION = {Action.SUG_COL: "column", Action.SUG_ROW: "row", Action.SUG_CARD: "card"}
 
 
 def given_with(message: str) -> frozenset[str] | None:

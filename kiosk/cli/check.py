@@ -21,6 +21,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from kiosk import UserInputError, __version__, program
+from kiosk.assistance.policy import load_action
 from kiosk.autostart import WHAT, autostart_check
 from kiosk.cli.composition import LOG, LOG_BYTES, LOGS_KEPT, code_commit, code_made, read_settings
 from kiosk.cli.options import (
@@ -189,7 +190,7 @@ def extensions_check() -> Iterator[CheckResult]:
 _LOADERS: Mapping[ExtensionGroup, Callable[[Extension], object]] = {
     ExtensionGroup.ROBOTS: load_driver,
     ExtensionGroup.ITEMS: load_item,
-    ExtensionGroup.ACTIONS: Extension.load,
+    ExtensionGroup.ACTIONS: load_action,
 }
 
 _DISPLAY_S, _MARGIN_S = 14.0, 1.0

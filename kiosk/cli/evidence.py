@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, MoveOutcome, QTable
+from kiosk.assistance.policy import ActionSpec, MoveOutcome, QTable
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.training import policies
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Learner, LearningRate, Recipe
@@ -331,7 +331,7 @@ def _card_hints_on_first_cards(table: QTable) -> int:
     firsts = [
         state for state in policies.visits(table) if state.outcome in (MoveOutcome.F_CORRECT, MoveOutcome.F_WRONG)
     ]
-    return sum(table.action(state) is Action.SUG_CARD for state in firsts)
+    return sum(table.action(state) is ActionSpec.SUG_CARD for state in firsts)
 
 
 _STEPS: tuple[Callable[[int, int, int], list[Claim]], ...] = (

@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove, MoveOutcome, QTable, said_once
+from kiosk.assistance.policy import ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
 from kiosk.config import AssistanceConfig, Game
@@ -75,11 +75,8 @@ def read_case(path: Path) -> DecisionCase:
         raise UserInputError(f"the case {path} is not JSON: {error}") from error
 
 
-def _action(name: str) -> Action:
-    for action in Action:
-        if action.label == name:
-            return action
-    raise UserInputError(f"there is no action {name!r}; there are {', '.join(action.label for action in Action)}")
+def _action(name: str) -> ActionSpec:
+    return find_action(name)
 
 
 def _sentence(error: ErrorDetails) -> str:
@@ -137,7 +134,7 @@ def reason_example(moves: str) -> ReasonExample:
     mentaliser = Mentaliser(TargetRule.MOST_FLIPPED, Random(0))
     owls = [position for position in mentaliser.candidates(game) if BOARD.card(position) == CARDS[0]]
     target = mentaliser.pointing_at(owls[-1], game)
-    hint = Hint(Action.SUG_ROW, FlipInMove.coming(game), target, BOARD.card(target.position))
+    hint = Hint(ActionSpec.SUG_ROW, FlipInMove.coming(game), target, BOARD.card(target.position))
     return ReasonExample(moves, hint.card, target.reason, target.seen, target.mate_seen, _sentences(hint))
 
 
@@ -210,10 +207,10 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     """The explanation for a person: each step on its line."""
     decision = explanation.decision
     state, verdict = decision.state, decision.gate_decision
-    yield _line("state", f"{state.label}, row {state.index} of the table")
+    yield _line("state", f"{state.label}, row {state.index_in(decision.actions)} of the table")
     yield _line("", f"{state.game.name.lower()} of the game; {_OUTCOMES[state.outcome]}")
     yield _line("gate", "open: the table is asked" if verdict.is_open else f"closed: {verdict.value}")
-    yield _line("q", "   ".join(f"{a.label} {value:g}" for a, value in zip(Action, decision.q, strict=True)))
+    yield _line("q", "   ".join(f"{a.label} {value:g}" for a, value in zip(decision.actions, decision.q, strict=True)))
     yield _line(
         "action", decision.action.label + (", by the case and not by the table" if explanation.overridden else "")
     )

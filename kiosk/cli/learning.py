@@ -6,7 +6,7 @@ import json
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, fields, replace
 from importlib import import_module
@@ -17,7 +17,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import NO_GATE, STATES, Action, Gate, QTable, State
+from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, State, check_actions, find_action
 from kiosk.cli import evidence
 from kiosk.cli.options import progress_bar
 from kiosk.experiment.condition import Condition, target_rule
@@ -149,6 +149,7 @@ def ctrl_c() -> Iterator[Callable[[], bool]]:
 @click.option("--target", type=_choice(TargetRule), help="Where first-card hints point in training.")
 @click.option("--gamma", type=float, help="The discount per flip (.8).")
 @click.option("--gate", type=click.Choice(list(GATES)), help="Whether hints wait for the gate (on).")
+@click.option("--action", "actions", multiple=True, help="An action of a package, besides the usual four; repeatable.")
 @click.option("--name", help="The table's name (the name of the file).")
 @click.option(
     "--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="Where to write the policy file."
@@ -204,7 +205,17 @@ def recipe_of(reward: Reward, **options: Any) -> Recipe:
             given[name] = kind(given[name])
     if "gate" in given:
         given["gate"] = GATES[given["gate"]]
+    if added := given.pop("actions", ()):
+        given["actions"] = _with_usual(added)
     return replace(base, player=player_from_options(base.player, **seated), **given)
+
+
+def _with_usual(names: Sequence[str]) -> tuple[ActionSpec, ...]:
+    """The usual four actions and those of these names; raises UserInputError if there can be no such set."""
+    try:
+        return check_actions([*ACTIONS, *map(find_action, names)])
+    except ValueError as error:
+        raise UserInputError(f"--action: {error}") from error
 
 
 def train_command_line(recipe: Recipe, name: str) -> str:
@@ -221,10 +232,12 @@ def train_command_line(recipe: Recipe, name: str) -> str:
         words["gamma"] = _word(recipe.gamma)
     if recipe.gate != base.gate:
         words["gate"] = "off"
+    added = [f"--action {action.label}" for action in recipe.actions if action not in ACTIONS]
     return " ".join(
         [
             "recollect train",
             *(f"--{key.replace('_', '-')} {value}" for key, value in words.items()),
+            *added,
             f"--name {shlex.quote(name)}",
         ]
     )
@@ -308,7 +321,7 @@ def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: F
     if figure is not None:
         policies.write_policy(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
     met = policies.visits(table)
-    rows = {state.label: {"action": table.action(state).label, "visits": met.get(state, 0)} for state in STATES}
+    rows = {state.label: {"action": table.action(state).label, "visits": met.get(state, 0)} for state in table.states}
     document = {"policy": table.name, "sha256": table.sha256, "training": dict(table.training), "states": rows}
     _say(document, _printed(table, met), json_=json_)
 
@@ -316,14 +329,16 @@ def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: F
 def _printed(table: QTable, met: dict[State, int]) -> str:
     made = str(table.training.get("command", "the file does not say how"))
     head = [f"{table.name}  sha256 {table.sha256}", f"made by: {made}", ""]
-    head.append(f"{'state':<30}{'does':<10}" + "".join(f"{action.label:>10}" for action in Action) + f"{'visits':>10}")
-    return "\n".join(head + [_line(table, state, met) for state in STATES])
+    head.append(
+        f"{'state':<30}{'does':<10}" + "".join(f"{action.label:>10}" for action in table.actions) + f"{'visits':>10}"
+    )
+    return "\n".join(head + [_line(table, state, met) for state in table.states])
 
 
 def _line(table: QTable, state: State, met: dict[State, int]) -> str:
     numbers = "".join(f"{value:>10.4f}" for value in table.row(state))
     action = table.action(state)
-    does = "-" if met and state not in met else "" if action is Action.NO_HELP else action.label
+    does = "-" if met and state not in met else "" if action is ActionSpec.NO_HELP else action.label
     return f"{state.label:<30}{does:<10}{numbers}{met.get(state, 0):>10,}"
 
 

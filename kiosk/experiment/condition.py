@@ -13,6 +13,7 @@ from typing import Protocol
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
+from kiosk.assistance.policy import ActionSpec
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording
 
 
@@ -25,6 +26,14 @@ class Sentences(Protocol):
 
     def all_wordings(self, hint: Hint) -> tuple[str, ...]:
         """All the sentences that there are for one hint."""
+        ...
+
+    def remark(self, action: ActionSpec) -> str:
+        """The sentence for an action without a place."""
+        ...
+
+    def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
+        """All the sentences that there are for an action without a place."""
         ...
 
 

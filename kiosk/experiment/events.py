@@ -15,8 +15,9 @@ from typing import Any, ClassVar
 from cattrs import BaseValidationError, Converter, transform_error
 from cattrs.strategies import configure_tagged_union, include_subclasses
 
+from kiosk import UserInputError
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, GateDecision, MoveOutcome, Phase
+from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.items import Answer
 from kiosk.game import FlipRejection, Position
 
@@ -388,10 +389,10 @@ class AssistanceDecided(SessionEvent):
     flip: int
     card: FlipInMove
     game: Phase
-    last: Action
+    last: ActionSpec
     outcome: MoveOutcome
     gate: GateDecision
-    action: Action
+    action: ActionSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -400,7 +401,7 @@ class HintGiven(SessionEvent):
 
     flip: int
     card: FlipInMove
-    action: Action
+    action: ActionSpec
     target: Position
     name: str
     seen: int
@@ -408,6 +409,17 @@ class HintGiven(SessionEvent):
     reason: HintReason
     row: int | None
     column: int | None
+    sentence: str
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class RemarkGiven(SessionEvent):
+    """Before flip number ``flip`` the assistant said something that points nowhere; it holds the board like a hint."""
+
+    flip: int
+    card: FlipInMove
+    action: ActionSpec
     sentence: str
     utterance: int
 
@@ -505,13 +517,23 @@ def _answer(value: object, _: object) -> Answer | None:
     raise ValueError(f"{value!r} is no answer")
 
 
+def _action(name: str) -> ActionSpec:
+    """The action of a record."""
+    try:
+        return find_action(name)
+    except UserInputError as error:
+        raise ValueError(str(error)) from error
+
+
 def _converter() -> Converter:
     """A converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
     converter.register_structure_hook(Answer | None, _answer)
     converter.register_unstructure_hook(EmbodimentName, str)
     converter.register_structure_hook(EmbodimentName, lambda text, _: EmbodimentName.from_text(text))
-    for closed_set in (Action, Phase, MoveOutcome, GateDecision):
+    converter.register_unstructure_hook(ActionSpec, lambda action: action.label)
+    converter.register_structure_hook(ActionSpec, lambda name, _: _action(name))
+    for closed_set in (Phase, MoveOutcome, GateDecision):
         # Their values count rows and columns of a table, or explain; in the records they go by name.
         converter.register_unstructure_hook(closed_set, lambda member: member.name.lower())
         converter.register_structure_hook(closed_set, lambda name, enum: enum[name.upper()])

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.assistant import Assistant, Decision
 from kiosk.assistance.mentaliser import Hint
-from kiosk.assistance.policy import FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -32,9 +32,9 @@ class HintGuide:
 
 @dataclass
 class _Given:
-    """The hint that stands: whether it still holds the board, and whether its mark is on it."""
+    """The hint or remark that stands: whether it still holds the board, and whether its mark is on it."""
 
-    hint: Hint
+    hint: Hint | None
     flip: int
     utterance: int
     sentence: str
@@ -46,10 +46,8 @@ class _Given:
     """Whether the least time of a hold is over."""
     marked: bool = False
 
-    @property
-    def event(self) -> happened.HintGiven:
+    def hint_event(self, hint: Hint) -> happened.HintGiven:
         """The hint as it is recorded."""
-        hint = self.hint
         return happened.HintGiven(
             at_ms=self.at_ms,
             flip=self.flip,
@@ -187,10 +185,9 @@ class GameStage(StageHandler):
 
     def _move_completed(self, flip: Flip, given: _Given | None, outcome: OutcomeBuilder) -> None:
         outcome.effect(do.ShowProgress(self.game.pairs_found, self.game.moves))
-        if given is not None:
-            outcome.effect(
-                do.SetExpression(_reaction(given.hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood_ms)
-            )
+        hint = given.hint if given is not None else None
+        if hint is not None:
+            outcome.effect(do.SetExpression(_reaction(hint, flip)), do.StartTimer(Timer.MOOD, self._timing.mood_ms))
         if not flip.matched:
             outcome.effect(
                 do.LockBoard(BoardWait.TURNING_BACK), do.StartTimer(Timer.TURN_BACK, self._timing.mismatch_shown_ms)
@@ -211,15 +208,27 @@ class GameStage(StageHandler):
 
     def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
-        hint = self._decide(self._guide, outcome) if self._guide else None
-        if self._guide is None or hint is None:
+        decision = self._decide(self._guide, outcome) if self._guide else None
+        if self._guide is None or decision is None or decision.action is ActionSpec.NO_HELP:
             outcome.effect(do.UnlockBoard())
             return
-        sentence = self._guide.sentences.sentence(hint)
+        hint, sentences = decision.hint, self._guide.sentences
+        sentence = sentences.remark(decision.action) if hint is None else sentences.sentence(hint)
         given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
         self._given = given
-        outcome.emit(given.event)
+        outcome.emit(
+            given.hint_event(hint)
+            if hint
+            else happened.RemarkGiven(
+                at_ms=outcome.at_ms,
+                flip=given.flip,
+                card=FlipInMove.coming(self.game),
+                action=decision.action,
+                sentence=sentence,
+                utterance=given.utterance,
+            )
+        )
         outcome.effect(
             do.LockBoard(BoardWait.SPEAKING),
             do.Speak(given.utterance, sentence),
@@ -228,7 +237,7 @@ class GameStage(StageHandler):
         if not given.held_long_enough:
             outcome.effect(do.StartTimer(Timer.HOLD, self._timing.hold_min_ms))
 
-    def _decide(self, guide: HintGuide, outcome: OutcomeBuilder) -> Hint | None:
+    def _decide(self, guide: HintGuide, outcome: OutcomeBuilder) -> Decision:
         decision = guide.assistant.decide(self.game)
         outcome.emit(
             happened.AssistanceDecided(
@@ -242,7 +251,7 @@ class GameStage(StageHandler):
                 action=decision.action,
             )
         )
-        return decision.hint
+        return decision
 
     def _holding(self, utterance: int) -> _Given | None:
         """The hint that holds the board, if this is its sentence."""
@@ -265,7 +274,7 @@ class GameStage(StageHandler):
 
     def _mark(self, outcome: OutcomeBuilder) -> None:
         given = self._given
-        if given is not None and not given.marked:
+        if given is not None and given.hint is not None and not given.marked:
             given.marked = True
             outcome.emit(happened.HintHighlighted(at_ms=outcome.at_ms, flip=given.flip))
             outcome.effect(do.HighlightHint(given.hint.row, given.hint.column))

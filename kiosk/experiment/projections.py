@@ -116,6 +116,7 @@ def measure_game(state: SessionState) -> Measures:
     begin = flips[0].at_ms if flips else 0
     end = matches[-1].at_ms if matches else begin
     held = [Interval(hint.given.at_ms, hint.opened_ms) for hint in hints]
+    held += [Interval(remark.given.at_ms, remark.opened_ms) for remark in game.remarks.values()]
     led = [hint for hint in firsts if game.followed(hint) and game.move_matched(hint.given.flip)]
     return Measures(
         flips=len(flips),

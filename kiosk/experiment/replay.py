@@ -18,7 +18,7 @@ from kiosk.assistance.assistant import (
     table_before_flip,
 )
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
-from kiosk.assistance.policy import Action, State
+from kiosk.assistance.policy import ActionSpec, State
 from kiosk.assistance.wording import Catalogue, Wording
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Outcome
@@ -81,12 +81,12 @@ class DecisionContext:
 
     board: Board
     flips: tuple[Position, ...]
-    last: Action
+    last: ActionSpec
     condition: Condition
     rule: TargetRule
     policy: Policy
     catalogue: Catalogue
-    override: Action | None = None
+    override: ActionSpec | None = None
     target: Position | None = None
     seed: int = 0
 
@@ -98,7 +98,7 @@ class DecisionContext:
         return cls(
             board=game.board,
             flips=flips,
-            last=before.action if before else Action.NO_HELP,
+            last=before.action if before else ActionSpec.NO_HELP,
             condition=plan.condition,
             rule=TargetRule(plan.settings.assistance.target_rule),
             policy=table_before_flip(plan.policy, plan.settings.assistance.step, Concentration(game.board), flips),
@@ -121,17 +121,22 @@ class DecisionContext:
 
     def _undecided(self, game: Concentration) -> Decision:
         """What gate and table hold where nobody asks them."""
-        if self.override not in (None, Action.NO_HELP):
+        if self.override not in (None, ActionSpec.NO_HELP):
             raise UserInputError(
                 f"in the condition {self.condition.value} nobody helps, so there is no action to explain"
             )
         state = State.of(game, self.last)
-        return Decision(state, self.policy.gate.decide(game), self.policy.row(state), Action.NO_HELP, None)
+        verdict, row = self.policy.gate.decide(game), self.policy.row(state)
+        return Decision(state, verdict, row, ActionSpec.NO_HELP, None, self.policy.actions)
 
 
 def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) -> bool:
     """Tell whether a decision comes out as it was recorded for this flip, in all that was recorded of it."""
-    return _is_same_decision(game, flip, explanation.decision) and _is_same_hint(game, flip, explanation)
+    return (
+        _is_same_decision(game, flip, explanation.decision)
+        and _is_same_hint(game, flip, explanation)
+        and _is_same_remark(game, flip, explanation)
+    )
 
 
 def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
@@ -140,6 +145,13 @@ def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
         *(state.game, state.last, state.outcome),
         *(today.gate_decision, today.action),
     )
+
+
+def _is_same_remark(game: DealtBoard, flip: int, explanation: Explanation) -> bool:
+    stored = game.remarks.get(flip)
+    if stored is None:
+        return not explanation.decision.is_remark
+    return stored.given.sentence in explanation.sentences
 
 
 def _is_same_hint(game: DealtBoard, flip: int, explanation: Explanation) -> bool:

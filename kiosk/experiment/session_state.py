@@ -8,7 +8,7 @@ from enum import Enum
 from typing import TypeVar
 
 from kiosk.assistance.mentaliser import points_to
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment.events import (
     AssistanceDecided,
     BoardDealt,
@@ -26,6 +26,7 @@ from kiosk.experiment.events import (
     PracticeEnd,
     PracticeFinished,
     QuestionnairePageShown,
+    RemarkGiven,
     ResponseGiven,
     RobotDisconnected,
     SentenceRepeated,
@@ -99,12 +100,20 @@ class BoardHint:
     def followed_by(self, flip: Position) -> bool:
         """Tell whether flipping this card follows the hint."""
         given = self.given
-        return given.action is not Action.NO_HELP and points_to(given.row, given.column, flip)
+        return given.action is not ActionSpec.NO_HELP and points_to(given.row, given.column, flip)
+
+
+@dataclass(frozen=True)
+class BoardRemark:
+    """A remark, which points nowhere, and when the board opened again, in ms; None if that never came."""
+
+    given: RemarkGiven
+    opened_ms: int | None = None
 
 
 @dataclass(frozen=True)
 class DealtBoard:
-    """One board that was dealt; flips, hints and decisions go by the number of the flip, from 1.
+    """One board that was dealt; flips, hints, remarks and decisions go by the number of the flip, from 1.
 
     ``number`` counts the boards of a session from 1. The measures leave out all boards but the game's.
     """
@@ -115,6 +124,7 @@ class DealtBoard:
     flips: Mapping[int, BoardFlip]
     hints: Mapping[int, BoardHint]
     decisions: Mapping[int, AssistanceDecided]
+    remarks: Mapping[int, BoardRemark]
 
     @property
     def board(self) -> Board:
@@ -136,6 +146,7 @@ class SentencePurpose(Enum):
     """What a sentence was for."""
 
     HINT = "hint"
+    REMARK = "remark"
     SPEECH = "speech"
     REPEAT = "repeat"
 
@@ -314,14 +325,17 @@ class _Boards:
         self._flips: dict[int, BoardFlip] = {}
         self._hints: dict[int, BoardHint] = {}
         self._decisions: dict[int, AssistanceDecided] = {}
+        self._remarks: dict[int, BoardRemark] = {}
         self._open_since = 0
 
     def take(self, event: Event, stage: Stage, pauses: Iterable[Interval]) -> None:
         match event:
             case BoardDealt():
-                self._flips, self._hints, self._decisions = {}, {}, {}
+                self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
                 number = len(self.dealt) + 1
-                self.dealt.append(DealtBoard(number, stage, event, self._flips, self._hints, self._decisions))
+                self.dealt.append(
+                    DealtBoard(number, stage, event, self._flips, self._hints, self._decisions, self._remarks)
+                )
             case CardFlipped(number=number, at_ms=at_ms):
                 self._flips[number] = BoardFlip(event, elapsed_ms(self._open_since, at_ms, pauses))
                 if event.matched:
@@ -330,8 +344,8 @@ class _Boards:
                 self._cover(at_ms, pauses)
             case AssistanceDecided(flip=flip):
                 self._decisions[flip] = event
-            case HintGiven() | HintHighlighted() | BoardUnlocked():
-                self._take_hint(event)
+            case HintGiven() | RemarkGiven() | HintHighlighted() | BoardUnlocked():
+                self._take_help(event)
         match event:
             case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
                 self._open_since = event.at_ms
@@ -343,15 +357,20 @@ class _Boards:
             if flip.event.move == move:
                 self._flips[number] = replace(flip, exposure_ms=elapsed_ms(flip.event.at_ms, at_ms, pauses))
 
-    def _take_hint(self, event: HintGiven | HintHighlighted | BoardUnlocked) -> None:
+    def _take_help(self, event: HintGiven | RemarkGiven | HintHighlighted | BoardUnlocked) -> None:
         match event:
+            case RemarkGiven(flip=flip):
+                self._remarks[flip] = BoardRemark(event)
             case HintGiven(flip=flip):
                 self._hints[flip] = BoardHint(event)
             case HintHighlighted(flip=flip, at_ms=at_ms) if flip in self._hints:
                 self._hints[flip] = replace(self._hints[flip], marked_ms=at_ms)
-            case BoardUnlocked(at_ms=at_ms) if self._hints:
-                flip, last = next(reversed(self._hints.items()))
-                self._hints[flip] = replace(last, opened_ms=at_ms)
+            case BoardUnlocked(at_ms=at_ms) if self._hints or self._remarks:
+                flip = max((*self._hints, *self._remarks))
+                if flip in self._hints:
+                    self._hints[flip] = replace(self._hints[flip], opened_ms=at_ms)
+                else:
+                    self._remarks[flip] = replace(self._remarks[flip], opened_ms=at_ms)
 
 
 class _Responses:
@@ -415,6 +434,9 @@ class _Speech:
             case HintGiven(utterance=number, sentence=sentence, flip=flip):
                 self._hinted_flip = flip
                 self._begin(number, SentencePurpose.HINT, stage, sentence, event.at_ms)
+            case RemarkGiven(utterance=number, sentence=sentence, flip=flip):
+                self._hinted_flip = flip
+                self._begin(number, SentencePurpose.REMARK, stage, sentence, event.at_ms)
             case SentenceRequested(utterance=number, sentence=sentence):
                 self._begin(number, SentencePurpose.SPEECH, stage, sentence, event.at_ms)
             case SentenceRepeated(utterance=number, of=before):

@@ -9,11 +9,12 @@ from enum import Enum, IntEnum
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
-from kiosk.assistance.policy import Action, FlipInMove, GateDecision
+from kiosk.assistance.policy import FlipInMove, GateDecision
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, Stage, WorldEvent
 from kiosk.experiment.labels import fold_name, read_as
 from kiosk.experiment.session_config import SessionKind
+from kiosk.extensions import ExtensionGroup, installed
 
 
 class ExportOption(Enum):
@@ -321,12 +322,16 @@ PICTURE = Variable("picture", "The name of the picture on the card; every pictur
 ACTION = Variable(
     "action",
     "How much help was chosen for the flip.",
-    levels=enum_levels(
-        Action,
-        no_help="nothing was said",
-        sug_col="the column of a card was named",
-        sug_row="the row of a card was named",
-        sug_card="a card was named by row and column",
+    levels=(
+        Level("no_help", "nothing was said"),
+        Level("sug_col", "the column of a card was named"),
+        Level("sug_row", "the row of a card was named"),
+        Level("sug_card", "a card was named by row and column"),
+        *(
+            Level(each.name, f"an action of the package {each.package} {each.version}")
+            for each in installed(ExtensionGroup.ACTIONS)
+            if not each.is_built_in
+        ),
     ),
 )
 GATE = Variable(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, MoveOutcome, Phase
+from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
 from kiosk.experiment.events import AssistanceDecided
 from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
@@ -221,7 +221,7 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
         Variable(
             "level",
             "How much help that is: "
-            + ", ".join(f"{action.level:g} for {action.label}" for action in Action)
+            + ", ".join(f"{action.level:g} for {action.label}" for action in ACTIONS)
             + "; assistance per flip is their sum over all flips.",
             ColumnKind.NUMBER,
         ),

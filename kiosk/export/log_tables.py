@@ -125,7 +125,8 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
             levels=enum_levels(
                 SentencePurpose,
                 hint="it gave a hint",
-                speech="a greeting, an explanation, a remark or thanks",
+                remark="an action without a place: it said something before a flip, and pointed nowhere",
+                speech="a greeting, an explanation, a comment or thanks",
                 repeat="the experimenter had the last sentence said again",
             ),
         ),

@@ -36,7 +36,7 @@ from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_of
 
 _SUMMARISED = (
-    *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "BoardUnlocked"),
+    *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "RemarkGiven", "BoardUnlocked"),
     *("PauseRequested", "PauseEnded", "SessionEnded"),
 )
 """What is told of a session at a glance follows from these."""
@@ -217,5 +217,5 @@ def explain_stored_decision(archive: SessionRepository, number: int, flip: int) 
     explanation = DecisionContext.before(flip, game, plan).explained()
     if not agrees_with_record(explanation, game, flip):
         raise UserInputError(f"flip {flip} of session {number} comes out otherwise today than it was decided then")
-    hint = game.hints.get(flip)
-    return replace(explanation, spoken=hint.given.sentence if hint else None)
+    said = game.hints.get(flip) or game.remarks.get(flip)
+    return replace(explanation, spoken=said.given.sentence if said else None)

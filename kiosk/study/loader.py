@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from kiosk import UserInputError
-from kiosk.assistance.policy import NONE, QTable
+from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable
 from kiosk.assistance.wording import CARD, Catalogue, sources_in
 from kiosk.config import (
     ASSETS,
@@ -117,6 +117,15 @@ def _between(what: str, named: Sequence[tuple[str, Path]]) -> Iterator[str]:
             yield f"{where} {ONE_NAME}"
 
 
+def _unsaid(actions: Sequence[ActionSpec], catalogue: Catalogue) -> Iterator[str]:
+    """What a language has no wordings for, of what actions say."""
+    for action in actions:
+        lacking = [message for message in action.messages if not catalogue.wordings_of(message)]
+        # What comes with Recollect is looked for with all other messages.
+        if lacking and action not in ACTIONS:
+            yield f"the action {action.label!r} lacks {', '.join(lacking)} in {catalogue.language!r}"
+
+
 def _of_options(item: Item) -> Iterator[str]:
     if not isinstance(item, Choice):
         return
@@ -140,11 +149,11 @@ def read_study(settings: Settings) -> StudyConfig:
     look.at("stages", partial(StageOrder.of, settings.stages))
     look.at("shortcuts", partial(shortcuts, settings.shortcuts))
     look.check_allocation()
-    catalogues = look.catalogues()
+    policy = look.policy()
+    catalogues = look.catalogues(policy.actions if policy else ())
     sheets = look.sheets()
     asked = look.questionnaires()
     condition = look.at("assistance.condition", partial(Condition.from_name, settings.assistance.condition))
-    policy = look.policy()
     decks = {key: look.deck(key, board) for key, board in _boards(settings)}
     look.check_practice()
     if look.faults or condition is None or policy is None:
@@ -221,26 +230,26 @@ class _Look:
 
     # What there is
 
-    def catalogues(self) -> dict[str, Catalogue]:
-        """The sentences of every language; each says all that the model language says."""
+    def catalogues(self, actions: Sequence[ActionSpec]) -> dict[str, Catalogue]:
+        """The sentences of every language; each says all that the model language says, and what the actions need."""
         found: dict[str, Catalogue] = {}
         model = Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE)
         for name in self._settings.languages:
-            catalogue = self._catalogue(name, model)
+            catalogue = self._catalogue(name, model, actions)
             if catalogue and catalogue.language in found:
                 self._blame("languages", f"{catalogue.language!r} stands twice")
             elif catalogue:
                 found[catalogue.language] = catalogue
         return found
 
-    def _catalogue(self, name: str, model: Catalogue) -> Catalogue | None:
+    def _catalogue(self, name: str, model: Catalogue, actions: Sequence[ActionSpec]) -> Catalogue | None:
         """The sentences of one language, with the names of the cards that lie in the decks' own folders."""
         if self.at("languages", partial(standard, code_of(name))) is None:
             return None
         place = self.at("languages", partial(located, self._settings, "sentences", name))
         if place is None:
             return None
-        words = self._words_of_decks(code_of(name))
+        words = self._words_of_decks(code_of(name)) | self._words_of_actions(code_of(name), actions)
         sources = self.into(partial(sources_in, place.path))
         texts = {key: self.into(partial(read_text, f"the file {file}", file)) for key, file in words.items()}
         if sources is None or None in texts.values():
@@ -252,12 +261,18 @@ class _Look:
         lacking = sorted(each for each in model.messages - catalogue.messages if not each.startswith(f"{CARD}-"))
         if lacking:
             self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
+        self.faults += _unsaid(actions, catalogue)
         if words or not place.is_shipped:
             self.faults += unformed(
                 catalogue, model, self._cards(), max(self._settings.game.rows, self._settings.game.columns)
             )
         self._came("languages", name, place, _hash(sources.items()))
         return catalogue
+
+    def _words_of_actions(self, code: str, actions: Sequence[ActionSpec]) -> dict[str, Path]:
+        """The files in which packages say their actions in a language."""
+        files = {f"action-{each.label}.ftl": each.sentences / f"{code}.ftl" for each in actions if each.sentences}
+        return {name: file for name, file in files.items() if file.is_file()}
 
     def _words_of_decks(self, code: str) -> dict[str, Path]:
         """The files with which decks name their own cards in a language, by what to call them in records."""

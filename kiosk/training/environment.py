@@ -21,7 +21,6 @@ from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_o
 from kiosk.training.simulated_players import MemoryPlayer, SimulatedPlayer
 from kiosk.training.simulation import lay, playing, start, take
 from kiosk.training.vectorised_game import (
-    ACTIONS,
     CARDS,
     COLUMNS,
     COUNT,
@@ -35,6 +34,7 @@ from kiosk.training.vectorised_game import (
     RANDOM,
     ROWS,
     STATES,
+    USUAL,
     floats,
     gate_plan,
     is_open,
@@ -55,7 +55,7 @@ class AssistanceEnv(gym.Env[int, int]):
     Before every flip of the player the agent chooses how much to help; then the player flips one card, following the
     hint or not. The player is part of the environment, as is the choice of the card that a hint points to.
 
-    ## Action space
+    ## ActionSpec space
     ``Discrete(4)``: 0 no help, 1 point to the column, 2 to the row, 3 to the card. Any type of whole number will do.
     Everything else raises ``gymnasium.error.InvalidAction``, whether or not the gate is open; so do booleans.
 
@@ -101,7 +101,7 @@ class AssistanceEnv(gym.Env[int, int]):
         """Seat the player; ``reset`` deals."""
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise UserInputError(f"render_mode must be None or 'ansi', not {render_mode!r}")
-        self.action_space = gym.spaces.Discrete(ACTIONS)  # type: ignore[assignment]  # its values are numpy's numbers
+        self.action_space = gym.spaces.Discrete(USUAL)  # type: ignore[assignment]  # its values are numpy's numbers
         self.observation_space = gym.spaces.Discrete(STATES)  # type: ignore[assignment]  # as above
         self.render_mode = render_mode
         self._table = lay(player or MemoryPlayer((0.1, 0.45)), gate_plan(gate, one_of("target", target, TargetRule)), 0)
@@ -178,8 +178,8 @@ def _action(action: object) -> int:
         number = NO_ACTION if isinstance(action, bool) else index(action)  # type: ignore[arg-type]
     except TypeError:
         number = NO_ACTION
-    if not 0 <= number < ACTIONS:
-        raise gym.error.InvalidAction(f"the action must be a whole number from 0 to {ACTIONS - 1}, not {action!r}")
+    if not 0 <= number < USUAL:
+        raise gym.error.InvalidAction(f"the action must be a whole number from 0 to {USUAL - 1}, not {action!r}")
     return number
 
 

@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 
 from kiosk import UserInputError, __version__
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import STATES as ALL_STATES
-from kiosk.assistance.policy import Gate, QTable
+from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, QTable, states_with
 from kiosk.training.arguments import check_between, one_of, whole
 from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
 from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, SimulatedPlayer
@@ -31,9 +30,11 @@ from kiosk.training.simulation import (
     take,
 )
 from kiosk.training.vectorised_game import (
-    ACTIONS,
+    ACTION_COUNT,
+    LEAD_OF,
     NO_HELP,
-    STATES,
+    OUTCOMES,
+    PHASES,
     Floats,
     Ints,
     below,
@@ -141,6 +142,7 @@ class Recipe:
     target: TargetRule
     gate: Gate = THE_GATE
     gamma: float = 0.8
+    actions: tuple[ActionSpec, ...] = ACTIONS
 
     def __post_init__(self) -> None:
         """Refuse impossible numbers, and texts in place of members, with UserInputError."""
@@ -225,6 +227,7 @@ class LearnerState(NamedTuple):
     mean: Floats
     visits: Ints
     choices: Ints
+    costs: Floats
 
 
 @compiled_rule
@@ -261,21 +264,22 @@ def learn_episode(table: GameTable, lesson: LearnerState, episode: int) -> None:
     game, gate = table.game, table.plan
     start(table)
     lesson.purse[0] = PURSE
-    epsilon = epsilon_at(lesson.plan, episode)
+    epsilon, actions = epsilon_at(lesson.plan, episode), game[ACTION_COUNT]
     entry, gained, discount = -1, 0.0, 1.0
     while playing(game):
         row, action = state(game), NO_HELP
         opened = is_open(game, gate)
         if opened:
-            action = below(game, ACTIONS) if unit(game) < epsilon else greedy(lesson.q, row)
+            action = below(game, actions) if unit(game) < epsilon else greedy(lesson.q, row, actions)
             lesson.choices[row] += 1
         if opened or lesson.plan[DECISIONS] == DECIDED:
             if entry >= 0:
-                best = lesson.q[row * ACTIONS + greedy(lesson.q, row)]
+                best = lesson.q[row * actions + greedy(lesson.q, row, actions)]
                 update_value(lesson, episode, entry, gained + discount * best)
-            entry, gained, discount = row * ACTIONS + action, 0.0, 1.0
-        seen = reward_flip(game, action)
-        gained += discount * reward_of(lesson.plan[REWARD], seen, take(table, action), lesson.purse)
+            entry, gained, discount = row * actions + action, 0.0, 1.0
+        seen = reward_flip(game, gate[LEAD_OF + action])
+        worth = reward_of(lesson.plan[REWARD], seen, take(table, action), lesson.purse)
+        gained += discount * (worth - lesson.costs[action])
         discount *= lesson.gamma[0]
     if entry >= 0:
         update_value(lesson, episode, entry, gained)
@@ -288,7 +292,7 @@ def learn_episodes(table: GameTable, lesson: LearnerState, first: int, stop: int
     for episode in range(first, stop):
         learn_episode(table, lesson, episode)
         if episode >= half:
-            for entry in range(STATES * ACTIONS):
+            for entry in range(len(lesson.mean)):
                 lesson.mean[entry] += (lesson.q[entry] - lesson.mean[entry]) / (episode - half + 1)
 
 
@@ -299,7 +303,7 @@ class Learner:
         """Know nothing yet: every value is 0."""
         self.recipe = recipe
         self.episodes = 0
-        self._table = lay(recipe.player, gate_plan(recipe.gate, recipe.target), recipe.seed)
+        self._table = lay(recipe.player, gate_plan(recipe.gate, recipe.target, recipe.actions), recipe.seed)
         self._lesson = _lesson(recipe)
 
     def study(self, progress: Progress = lambda _: None, stopped: Callable[[], bool] = lambda: False) -> None:
@@ -319,14 +323,17 @@ class Learner:
         """The table as it stands; one that was stopped early says so in its ``training``."""
         averaged = self.recipe.averaging is Averaging.LAST_HALF and self.episodes > self.recipe.episodes // 2
         flat = [float(value) for value in (self._lesson.mean if averaged else self._lesson.q)]
-        values = [flat[row : row + ACTIONS] for row in range(0, len(flat), ACTIONS)]
+        actions = self.recipe.actions
+        values = [flat[row : row + len(actions)] for row in range(0, len(flat), len(actions))]
         training = self.recipe.training(command) | {"visits": self._visits()}
         if self.episodes < self.recipe.episodes:
             training["stopped_after"] = self.episodes
-        return QTable.freeze(name, self.recipe.gate, values, training)
+        return QTable.freeze(name, self.recipe.gate, values, training, actions)
 
     def _visits(self) -> dict[str, int]:
-        return {at.label: int(n) for at, n in zip(ALL_STATES, self._lesson.choices, strict=True) if n}
+        return {
+            at.label: int(n) for at, n in zip(states_with(self.recipe.actions), self._lesson.choices, strict=True) if n
+        }
 
 
 def _lesson(recipe: Recipe) -> LearnerState:
@@ -337,7 +344,8 @@ def _lesson(recipe: Recipe) -> LearnerState:
         ALPHAS.index(recipe.alpha),
         recipe.episodes,
     ]
-    blank = [0.0] * (STATES * ACTIONS)
+    states = PHASES * len(recipe.actions) * OUTCOMES
+    blank = [0.0] * (states * len(recipe.actions))
     return LearnerState(
         ints(numbers),
         floats([recipe.gamma]),
@@ -345,8 +353,9 @@ def _lesson(recipe: Recipe) -> LearnerState:
         floats([0.0]),
         floats(blank.copy()),
         floats(blank.copy()),
-        ints([0] * (STATES * ACTIONS)),
-        ints([0] * STATES),
+        ints([0] * (states * len(recipe.actions))),
+        ints([0] * states),
+        floats([float(action.cost) for action in recipe.actions]),
     )
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kiosk import UserInputError, unwritable
-from kiosk.assistance.policy import STATES, Action, Gate, MoveOutcome, Phase, QTable, State
+from kiosk.assistance.policy import ActionSpec, Gate, MoveOutcome, Phase, QTable, State
 
 
 def check_writable(path: Path) -> Path:
@@ -44,12 +44,12 @@ def write_policy(path: Path, content: str | bytes) -> None:
 def visits(policy: QTable) -> dict[State, int]:
     """How often each state asked for a decision in training, for those that did; empty where the file does not say."""
     counts = policy.training.get("visits", {})
-    return {state: counts[state.label] for state in STATES if state.label in counts}
+    return {state: counts[state.label] for state in policy.states if state.label in counts}
 
 
 def helped(policy: QTable) -> list[State]:
     """The states in which the table helps."""
-    return [state for state in STATES if policy.action(state) is not Action.NO_HELP]
+    return [state for state in policy.states if policy.action(state) is not ActionSpec.NO_HELP]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +69,16 @@ class Comparison:
 
 def compare_policies(one: QTable, other: QTable) -> Comparison:
     """Compare the greedy actions and the values of two tables."""
-    both = [state for state in STATES if _known(one, state) and _known(other, state)]
+    both = [state for state in one.states if state in other.states and _known(one, state) and _known(other, state)]
     different = [state for state in both if one.action(state) is not other.action(state)]
-    gaps = [abs(a - b) for state in both for a, b in zip(one.row(state), other.row(state), strict=True)]
+    gaps = [abs(a - b) for state in both for a, b in _shared_values(one, other, state)]
     return Comparison(tuple(both), tuple(different), max(gaps, default=0.0))
+
+
+def _shared_values(one: QTable, other: QTable, state: State) -> list[tuple[float, float]]:
+    """The values of a state in two tables, for the actions that both have."""
+    values = [dict(zip(table.actions, table.row(state), strict=True)) for table in (one, other)]
+    return [(value, values[1][action]) for action, value in values[0].items() if action in values[1]]
 
 
 def _known(policy: QTable, state: State) -> bool:
@@ -90,7 +96,9 @@ class PolicyClaim:
 
 def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[PolicyClaim, ...]:
     """The paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
-    levels = {phase: _level(policy, [s for s in STATES if s.game is phase and _known(policy, s)]) for phase in Phase}
+    levels = {
+        phase: _level(policy, [s for s in policy.states if s.game is phase and _known(policy, s)]) for phase in Phase
+    }
     well = _firsts(policy, MoveOutcome.F_CORRECT)
     wrong = _firsts(policy, MoveOutcome.F_WRONG)
     falls = levels[Phase.BEGINNING] >= levels[Phase.MIDDLE] >= levels[Phase.END]
@@ -109,7 +117,7 @@ def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: floa
 
 
 def _firsts(policy: QTable, outcome: MoveOutcome) -> float:
-    return _level(policy, [state for state in STATES if state.outcome is outcome and _known(policy, state)])
+    return _level(policy, [state for state in policy.states if state.outcome is outcome and _known(policy, state)])
 
 
 def _level(policy: QTable, states: list[State]) -> float:

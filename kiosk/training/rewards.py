@@ -12,8 +12,8 @@ from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.training.vectorised_game import (
     FIRST,
     FLIPS,
-    HELP,
     LAST_MATCH,
+    LEAD,
     NO_HELP,
     NOWHERE,
     PAIRS_FOUND,
@@ -68,11 +68,11 @@ class RewardFlip(NamedTuple):
 
 
 @compiled_rule
-def reward_flip(game: Ints, action: int) -> RewardFlip:
-    """The next flip of ``game``, with this help."""
+def reward_flip(game: Ints, lead: int) -> RewardFlip:
+    """The next flip of ``game``, with a help that gives so much away."""
     second = 0 if game[FIRST] == NOWHERE else 1
     early = 1 if game[PAIRS_FOUND] == 0 else 0
-    return RewardFlip(second, game[HELP], action, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
+    return RewardFlip(second, game[LEAD], lead, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
 
 
 @compiled_rule

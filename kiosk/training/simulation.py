@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ActionSpec, QTable
 from kiosk.training.arguments import one_of, whole
 from kiosk.training.simulated_players import KEPT, SimulatedPlayer, choose, prepare
 from kiosk.training.vectorised_game import (
-    ACTIONS,
+    ACTION_COUNT,
     CARDS,
     COLUMNS,
     ENDLESS,
@@ -21,6 +21,8 @@ from kiosk.training.vectorised_game import (
     FLIPS,
     HELP,
     LAST,
+    LEAD,
+    LEAD_OF,
     MATE,
     NO_HELP,
     NOWHERE,
@@ -73,15 +75,17 @@ def lay(player: SimulatedPlayer, policy_plan: Ints, seed: int) -> GameTable:
     if seed < 0:
         raise UserInputError(f"the seed must be 0 or more, not {seed}")
     numbers, odds = player.numbers()
-    return GameTable(new_game(seed), policy_plan, ints(numbers), floats(odds), ints([0] * TALLY))
+    return GameTable(
+        new_game(seed, len(policy_plan) - LEAD_OF), policy_plan, ints(numbers), floats(odds), ints([0] * TALLY)
+    )
 
 
 @compiled_rule
-def greedy(q: Floats, row: int) -> int:
+def greedy(q: Floats, row: int, actions: int) -> int:
     """The action with the highest value; ties go to the lowest, as ``QTable.action``."""
     best = 0
-    for action in range(1, ACTIONS):
-        if q[row * ACTIONS + action] > q[row * ACTIONS + best]:
+    for action in range(1, actions):
+        if q[row * actions + action] > q[row * actions + best]:
             best = action
     return best
 
@@ -110,14 +114,15 @@ def take(table: GameTable, action: int) -> int:
     """Give the help, let the player flip, and count; 1 if the flip completes a match."""
     game, tally = table.game, table.tally
     second = game[FIRST] != NOWHERE
-    target = pick(game, mark_candidates(game, table.plan[TARGET])) if action != NO_HELP else NOWHERE
-    place = choose(game, table.player, table.odds, action, target)
-    game[HELP], game[POINTED] = action, target
+    lead = table.plan[LEAD_OF + action]
+    target = pick(game, mark_candidates(game, table.plan[TARGET])) if lead != NO_HELP else NOWHERE
+    place = choose(game, table.player, table.odds, lead, target)
+    game[HELP], game[LEAD], game[POINTED] = action, lead, target
     tally[T_FLIPS] += 1
-    if action != NO_HELP:
+    if lead != NO_HELP:
         tally[T_SECOND if second else T_FIRST] += 1
-        tally[T_COL + action - SUG_COL] += 1
-        if follows(action, target, place):
+        tally[T_COL + lead - SUG_COL] += 1
+        if follows(lead, target, place):
             tally[T_FOLLOWED_SECOND if second else T_FOLLOWED_FIRST] += 1
     return 1 if flip(game, place) else 0
 
@@ -134,7 +139,7 @@ def play(table: GameTable, q: Floats) -> None:
     start(table)
     followed, led = 0, False
     while playing(table.game):
-        action = greedy(q, state(table.game)) if is_open(table.game, table.plan) else NO_HELP
+        action = greedy(q, state(table.game), table.game[ACTION_COUNT]) if is_open(table.game, table.plan) else NO_HELP
         matched = take(table, action)
         if table.game[FIRST] != NOWHERE:
             led = table.tally[T_FOLLOWED_FIRST] > followed
@@ -243,8 +248,8 @@ _SHARES = {
 
 
 def _levels(tally: tuple[int, ...]) -> float:
-    helps = Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD
-    return sum(tally[T_COL + action - SUG_COL] * action.level for action in helps)
+    helps = ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD
+    return sum(tally[T_COL + number] * action.level for number, action in enumerate(helps))
 
 
 def _plain(spread: Spread) -> dict[str, Any]:
@@ -270,7 +275,7 @@ def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
     games = whole("the number of games", games)
     if games < 2:  # noqa: PLR2004 - a spread needs two
         raise UserInputError(f"there must be at least 2 games, not {games}")
-    table = lay(player, gate_plan(policy.gate, one_of("target", target, TargetRule)), seed)
+    table = lay(player, gate_plan(policy.gate, one_of("target", target, TargetRule), policy.actions), seed)
     q = floats([value for row in policy.values for value in row])
     tallies: list[tuple[int, ...]] = []
     while len(tallies) < games:
@@ -289,7 +294,7 @@ def record(table: GameTable, q: Floats, log: Ints) -> int:
     start(table)
     game = table.game
     while playing(game):
-        action = greedy(q, state(game)) if is_open(game, table.plan) else NO_HELP
+        action = greedy(q, state(game), game[ACTION_COUNT]) if is_open(game, table.plan) else NO_HELP
         take(table, action)
         at = (game[FLIPS] - 1) * RECORD
         for place in range(CARDS):

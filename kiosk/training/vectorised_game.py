@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from platformdirs import user_cache_path
 
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, Gate, MoveOutcome, Phase
+from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, MoveOutcome, Phase, Precision
 
 Rule = TypeVar("Rule", bound=Callable[..., Any])
 Ints = list[int]
@@ -83,17 +83,21 @@ ENDLESS = 5_000
 # One game is one row of whole numbers: five blocks with a number per place, then single numbers.
 MATE, FOUND, COUNT, LAST, MARK, RECALL = (block * CARDS for block in range(6))
 FLIPS, LAST_MATCH, PAIRS_FOUND, FIRST, MATCHED, HELP, RANDOM, POINTED = range(6 * CARDS, 6 * CARDS + 8)
-GAME = 6 * CARDS + 8
+LEAD, ACTION_COUNT = range(6 * CARDS + 8, 6 * CARDS + 10)
+GAME = 6 * CARDS + 10
 NOWHERE = -1
 
-# The plan holds for many games: the gate, and where a first-card hint points.
-OPENING, PATIENCE, FIRST_PATIENCE, TARGET = range(4)
+# The plan holds for many games: the gate, where a first-card hint points, and what each action gives away.
+OPENING, PATIENCE, FIRST_PATIENCE, TARGET, LEAD_OF = range(5)
 TARGET_RULES = (TargetRule.MOST_FLIPPED, TargetRule.MOST_RECENT, TargetRule.RANDOM)
 MOST_FLIPPED, MOST_RECENT, ANYWHERE = range(3)
 
-NO_HELP, SUG_COL, SUG_ROW, SUG_CARD = (int(action) for action in Action)
-ACTIONS, OUTCOMES, PHASES = len(Action), len(MoveOutcome), len(Phase)
-STATES = PHASES * ACTIONS * OUTCOMES
+# What a help gives away, by the column of the usual four actions; another action gives away what one of them does.
+LEADS = (Precision.NOTHING, Precision.COLUMN, Precision.ROW, Precision.CARD)
+NO_HELP, SUG_COL, SUG_ROW, SUG_CARD = range(len(LEADS))
+USUAL, OUTCOMES, PHASES = len(ACTIONS), len(MoveOutcome), len(Phase)
+STATES = PHASES * USUAL * OUTCOMES
+"""With the usual four actions."""
 F_CORRECT, F_WRONG, S_CORRECT, S_WRONG = (int(outcome) for outcome in MoveOutcome)
 
 WORD = 0xFFFF_FFFF
@@ -102,14 +106,16 @@ MULTIPLIER = 2_146_999_758
 UNIT = 2.0**-BITS
 
 
-def gate_plan(gate: Gate, target: TargetRule) -> Ints:
-    """A gate and a target rule as the rules read them."""
-    return ints([gate.opening, gate.patience, gate.first_patience, TARGET_RULES.index(target)])
+def gate_plan(gate: Gate, target: TargetRule, actions: tuple[ActionSpec, ...] = ACTIONS) -> Ints:
+    """A gate, a target rule and the actions of a table as the rules read them."""
+    leads = [LEADS.index(action.precision) for action in actions]
+    return ints([gate.opening, gate.patience, gate.first_patience, TARGET_RULES.index(target), *leads])
 
 
-def new_game(seed: int) -> Ints:
-    """An empty row for games; the random numbers of all of them follow from ``seed`` (0 or more)."""
+def new_game(seed: int, actions: int = USUAL) -> Ints:
+    """An empty row for games with so many actions; their random numbers follow from ``seed`` (0 or more)."""
     numbers = [0] * GAME
+    numbers[ACTION_COUNT] = actions
     # The hash keeps neighbouring seeds apart, which this kind of generator by itself would not.
     scattered = int.from_bytes(hashlib.sha256(str(seed).encode()).digest()[:8], "big")
     numbers[RANDOM] = scattered % (MULTIPLIER * (WORD + 1) - 2) + 1
@@ -154,7 +160,7 @@ def deal(game: Ints) -> None:
         one, other = game[MARK + 2 * pair], game[MARK + 2 * pair + 1]
         game[MATE + one], game[MATE + other] = other, one
     game[FLIPS] = game[LAST_MATCH] = game[PAIRS_FOUND] = 0
-    game[FIRST], game[MATCHED], game[HELP] = NOWHERE, 1, NO_HELP
+    game[FIRST], game[MATCHED], game[HELP], game[LEAD] = NOWHERE, 1, NO_HELP, NO_HELP
     game[POINTED] = NOWHERE
 
 
@@ -187,7 +193,7 @@ def phase(game: Ints) -> int:
 def state(game: Ints) -> int:
     """The row of the Q-table before the next flip; as ``State.of(...).index``."""
     outcome = (F_CORRECT if game[MATCHED] == 1 else F_WRONG) + (0 if game[FIRST] == NOWHERE else S_CORRECT - F_CORRECT)
-    return (phase(game) * ACTIONS + game[HELP]) * OUTCOMES + outcome
+    return (phase(game) * game[ACTION_COUNT] + game[HELP]) * OUTCOMES + outcome
 
 
 @compiled_rule

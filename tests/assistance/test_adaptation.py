@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from kiosk.assistance.assistant import Assistant, Decision, LearningAssistant, LearningTable, UpcomingFlip
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
-from kiosk.assistance.policy import NO_GATE, STATES, Action, Gate, Phase, QTable, State
+from kiosk.assistance.policy import ACTIONS, NO_GATE, STATES, ActionSpec, Gate, Phase, QTable, State
 from kiosk.game import Board, Concentration
 from kiosk.training.rewards import RewardFlip, retrieved
 from tests.samples import ANIMALS, always, mixed
@@ -39,18 +39,18 @@ def play(assistant: Assistant, seed: int, skill: float = 0.4) -> list[Decision]:
     return decisions
 
 
-def changes(before: QTable, after: QTable) -> dict[tuple[State, Action], float]:
+def changes(before: QTable, after: QTable) -> dict[tuple[State, ActionSpec], float]:
     """By how much which values moved."""
     return {
         (state, action): after.row(state)[action] - before.row(state)[action]
-        for state, action in product(STATES, Action)
+        for state, action in product(STATES, ACTIONS)
         if after.row(state)[action] != before.row(state)[action]
     }
 
 
-@given(st.floats(-10, 10), st.floats(0, 1), st.sampled_from(STATES), st.sampled_from(Action))
+@given(st.floats(-10, 10), st.floats(0, 1), st.sampled_from(STATES), st.sampled_from(ACTIONS))
 def test_a_value_moves_towards_the_sample_by_no_more_than_a_step(
-    sample: float, step: float, state: State, action: Action
+    sample: float, step: float, state: State, action: ActionSpec
 ) -> None:
     frozen = mixed()
     table = LearningTable(frozen, step)
@@ -96,9 +96,9 @@ def test_the_same_flips_give_the_same_table_whoever_points_where() -> None:
 
 
 def test_nothing_is_learnt_behind_a_closed_gate() -> None:
-    adaptive = LearningAssistant(always(Action.SUG_ROW, Gate(opening=10_000)), mentaliser(), STEP)
+    adaptive = LearningAssistant(always(ActionSpec.SUG_ROW, Gate(opening=10_000)), mentaliser(), STEP)
     play(adaptive, 1)
-    assert adaptive.table.frozen().sha256 == always(Action.SUG_ROW, Gate(opening=10_000)).sha256
+    assert adaptive.table.frozen().sha256 == always(ActionSpec.SUG_ROW, Gate(opening=10_000)).sha256
 
 
 @pytest.mark.parametrize("gate", [Gate(), NO_GATE])
@@ -114,16 +114,16 @@ def test_only_what_was_decided_behind_an_open_gate_is_learnt_and_in_steps(gate: 
 
 def test_matches_without_help_speak_for_not_helping() -> None:
     """All values are 0; only matches pay, so what was done on the way to them is worth more afterwards."""
-    nothing = QTable.freeze("nothing", NO_GATE, [[0.0] * len(Action)] * len(STATES), {})
+    nothing = QTable.freeze("nothing", NO_GATE, [[0.0] * len(ACTIONS)] * len(STATES), {})
     adaptive = LearningAssistant(nothing, mentaliser(), step=1)
     play(adaptive, 4, skill=1)
     moved = changes(nothing, adaptive.table.frozen())
-    assert {action for _, action in moved} == {Action.NO_HELP}
+    assert {action for _, action in moved} == {ActionSpec.NO_HELP}
     assert all(by > 0 for by in moved.values())
 
 
 def test_the_last_match_of_a_game_is_learnt_from_too() -> None:
-    frozen = QTable.freeze("nothing", NO_GATE, [[0.0] * len(Action)] * len(STATES), {})
+    frozen = QTable.freeze("nothing", NO_GATE, [[0.0] * len(ACTIONS)] * len(STATES), {})
     adaptive = LearningAssistant(frozen, mentaliser(), step=1)
     game = Concentration(Board(1, 2, ("owl", "owl")))
     adaptive.decide(game)
@@ -131,18 +131,18 @@ def test_the_last_match_of_a_game_is_learnt_from_too() -> None:
     second = adaptive.decide(game)
     game.flip(game.closed[0])
     adaptive.finish(game)
-    assert adaptive.table.row(second.state)[Action.NO_HELP] == pytest.approx(0.1)
+    assert adaptive.table.row(second.state)[ActionSpec.NO_HELP] == pytest.approx(0.1)
 
 
 def test_help_that_gives_the_card_away_is_worth_nothing() -> None:
-    assert UpcomingFlip(Action.NO_HELP, Action.SUG_CARD, 6, Phase.END).value(matched=True) == 0
-    assert UpcomingFlip(Action.NO_HELP, Action.NO_HELP, 6, Phase.END).value(matched=True) == 1
-    assert UpcomingFlip(Action.NO_HELP, Action.NO_HELP, 6, Phase.END).value(matched=False) == 0
+    assert UpcomingFlip(ActionSpec.NO_HELP, ActionSpec.SUG_CARD, 6, Phase.END).value(matched=True) == 0
+    assert UpcomingFlip(ActionSpec.NO_HELP, ActionSpec.NO_HELP, 6, Phase.END).value(matched=True) == 1
+    assert UpcomingFlip(ActionSpec.NO_HELP, ActionSpec.NO_HELP, 6, Phase.END).value(matched=False) == 0
 
 
-@pytest.mark.parametrize(("before", "action"), list(product(Action, Action)))
-def test_a_match_is_worth_what_it_is_in_training(before: Action, action: Action) -> None:
+@pytest.mark.parametrize(("before", "action"), list(product(ACTIONS, ACTIONS)))
+def test_a_match_is_worth_what_it_is_in_training(before: ActionSpec, action: ActionSpec) -> None:
     for nf, phase in product((2, 3, 5, 12), Phase):
         now = UpcomingFlip(before, action, nf, phase).value(matched=True)
-        then = retrieved(RewardFlip(second=1, before=before, action=action, nf=nf, g=3 - phase, early=0))
+        then = retrieved(RewardFlip(second=1, before=int(before), action=int(action), nf=nf, g=3 - phase, early=0))
         assert now == pytest.approx(then)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.game import Position
 
 FIRST, SECOND = FlipInMove
@@ -55,7 +55,7 @@ def test_on_a_first_card_it_does_not_matter_which_of_the_two_is_pointed_at(
     assert HintReason.of(FIRST, target, other) is reason
 
 
-def hint(action: Action) -> Hint:
+def hint(action: ActionSpec) -> Hint:
     """A hint at row 2, column 5, counted from 0."""
     target = Target(Position(2, 5), Position(0, 0), 0, 0, HintReason.NOTHING_KNOWN, ())
     return Hint(action, FIRST, target, "owl")
@@ -64,29 +64,29 @@ def hint(action: Action) -> Hint:
 @pytest.mark.parametrize(
     ("action", "row", "column"),
     [
-        (Action.NO_HELP, None, None),
-        (Action.SUG_COL, None, 5),
-        (Action.SUG_ROW, 2, None),
-        (Action.SUG_CARD, 2, 5),
+        (ActionSpec.NO_HELP, None, None),
+        (ActionSpec.SUG_COL, None, 5),
+        (ActionSpec.SUG_ROW, 2, None),
+        (ActionSpec.SUG_CARD, 2, 5),
     ],
 )
-def test_a_hint_gives_away_only_what_its_action_allows(action: Action, row: int | None, column: int | None) -> None:
+def test_a_hint_gives_away_only_what_its_action_allows(action: ActionSpec, row: int | None, column: int | None) -> None:
     assert (hint(action).row, hint(action).column) == (row, column)
 
 
 @pytest.mark.parametrize(
     ("action", "flipped", "followed"),
     [
-        (Action.SUG_CARD, (2, 5), True),
-        (Action.SUG_CARD, (2, 4), False),
-        (Action.SUG_CARD, (1, 5), False),
-        (Action.SUG_ROW, (2, 0), True),
-        (Action.SUG_ROW, (1, 5), False),
-        (Action.SUG_COL, (0, 5), True),
-        (Action.SUG_COL, (2, 4), False),
+        (ActionSpec.SUG_CARD, (2, 5), True),
+        (ActionSpec.SUG_CARD, (2, 4), False),
+        (ActionSpec.SUG_CARD, (1, 5), False),
+        (ActionSpec.SUG_ROW, (2, 0), True),
+        (ActionSpec.SUG_ROW, (1, 5), False),
+        (ActionSpec.SUG_COL, (0, 5), True),
+        (ActionSpec.SUG_COL, (2, 4), False),
     ],
 )
 def test_a_hint_is_followed_by_a_flip_where_it_pointed(
-    action: Action, flipped: tuple[int, int], *, followed: bool
+    action: ActionSpec, flipped: tuple[int, int], *, followed: bool
 ) -> None:
     assert hint(action).followed_by(Position(*flipped)) is followed

@@ -16,7 +16,7 @@ from fluent.syntax.serializer import serialize_pattern
 from fluent.syntax.visitor import Visitor
 
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import Catalogue, PlainSentences, ReasonedSentences, Wording, place, pointing, reasoning
 from kiosk.config import ASSETS
 from kiosk.game import Position
@@ -25,7 +25,7 @@ from tests import pseudo
 SENTENCES = ASSETS / "sentences"
 LANGUAGES = tuple(sorted(folder.name for folder in SENTENCES.iterdir()))
 CARDS = tuple(sorted(picture.stem for picture in (ASSETS / "cards").glob("*/*.svg")))
-HELP = (Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD)
+HELP = (ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD)
 COUNTS = {
     FlipInMove.FIRST: ((0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)),
     FlipInMove.SECOND: ((1, 0), (1, 1), (2, 0), (2, 1), (1, 2), (2, 2)),

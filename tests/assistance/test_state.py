@@ -6,14 +6,14 @@ from itertools import product
 
 import pytest
 
-from kiosk.assistance.policy import STATES, Action, FlipInMove, MoveOutcome, Phase, State
+from kiosk.assistance.policy import ACTIONS, STATES, ActionSpec, FlipInMove, MoveOutcome, Phase, State
 from kiosk.game import Concentration, Position
 from tests.samples import board_of
 
 
 def test_there_are_forty_eight_states_and_every_combination_is_one() -> None:
     assert len(STATES) == 48
-    assert set(STATES) == {State(*parts) for parts in product(Phase, Action, MoveOutcome)}
+    assert set(STATES) == {State(*parts) for parts in product(Phase, ACTIONS, MoveOutcome)}
 
 
 def test_a_state_and_its_index_say_the_same() -> None:
@@ -23,14 +23,14 @@ def test_a_state_and_its_index_say_the_same() -> None:
 
 def test_a_state_s_label_names_phase_assistance_and_outcome() -> None:
     assert STATES[0].label == "beginning/no_help/f_correct"
-    assert State(Phase.MIDDLE, Action.SUG_ROW, MoveOutcome.S_WRONG).label == "middle/sug_row/s_wrong"
+    assert State(Phase.MIDDLE, ActionSpec.SUG_ROW, MoveOutcome.S_WRONG).label == "middle/sug_row/s_wrong"
     assert STATES[47].label == "end/sug_card/s_wrong"
     assert len({state.label for state in STATES}) == 48
 
 
 def test_the_order_of_states_and_actions_is_fixed_for_ever() -> None:
     """Policy files and stored events name them; a Q-table's rows and columns are counted in this order."""
-    assert [action.label for action in Action] == ["no_help", "sug_col", "sug_row", "sug_card"]
+    assert [action.label for action in ACTIONS] == ["no_help", "sug_col", "sug_row", "sug_card"]
     assert [phase.name for phase in Phase] == ["BEGINNING", "MIDDLE", "END"]
     assert [outcome.name for outcome in MoveOutcome] == ["F_CORRECT", "F_WRONG", "S_CORRECT", "S_WRONG"]
     assert [state.label for state in STATES[:6]] == [
@@ -45,7 +45,7 @@ def test_the_order_of_states_and_actions_is_fixed_for_ever() -> None:
 
 
 def test_an_action_s_level_is_the_paper_s_measure_of_assistance() -> None:
-    assert {action.label: action.level for action in Action} == {
+    assert {action.label: action.level for action in ACTIONS} == {
         "no_help": 0.0,
         "sug_col": 0.5,
         "sug_row": 1.0,
@@ -89,13 +89,13 @@ def test_an_outcome_joins_the_coming_card_to_the_last_completed_move(
 
 def test_a_state_is_read_off_a_game() -> None:
     game = Concentration(board_of("abc", "cab"))
-    outcomes = [State.of(game, Action.NO_HELP).outcome.name]
+    outcomes = [State.of(game, ActionSpec.NO_HELP).outcome.name]
     for row, column in ((0, 0), (0, 1), (0, 0), (1, 1), (0, 1)):
         game.flip(Position(row, column))
         game.turn_back()
-        outcomes.append(State.of(game, Action.NO_HELP).outcome.name)
+        outcomes.append(State.of(game, ActionSpec.NO_HELP).outcome.name)
     assert outcomes == ["F_CORRECT", "S_CORRECT", "F_WRONG", "S_WRONG", "F_CORRECT", "S_CORRECT"]
-    assert State.of(game, Action.SUG_ROW) == State(Phase.MIDDLE, Action.SUG_ROW, MoveOutcome.S_CORRECT)
+    assert State.of(game, ActionSpec.SUG_ROW) == State(Phase.MIDDLE, ActionSpec.SUG_ROW, MoveOutcome.S_CORRECT)
 
 
 def test_the_coming_card_is_the_second_only_while_one_card_lies_open() -> None:

@@ -19,12 +19,12 @@ from hypothesis import strategies as st
 
 from kiosk.assistance.assistant import Assistant
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
-from kiosk.assistance.policy import NO_GATE, Action, FlipInMove, Gate
+from kiosk.assistance.policy import NO_GATE, ActionSpec, FlipInMove, Gate
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording, reasoning
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 from tests.samples import ANIMALS, CATALOGUES, always
 
-HELP = (Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD)
+HELP = (ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD)
 LANGUAGES = ("en", "it", "es")
 GAMES = 2000
 """Random games in the long test; in every one some hints are asked for."""
@@ -54,7 +54,7 @@ class Asked:
         return len(self.flips) % 2 == 1
 
 
-def asked(board: Board, taps: Iterable[int], rule: TargetRule, action: Action, rng: Random) -> Iterator[Asked]:
+def asked(board: Board, taps: Iterable[int], rule: TargetRule, action: ActionSpec, rng: Random) -> Iterator[Asked]:
     """Tap these places, as far as that is allowed, and ask for a hint now and then."""
     game, flips, mentaliser = Concentration(board), list[Position](), Mentaliser(rule, rng)
     for tap in taps:
@@ -154,13 +154,13 @@ def check_place(sentence: str, language: str, asked: Asked) -> None:
     row, column = PLACES[language]
     target, action = asked.hint.target.position, asked.hint.action
     expected = []
-    if action in (Action.SUG_ROW, Action.SUG_CARD):
+    if action in (ActionSpec.SUG_ROW, ActionSpec.SUG_CARD):
         expected.append((row, str(target.row + 1)))
-    if action in (Action.SUG_COL, Action.SUG_CARD):
+    if action in (ActionSpec.SUG_COL, ActionSpec.SUG_CARD):
         expected.append((column, str(target.column + 1)))
     assert re.findall(rf"({row}|{column}) (\d+)", sentence) == expected
     assert len(re.findall(r"\d+", sentence)) == len(expected)
-    assert (row in sentence, column in sentence) == (action is not Action.SUG_COL, action is not Action.SUG_ROW)
+    assert (row in sentence, column in sentence) == (action is not ActionSpec.SUG_COL, action is not ActionSpec.SUG_ROW)
 
 
 @cache
@@ -200,7 +200,7 @@ def check(asked: Asked, language: str) -> None:
 @pytest.mark.parametrize("rule", TargetRule)
 @given(st.integers(0, 2**32), st.lists(st.integers(0, 23), max_size=40), st.sampled_from(HELP))
 def test_every_hint_of_any_game_is_true(
-    rule: TargetRule, language: str, seed: int, taps: list[int], action: Action
+    rule: TargetRule, language: str, seed: int, taps: list[int], action: ActionSpec
 ) -> None:
     board = Board.deal(4, 6, ANIMALS, Random(seed))
     for one in asked(board, [*taps, 0], rule, action, Random(seed)):
@@ -230,7 +230,7 @@ def reached(rule: TargetRule, gate: Gate, games: int = 150) -> Counter[tuple[boo
     for seed in range(games):
         rng = Random(seed)
         game = Concentration(Board.deal(4, 6, ANIMALS, rng))
-        assistant = Assistant(always(Action.SUG_ROW, gate), Mentaliser(rule, rng))
+        assistant = Assistant(always(ActionSpec.SUG_ROW, gate), Mentaliser(rule, rng))
         while not game.over:
             hint = assistant.decide(game).hint
             if hint is not None:

@@ -11,13 +11,13 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import Catalogue, PlainSentences, ReasonedSentences, Wording, place, pointing, reasoning
 from kiosk.config import ASSETS
 from kiosk.game import Position
 from tests.samples import ANIMALS, CATALOGUES, ENGLISH
 
-HELP = (Action.SUG_COL, Action.SUG_ROW, Action.SUG_CARD)
+HELP = (ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD)
 COUNTS = {
     FlipInMove.FIRST: [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)],
     FlipInMove.SECOND: [(1, 0), (1, 1), (2, 0), (2, 1), (1, 2), (2, 2)],
@@ -26,7 +26,7 @@ COUNTS = {
 
 
 def hint(
-    action: Action, card: FlipInMove = FlipInMove.FIRST, other: int = 0, target: int = 0, name: str = "owl"
+    action: ActionSpec, card: FlipInMove = FlipInMove.FIRST, other: int = 0, target: int = 0, name: str = "owl"
 ) -> Hint:
     """A hint at row 3, column 6 as people count."""
     reason = HintReason.of(card, other, target)
@@ -139,21 +139,21 @@ def test_what_the_session_says_outside_the_game_can_be_said_in_two_ways(language
 
 
 def test_places_are_told_counted_from_one() -> None:
-    assert place(hint(Action.SUG_CARD)) == {"row": 3, "column": 6}
-    assert place(hint(Action.SUG_ROW)) == {"row": 3}
-    assert place(hint(Action.SUG_COL)) == {"column": 6}
+    assert place(hint(ActionSpec.SUG_CARD)) == {"row": 3, "column": 6}
+    assert place(hint(ActionSpec.SUG_ROW)) == {"row": 3}
+    assert place(hint(ActionSpec.SUG_COL)) == {"column": 6}
 
 
 @pytest.mark.parametrize(
     ("card", "action", "where", "why"),
     [
-        (FlipInMove.FIRST, Action.SUG_COL, "point-first-column", "reason-first-nothing-known"),
-        (FlipInMove.FIRST, Action.SUG_ROW, "point-first-row", "reason-first-nothing-known"),
-        (FlipInMove.SECOND, Action.SUG_CARD, "point-second-card", "reason-second-first-sight"),
+        (FlipInMove.FIRST, ActionSpec.SUG_COL, "point-first-column", "reason-first-nothing-known"),
+        (FlipInMove.FIRST, ActionSpec.SUG_ROW, "point-first-row", "reason-first-nothing-known"),
+        (FlipInMove.SECOND, ActionSpec.SUG_CARD, "point-second-card", "reason-second-first-sight"),
     ],
 )
 def test_a_hint_s_messages_go_by_card_precision_and_reason(
-    card: FlipInMove, action: Action, where: str, why: str
+    card: FlipInMove, action: ActionSpec, where: str, why: str
 ) -> None:
     given = hint(action, card, other=int(card is FlipInMove.SECOND))
     assert (pointing(given), reasoning(given)) == (where, why)

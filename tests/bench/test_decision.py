@@ -9,7 +9,7 @@ import pytest
 
 from kiosk.assistance.assistant import Assistant
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.assistance.wording import Wording
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.game import Board, Concentration
@@ -27,7 +27,7 @@ def test_decision(benchmark: Any, condition: Condition) -> None:
         game.turn_back()
     given = help_in(condition, TargetRule.MOST_FLIPPED, Wording(ENGLISH, Random(3)), Random(4))
     assert given is not None
-    assistant = Assistant(always(Action.SUG_CARD), given.mentaliser)
+    assistant = Assistant(always(ActionSpec.SUG_CARD), given.mentaliser)
     sentences = given.sentences
 
     def decide() -> str:

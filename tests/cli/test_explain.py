@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from kiosk.assistance.policy import Action, FlipInMove, Gate
+from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.cli.main import main
 from kiosk.game import Board, Concentration
 from tests.samples import ANIMALS, CATALOGUES, always
@@ -28,7 +28,7 @@ BEAR, BUTTERFLY, CAT, DUCK = range(4)
 def policy(tmp_path: Path) -> Path:
     """A policy that always points to a row, behind the gate."""
     file = tmp_path / "rows.json"
-    file.write_text(always(Action.SUG_ROW, Gate()).to_json(), "utf-8")
+    file.write_text(always(ActionSpec.SUG_ROW, Gate()).to_json(), "utf-8")
     return file
 
 

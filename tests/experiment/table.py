@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Timing
 from kiosk.experiment import events as happened
 from kiosk.game import Position
@@ -10,7 +10,9 @@ from tests.experiment.driver import Driver, Voice
 from tests.samples import always, plan
 
 
-def playing(action: Action = Action.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: int) -> Driver:
+def playing(
+    action: ActionSpec = ActionSpec.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: int
+) -> Driver:
     """A game that has just begun, in which the assistant always does the same."""
     driver = Driver(plan(policy=always(action), timing=Timing(**timing)), seed, voice)
     driver.to_the_game()

@@ -8,7 +8,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording
 from kiosk.experiment.condition import Condition, Help, help_in
 from kiosk.experiment.events import HintGiven
@@ -62,7 +62,7 @@ def test_the_second_switch_gives_or_withholds_the_reason(condition: Condition) -
 
 @pytest.mark.parametrize("condition", HELPED)
 def test_a_condition_shows_in_what_is_said(condition: Condition) -> None:
-    driver = Driver(plan(condition, always(Action.SUG_CARD)))
+    driver = Driver(plan(condition, always(ActionSpec.SUG_CARD)))
     driver.to_the_game()
     driver.flip(Position(0, 0))
     for hint in driver.noted(HintGiven):
@@ -101,7 +101,7 @@ def test_the_two_conditions_differ_on_first_cards_and_agree_on_second_ones() -> 
     """Both hint at every flip; the visitor flips the same cards whatever is said."""
     targets = {}
     for condition in (Condition.TOM, Condition.NOTOM):
-        driver = Driver(plan(condition, always(Action.SUG_CARD)), 4)
+        driver = Driver(plan(condition, always(ActionSpec.SUG_CARD)), 4)
         driver.to_the_game()
         driver.play(at_random(4))
         targets[condition] = driver.noted(HintGiven)

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove, GateDecision, MoveOutcome, Phase
+from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import (
     EmbodimentKind,
@@ -95,10 +95,10 @@ def test_a_record_can_be_read_without_the_program() -> None:
         flip=7,
         card=FlipInMove.SECOND,
         game=Phase.MIDDLE,
-        last=Action.SUG_ROW,
+        last=ActionSpec.SUG_ROW,
         outcome=MoveOutcome.S_WRONG,
         gate=GateDecision.STILL_EXPLORING,
-        action=Action.NO_HELP,
+        action=ActionSpec.NO_HELP,
     )
     assert to_record(decided) == {
         "type": "AssistanceDecided",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Idle, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -35,7 +35,7 @@ LONG_ENOUGH = {
 }
 """How long every stage waits before it asks, in ms, if the study file does not say otherwise."""
 
-LASTING = whole(policy=always(Action.NO_HELP), timing=Timing(thanks_ms=10**6))
+LASTING = whole(policy=always(ActionSpec.NO_HELP), timing=Timing(thanks_ms=10**6))
 """A session whose thanks do not end by themselves before anybody can be asked."""
 
 
@@ -98,7 +98,7 @@ def test_any_tap_is_an_answer_too() -> None:
 
 
 def test_every_tap_starts_the_idle_time_anew() -> None:
-    driver = playing(Action.SUG_CARD, Voice.IS_SILENT)
+    driver = playing(ActionSpec.SUG_CARD, Voice.IS_SILENT)
     driver.spend(1000)
     driver.tap(Position(0, 0))
     assert driver.running[Timer.IDLE] == driver.now + 120_000
@@ -143,7 +143,7 @@ def test_a_text_that_takes_longer_to_read_puts_the_question_off_until_then(stage
 
 
 def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:
-    driver = playing(Action.SUG_CARD)
+    driver = playing(ActionSpec.SUG_CARD)
     until = driver.running[Timer.IDLE]
     driver.wait_until_open()
     assert driver.running[Timer.IDLE] == until
@@ -151,7 +151,7 @@ def test_a_sentence_that_ends_does_not_show_that_somebody_is_there() -> None:
 
 def test_a_stage_that_ends_by_itself_takes_the_question_with_it() -> None:
     driver = driven_to(
-        Stage.GAME, whole(policy=always(Action.NO_HELP), idle_ms=Idle(game=1000), timing=Timing(finish_ms=1500))
+        Stage.GAME, whole(policy=always(ActionSpec.NO_HELP), idle_ms=Idle(game=1000), timing=Timing(finish_ms=1500))
     )
     while len(driver.view.found) < 24:
         for place in a_pair(driver):
@@ -248,7 +248,9 @@ def test_a_paused_session_can_be_ended_and_leaves_no_cover_behind(stage: Stage, 
 
 
 def test_a_pause_lasts_across_a_change_of_the_stage() -> None:
-    driver = driven_to(Stage.PRACTICE, whole(policy=always(Action.NO_HELP), practice=Practice(max_duration_ms=5000)))
+    driver = driven_to(
+        Stage.PRACTICE, whole(policy=always(ActionSpec.NO_HELP), practice=Practice(max_duration_ms=5000))
+    )
     driver.pause()
     driver.spend(6000)
     assert (driver.stage, driver.view.paused) == (Stage.GAME, True)
@@ -272,7 +274,7 @@ def test_thanks_that_end_in_a_pause_end_the_session_and_leave_no_cover_behind() 
 @pytest.mark.parametrize("wait", [0, 500, 2500])
 def test_both_clocks_of_the_game_leave_a_pause_out(wait: int) -> None:
     """A pause of a minute, begun while a hint is still said, at its end, or after it, as against no pause at all."""
-    paused, straight = (playing(Action.SUG_CARD, seed=3) for _ in range(2))
+    paused, straight = (playing(ActionSpec.SUG_CARD, seed=3) for _ in range(2))
     for driver in (paused, straight):
         driver.flip(driver.view.closed[0])
         driver.spend(wait)

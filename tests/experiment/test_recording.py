@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import STAGES, Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -171,7 +171,7 @@ def test_the_experimenter_can_end_a_session_anywhere(stage: Stage) -> None:
 def unstored_game(condition: Condition, seed: int) -> list[Outcome]:
     """What somebody who declines sees of a game, flip by flip of the same cards."""
     quotas = {"target_n": {"tom": 1, "no_assistance": 1}, "block_size": 2}
-    driver = Driver(plan(condition, always(Action.SUG_CARD), STAGES, randomisation=quotas), seed)
+    driver = Driver(plan(condition, always(ActionSpec.SUG_CARD), STAGES, randomisation=quotas), seed)
     driver.to(Stage.CONSENT)
     driver.send(happened.ConsentDeclined(at_ms=driver.now))
     driver.to(Stage.GAME)

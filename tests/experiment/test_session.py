@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kiosk import UserInputError
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -54,7 +54,7 @@ def test_what_is_concluded_has_the_time_of_what_it_follows_from() -> None:
 
 
 def test_leaving_a_stage_takes_its_sentence_with_it() -> None:
-    driver = Driver(plan(policy=always(Action.NO_HELP)), 2)
+    driver = Driver(plan(policy=always(ActionSpec.NO_HELP)), 2)
     driver.start()
     assert driver.view.bubble in ENGLISH.wordings("introduction-speech", cards=24, pairs=12)
     outcome = driver.go_on()
@@ -71,7 +71,7 @@ def test_nothing_of_a_session_is_left_when_it_is_over(voice: Voice) -> None:
 
 
 def test_the_introduction_can_be_left_while_it_is_spoken() -> None:
-    driver = Driver(plan(policy=always(Action.NO_HELP)), 2)
+    driver = Driver(plan(policy=always(ActionSpec.NO_HELP)), 2)
     driver.to_the_game()
     driver.wait()
     assert isinstance(driver.world[-1], happened.SpeechFinished)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kiosk.assistance.policy import Action, Gate
+from kiosk.assistance.policy import ActionSpec, Gate
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -24,7 +24,7 @@ def lose(driver: Driver) -> Outcome:
 
 def hinted(voice: Voice = Voice.SPEAKS) -> Driver:
     """A game that begins with a hint."""
-    driver = Driver(plan(policy=always(Action.SUG_CARD)), voice=voice)
+    driver = Driver(plan(policy=always(ActionSpec.SUG_CARD)), voice=voice)
     driver.to_the_game()
     return driver
 
@@ -115,7 +115,7 @@ def test_silence_is_recorded_and_changes_nothing_of_what_is_said() -> None:
 SPEAKING = [Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.RESULT, Stage.THANKS]
 """The stages in which something is said; a game begins with a hint here."""
 
-HELPFUL = whole(policy=always(Action.SUG_CARD), game=Game(rows=2, columns=3))
+HELPFUL = whole(policy=always(ActionSpec.SUG_CARD), game=Game(rows=2, columns=3))
 
 
 def said(stage: Stage) -> Driver:
@@ -201,7 +201,7 @@ def test_a_hint_that_is_said_again_falls_silent_with_its_flip() -> None:
 
 def test_after_its_flip_a_hint_is_not_said_again() -> None:
     gate = Gate(opening=0, patience=99, first_patience=99)
-    driver = driven_to(Stage.GAME, plan(policy=always(Action.SUG_CARD, gate)))
+    driver = driven_to(Stage.GAME, plan(policy=always(ActionSpec.SUG_CARD, gate)))
     first, _ = a_pair(driver)
     driver.flip(first)
     driver.wait_until_open()

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from kiosk.assistance.assistant import Assistant
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove, Gate, QTable, State
+from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, QTable, State
 from kiosk.game import Board, Concentration, Position
 
 NAMES = tuple("abcdefghijkl")
@@ -34,7 +34,7 @@ class ByChance:
 
     def choose(self, game: Concentration, hint: Hint | None) -> Position:
         first = game.first_card
-        if first is not None and self._sure(game) and (hint is None or hint.action is not Action.SUG_CARD):
+        if first is not None and self._sure(game) and (hint is None or hint.action is not ActionSpec.SUG_CARD):
             return game.board.mate(first)
         if hint is not None:
             return self.rng.choice([place for place in game.closed if hint.followed_by(place)])
@@ -59,7 +59,7 @@ class WithMemory:
             seen = [place for place in game.closed if game.history.count(place)]
             ages = {place: game.flips - game.history.last(place) for place in seen}
             self._recalled = {place for place, age in ages.items() if self._rng.random() < self._keeps**age}
-        if hint is not None and hint.action is Action.SUG_CARD:
+        if hint is not None and hint.action is ActionSpec.SUG_CARD:
             return hint.target.position
         pointed = [place for place in game.closed if hint is None or hint.followed_by(place)]
         known = [place for place in pointed if self._completes(game, place)]
@@ -107,9 +107,9 @@ Values = dict[State, list[float]]
 
 def learn(episodes: int, rng: Random) -> Values:
     """Q-learning with the reward "retrieval", by the book; the mean of the values over the last half."""
-    q: Values = defaultdict(lambda: [0.0] * len(Action))
-    visits: dict[tuple[State, Action], int] = defaultdict(int)
-    mean: Values = defaultdict(lambda: [0.0] * len(Action))
+    q: Values = defaultdict(lambda: [0.0] * len(ACTIONS))
+    visits: dict[tuple[State, ActionSpec], int] = defaultdict(int)
+    mean: Values = defaultdict(lambda: [0.0] * len(ACTIONS))
     for episode in range(episodes):
         for state, action, gained, discount, after in episode_of(q, max(0.1, 1 / (1 + 0.01 * episode)), rng):
             visits[state, action] += 1
@@ -121,18 +121,20 @@ def learn(episodes: int, rng: Random) -> Values:
     return mean
 
 
-def episode_of(q: Values, epsilon: float, rng: Random) -> Iterable[tuple[State, Action, float, float, State | None]]:
+def episode_of(
+    q: Values, epsilon: float, rng: Random
+) -> Iterable[tuple[State, ActionSpec, float, float, State | None]]:
     """The decisions of one game: state, action, what was paid until the next one, its discount, and its state."""
     game, gate, mentaliser = deal(rng), Gate(), Mentaliser(TargetRule.MOST_FLIPPED, rng)
     person = WithMemory(rng.uniform(0.10, 0.45), rng)
-    last, pending, gained, discount = Action.NO_HELP, None, 0.0, 1.0
+    last, pending, gained, discount = ActionSpec.NO_HELP, None, 0.0, 1.0
     while not game.over:
-        state, action = State.of(game, last), Action.NO_HELP
+        state, action = State.of(game, last), ActionSpec.NO_HELP
         if gate.decide(game).is_open:
             if pending is not None:
                 yield *pending, gained, discount, state
-            action = Action(q[state].index(max(q[state])))
-            action = rng.choice(list(Action)) if rng.random() < epsilon else action
+            action = ACTIONS[q[state].index(max(q[state]))]
+            action = rng.choice(list(ACTIONS)) if rng.random() < epsilon else action
             pending, gained, discount = (state, action), 0.0, 1.0
         gained += discount * _flip(game, person, mentaliser, last, action)
         discount *= 0.8
@@ -141,15 +143,15 @@ def episode_of(q: Values, epsilon: float, rng: Random) -> Iterable[tuple[State, 
         yield *pending, gained, discount, None
 
 
-def _flip(game: Concentration, person: Person, mentaliser: Mentaliser, before: Action, action: Action) -> float:
+def _flip(game: Concentration, person: Person, mentaliser: Mentaliser, before: ActionSpec, action: ActionSpec) -> float:
     card, hint = FlipInMove.coming(game), None
     g, nf = (3, 2, 1)[State.of(game, before).game], game.flips_since_match + 1
-    if action is not Action.NO_HELP:
+    if action is not ActionSpec.NO_HELP:
         target = mentaliser.target(game)
         hint = Hint(action, card, target, game.board.card(target.position))
     matched = game.flip(person.choose(game, hint)).matched
     game.turn_back()
-    hints = (before is not Action.NO_HELP) + (action is not Action.NO_HELP)
-    if card is FlipInMove.FIRST or not matched or action is Action.SUG_CARD:
+    hints = (before is not ActionSpec.NO_HELP) + (action is not ActionSpec.NO_HELP)
+    if card is FlipInMove.FIRST or not matched or action is ActionSpec.SUG_CARD:
         return 0.0
     return (1.0, 1 - (5 - g) / (2 * nf), 0.0)[hints]

@@ -17,9 +17,10 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402 - after the impo
 from kiosk import UserInputError  # noqa: E402
 from kiosk.assistance.mentaliser import TargetRule  # noqa: E402
 from kiosk.assistance.policy import (  # noqa: E402
+    ACTIONS,
     NO_GATE,
     STATES,
-    Action,
+    ActionSpec,
     MoveOutcome,
     Phase,
     QTable,
@@ -69,27 +70,27 @@ def test_behind_a_shut_gate_every_action_is_no_help_and_the_mask_says_so() -> No
     _, facts = environment.reset(seed=1)
     for _ in range(6):
         assert (facts["gate_open"], facts["action_mask"].tolist()) == (False, [1, 0, 0, 0])
-        _, _, _, _, facts = environment.step(Action.SUG_CARD)
-        assert facts["assistance"] == Action.NO_HELP
+        _, _, _, _, facts = environment.step(int(ActionSpec.SUG_CARD))
+        assert facts["assistance"] == int(ActionSpec.NO_HELP)
 
 
 def test_without_a_gate_card_hints_end_a_game_in_24_flips_and_earn_nothing() -> None:
-    steps = game(AssistanceEnv(gate=NO_GATE), 2, Action.SUG_CARD)
+    steps = game(AssistanceEnv(gate=NO_GATE), 2, int(ActionSpec.SUG_CARD))
     assert len(steps) == steps[-1][4]["flips"] == 24
     assert sum(reward for _, reward, *_ in steps) == 0
 
 
 def test_a_player_left_alone_earns_one_for_each_of_the_twelve_pairs() -> None:
-    steps = game(AssistanceEnv(), 5, Action.NO_HELP)
+    steps = game(AssistanceEnv(), 5, int(ActionSpec.NO_HELP))
     assert sum(reward for _, reward, *_ in steps) == 12
     assert steps[-1][4]["pairs_found"] == 12
 
 
 def test_observations_are_the_rows_of_the_table() -> None:
-    for observation, _, over, _, facts in game(AssistanceEnv(), 6, Action.SUG_ROW):
+    for observation, _, over, _, facts in game(AssistanceEnv(), 6, int(ActionSpec.SUG_ROW)):
         state = STATES[observation]
         assert state.game is Phase.of(facts["pairs_found"], 12)
-        assert state.last is Action(facts["assistance"])
+        assert state.last is ACTIONS[facts["assistance"]]
         first = state.outcome in (MoveOutcome.F_CORRECT, MoveOutcome.F_WRONG)
         assert over or first == (facts["flips"] % 2 == 0)
 
@@ -102,7 +103,7 @@ def test_the_default_table_plays_here_as_in_the_simulation() -> None:
         observation, facts = environment.reset(seed=number)
         over = False
         while not over:
-            observation, _, over, _, facts = environment.step(table.action(STATES[observation]))
+            observation, _, over, _, facts = environment.step(int(table.action(STATES[observation])))
         flips.append(float(facts["flips"]))
     here, there = Spread.of(flips), simulate_games(table, player, TargetRule.RANDOM, 1000, 1).flips
     # Four standard errors of the difference.
@@ -122,7 +123,7 @@ def test_the_board_can_be_looked_at_as_text() -> None:
 
 ACTIONS_OF_ANY_TYPE = (
     1,
-    Action.SUG_COL,
+    ActionSpec.SUG_COL,
     *(kind(1) for kind in (np.int8, np.uint8, np.int16, np.int32, np.int64, np.uint64)),
     np.array(1),
 )
@@ -184,11 +185,11 @@ def test_there_is_no_step_and_no_picture_before_the_first_reset() -> None:
 
 def test_there_is_no_step_after_the_last_pair_until_the_next_reset() -> None:
     environment = AssistanceEnv(gate=NO_GATE)
-    game(environment, 2, Action.SUG_CARD)
+    game(environment, 2, int(ActionSpec.SUG_CARD))
     for _ in range(2):
         with pytest.raises(ResetNeeded, match=r"^the game is over: call reset\(\) to deal a new one"):
             environment.step(0)
-    assert game(environment, 2, Action.SUG_CARD)[-1][4]["flips"] == 24
+    assert game(environment, 2, int(ActionSpec.SUG_CARD))[-1][4]["flips"] == 24
 
 
 def test_there_is_no_step_after_a_game_that_was_given_up() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import NO_GATE, STATES, Action, MoveOutcome, QTable
+from kiosk.assistance.policy import ACTIONS, NO_GATE, STATES, ActionSpec, MoveOutcome, QTable
 from kiosk.cli.learning import train_command_line
 from kiosk.training import policies
 from kiosk.training.learning import (
@@ -33,7 +33,7 @@ from kiosk.training.simulation import simulate_games
 from kiosk.training.vectorised_game import COMPILED, floats
 from tests.training.reference import learn
 
-NO, COLUMN, ROW, CARD = map(int, Action)
+NO, COLUMN, ROW, CARD = map(int, ACTIONS)
 RETRIEVING = RECIPES[Reward.RETRIEVAL]
 
 
@@ -258,7 +258,7 @@ def test_trained_with_random_targets_the_table_never_names_a_first_card() -> Non
     assert firsts
     # 3,000 episodes are too few to settle what is rarely met, so the often met states are looked at.
     met = policies.visits(blind)
-    assert all(blind.action(state) is not Action.SUG_CARD for state in firsts if met[state] > 3000)
+    assert all(blind.action(state) is not ActionSpec.SUG_CARD for state in firsts if met[state] > 3000)
 
 
 def test_the_literal_reward_plays_the_game_for_the_player() -> None:

@@ -15,7 +15,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, QTable
+from kiosk.assistance.policy import ActionSpec, QTable
 from kiosk.training.simulated_players import ChancePlayer, Counting, MemoryPlayer, SimulatedPlayer, TextPlayer
 from kiosk.training.simulation import GameResults, Spread, simulate_games
 from tests.samples import always, mixed
@@ -91,17 +91,17 @@ def compared(ours: GameResults, theirs: list[Played]) -> list[tuple[Spread, Spre
 
 
 def test_a_card_hint_before_every_flip_leaves_nothing_to_chance() -> None:
-    games = simulate_games(always(Action.SUG_CARD), ChancePlayer(), TargetRule.RANDOM, 50, 1)
+    games = simulate_games(always(ActionSpec.SUG_CARD), ChancePlayer(), TargetRule.RANDOM, 50, 1)
     assert set(games.each(0)) == {24.0}
 
 
 def test_a_player_who_never_follows_plays_as_if_alone() -> None:
-    deaf = simulate_games(always(Action.SUG_CARD), MemoryPlayer((0.2, 0.2), 0.0), TargetRule.RANDOM, GAMES, 5).moves
+    deaf = simulate_games(always(ActionSpec.SUG_CARD), MemoryPlayer((0.2, 0.2), 0.0), TargetRule.RANDOM, GAMES, 5).moves
     assert deaf.mean == pytest.approx(30.55, abs=SIGMAS * 4.2 / math.sqrt(GAMES))
 
 
 def test_hints_are_followed_as_often_as_the_player_says() -> None:
-    games = simulate_games(always(Action.SUG_CARD), MemoryPlayer((0.3, 0.3), 0.6), TargetRule.RANDOM, GAMES, 5)
+    games = simulate_games(always(ActionSpec.SUG_CARD), MemoryPlayer((0.3, 0.3), 0.6), TargetRule.RANDOM, GAMES, 5)
     # A player who does not follow may still take the card, so the measured share is a little higher, never lower.
     assert 0.6 < games.measures()["followed"] < 0.75
 

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from kiosk import StorageError, UserInputError
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Action, Gate, MoveOutcome, PolicyError, QTable, State
+from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, MoveOutcome, PolicyError, QTable, State
 from kiosk.cli.evidence import difference
 from kiosk.config import POLICIES
 from kiosk.training import policies, simulation
@@ -97,8 +97,8 @@ def test_a_table_that_never_helps_fails_the_paper_s_sentences_about_helping() ->
 
 
 def test_without_the_gate_a_table_that_always_helps_steps_in_too_soon() -> None:
-    assert not policies.policy_claims(always(Action.SUG_ROW), 1, 1)[0].holds
-    assert policies.policy_claims(always(Action.SUG_ROW, Gate()), 1, 1)[0].holds
+    assert not policies.policy_claims(always(ActionSpec.SUG_ROW), 1, 1)[0].holds
+    assert policies.policy_claims(always(ActionSpec.SUG_ROW, Gate()), 1, 1)[0].holds
 
 
 def test_a_tally_adds_up() -> None:
@@ -109,15 +109,17 @@ def test_a_tally_adds_up() -> None:
 
 
 def test_assistance_per_flip_is_the_mean_level_of_help() -> None:
-    level = {Action.SUG_COL: 0.5, Action.SUG_ROW: 1.0, Action.SUG_CARD: 2.0, Action.NO_HELP: 0.0}
-    for action in Action:
+    level = {ActionSpec.SUG_COL: 0.5, ActionSpec.SUG_ROW: 1.0, ActionSpec.SUG_CARD: 2.0, ActionSpec.NO_HELP: 0.0}
+    for action in ACTIONS:
         games = simulate_games(always(action), ChancePlayer(), NOTOM, 20, 1)
         assert games.assistance == Spread(level[action], 0.0, (level[action], level[action]))
 
 
 def test_led_to_match_counts_first_card_hints_that_were_followed_into_a_match() -> None:
-    def second_cards(state: State) -> Action:
-        return Action.SUG_CARD if state.outcome in (MoveOutcome.S_CORRECT, MoveOutcome.S_WRONG) else Action.SUG_ROW
+    def second_cards(state: State) -> ActionSpec:
+        return (
+            ActionSpec.SUG_CARD if state.outcome in (MoveOutcome.S_CORRECT, MoveOutcome.S_WRONG) else ActionSpec.SUG_ROW
+        )
 
     assert simulate_games(policy_that(second_cards), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] == 1.0
     assert simulate_games(QTable.blank(), ChancePlayer(), NOTOM, 20, 1).measures()["led_to_match"] is None

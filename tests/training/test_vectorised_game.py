@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
-from kiosk.assistance.policy import Action, FlipInMove, Gate, State
+from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate, State
 from kiosk.game import Board, Concentration
 from kiosk.training import simulation, vectorised_game
 from kiosk.training.vectorised_game import CARDS, COUNT, FIRST, FOUND, HELP, LAST, MARK, MATE, NOWHERE
@@ -38,24 +38,25 @@ def test_with_the_same_choices_every_step_of_a_game_is_the_same(
     vectorised_game.deal(mine)
     theirs, policy, mentaliser = Concentration(board_of(mine)), mixed(table, gate), Mentaliser(rule, rng)
     q = vectorised_game.floats([value for row in policy.values for value in row])
-    last = Action.NO_HELP
+    last = ActionSpec.NO_HELP
     while not theirs.over and theirs.flips < FLIPS_WATCHED:
         state, verdict = State.of(theirs, last), gate.decide(theirs)
-        action = policy.action(state) if verdict.is_open else Action.NO_HELP
+        action = policy.action(state) if verdict.is_open else ActionSpec.NO_HELP
         assert int(vectorised_game.state(mine)) == state.index
         assert bool(vectorised_game.is_open(mine, plan)) == verdict.is_open
-        assert int(simulation.greedy(q, state.index)) == policy.action(state)
+        assert int(simulation.greedy(q, state.index, 4)) == int(policy.action(state))
         target = mentaliser.target(theirs)
         assert candidates(mine, rule) == {theirs.board.location(place) for place in target.candidates}
         place = rng.choice(theirs.closed)
         here, there = theirs.board.location(place), theirs.board.location(target.position)
-        if action is not Action.NO_HELP:
+        if action is not ActionSpec.NO_HELP:
             hint = Hint(action, FlipInMove.coming(theirs), target, "")
-            assert bool(simulation.follows(action, there, here)) == hint.followed_by(place)
+            assert bool(simulation.follows(int(action), there, here)) == hint.followed_by(place)
         flip = theirs.flip(place)
         assert bool(vectorised_game.flip(mine, here)) == bool(flip.matched)
         theirs.turn_back()
-        mine[HELP] = last = action
+        last = action
+        mine[HELP] = int(action)
         assert snapshot(mine) == history_of(theirs)
 
 

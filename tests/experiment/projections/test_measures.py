@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import Action, FlipInMove
+from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import Measures, measure
@@ -26,7 +26,9 @@ def flip(at_ms: int, number: int, *, matched: bool | None = None, position: Posi
     )
 
 
-def hint(at_ms: int, number: int, action: Action = Action.SUG_CARD, target: Position = HERE) -> happened.HintGiven:
+def hint(
+    at_ms: int, number: int, action: ActionSpec = ActionSpec.SUG_CARD, target: Position = HERE
+) -> happened.HintGiven:
     """A hint for flip number so-and-so."""
     return happened.HintGiven(
         at_ms=at_ms,
@@ -38,8 +40,8 @@ def hint(at_ms: int, number: int, action: Action = Action.SUG_CARD, target: Posi
         seen=0,
         mate_seen=0,
         reason=HintReason.NOTHING_KNOWN,
-        row=None if action is Action.SUG_COL else target.row,
-        column=None if action is Action.SUG_ROW else target.column,
+        row=None if action is ActionSpec.SUG_COL else target.row,
+        column=None if action is ActionSpec.SUG_ROW else target.column,
         sentence="",
         utterance=number,
     )
@@ -104,17 +106,17 @@ def test_a_game_without_help() -> None:
 def test_a_game_with_help_of_every_kind() -> None:
     elsewhere = Position(0, 0)
     events = [
-        hint(1000, 1, Action.SUG_COL),
+        hint(1000, 1, ActionSpec.SUG_COL),
         opened(3000),
         flip(5000, 1, position=Position(3, 2)),  # in the column: followed, and its move will match
-        hint(5000, 2, Action.SUG_ROW),
+        hint(5000, 2, ActionSpec.SUG_ROW),
         opened(6000),
         flip(7000, 2, matched=True, position=Position(1, 5)),  # in the row: followed
-        hint(7000, 3, Action.SUG_CARD),
+        hint(7000, 3, ActionSpec.SUG_CARD),
         opened(11_000),
         flip(12_000, 3, position=HERE),  # the card: followed, but its move will not match
         flip(13_000, 4, matched=False, position=elsewhere),
-        hint(15_000, 5, Action.SUG_CARD),
+        hint(15_000, 5, ActionSpec.SUG_CARD),
         opened(16_000),
         flip(17_000, 5, position=Position(1, 3)),  # beside the card: not followed, though its move will match
         flip(20_000, 6, matched=True, position=elsewhere),
@@ -257,17 +259,19 @@ def test_pauses_take_as_much_from_a_clock_as_the_moments_in_which_they_lasted(sp
 @pytest.mark.parametrize(
     ("action", "place", "expected"),
     [
-        (Action.SUG_CARD, (1, 2), True),
-        (Action.SUG_CARD, (1, 3), False),
-        (Action.SUG_CARD, (0, 2), False),
-        (Action.SUG_ROW, (1, 5), True),
-        (Action.SUG_ROW, (0, 2), False),
-        (Action.SUG_COL, (3, 2), True),
-        (Action.SUG_COL, (1, 3), False),
-        (Action.NO_HELP, (1, 2), False),
+        (ActionSpec.SUG_CARD, (1, 2), True),
+        (ActionSpec.SUG_CARD, (1, 3), False),
+        (ActionSpec.SUG_CARD, (0, 2), False),
+        (ActionSpec.SUG_ROW, (1, 5), True),
+        (ActionSpec.SUG_ROW, (0, 2), False),
+        (ActionSpec.SUG_COL, (3, 2), True),
+        (ActionSpec.SUG_COL, (1, 3), False),
+        (ActionSpec.NO_HELP, (1, 2), False),
     ],
 )
-def test_following_is_going_where_the_hint_pointed(action: Action, place: tuple[int, int], *, expected: bool) -> None:
+def test_following_is_going_where_the_hint_pointed(
+    action: ActionSpec, place: tuple[int, int], *, expected: bool
+) -> None:
     assert BoardHint(hint(0, 1, action)).followed_by(Position(*place)) is expected
 
 

@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -18,7 +18,7 @@ from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, Voice, at_random, driven_to, with_memory
 from tests.samples import always, plan, whole
 
-HELPFUL = whole(policy=always(Action.SUG_ROW), game=Game(rows=2, columns=3))
+HELPFUL = whole(policy=always(ActionSpec.SUG_ROW), game=Game(rows=2, columns=3))
 ROBOT, AVATAR = EmbodimentName.robot("furhat"), EmbodimentName.AVATAR
 
 
@@ -100,7 +100,7 @@ def test_every_sentence_is_told_with_its_stage_and_what_it_was_for() -> None:
     assert (first.purpose, again.purpose) == (SentencePurpose.SPEECH, SentencePurpose.REPEAT)
     assert first.sentence == again.sentence != ""
     assert {first.stage, again.stage} == {Stage.INTRODUCTION}
-    hinted = Driver(plan(policy=always(Action.SUG_CARD)))
+    hinted = Driver(plan(policy=always(ActionSpec.SUG_CARD)))
     hinted.to_the_game()
     *_, hint = SessionState.from_events(hinted.events).sentences
     assert (hint.purpose, hint.stage) == (SentencePurpose.HINT, Stage.GAME)
@@ -133,7 +133,7 @@ def test_what_was_cut_short_before_the_robot_was_lost_did_not_fail() -> None:
 
 
 def test_a_hint_that_was_being_said_again_when_its_card_was_flipped_did_not_fail() -> None:
-    driver = Driver(plan(policy=always(Action.SUG_CARD)))
+    driver = Driver(plan(policy=always(ActionSpec.SUG_CARD)))
     driver.to_the_game()
     driver.wait_until_open()
     driver.repeat()

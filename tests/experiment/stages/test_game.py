@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from kiosk.assistance.policy import Action, FlipInMove, Gate
+from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -19,7 +19,7 @@ from tests.experiment.table import a_pair, another, miss, playing, seen
 from tests.experiment.view import View
 from tests.samples import always, mixed, plan
 
-ONLY_SECOND = always(Action.SUG_CARD, Gate(opening=0, patience=99, first_patience=99))
+ONLY_SECOND = always(ActionSpec.SUG_CARD, Gate(opening=0, patience=99, first_patience=99))
 """Names the mate before every second card, and says nothing before a first one."""
 
 
@@ -109,7 +109,7 @@ def test_the_last_pair_is_looked_at_before_the_result() -> None:
 
 
 def test_a_decision_is_taken_before_every_flip() -> None:
-    driver = playing(Action.SUG_ROW)
+    driver = playing(ActionSpec.SUG_ROW)
     driver.play(with_memory(1))
     decided = [event.flip for event in driver.noted(happened.AssistanceDecided)]
     flipped = [event.number for event in driver.noted(happened.CardFlipped)]
@@ -134,8 +134,8 @@ def test_what_is_recorded_of_a_decision_is_what_it_was(seed: int) -> None:
     for before, decision in pairwise(decisions):
         assert decision.last is before.action
         assert decision.card is (FlipInMove.SECOND if decision.flip % 2 == 0 else FlipInMove.FIRST)
-        assert decision.action is Action.NO_HELP or decision.gate.is_open
-        assert (decision.flip in hints) is (decision.action is not Action.NO_HELP)
+        assert decision.action is ActionSpec.NO_HELP or decision.gate.is_open
+        assert (decision.flip in hints) is (decision.action is not ActionSpec.NO_HELP)
     assert {decision.gate.name for decision in decisions} >= {"OPEN", "OPENING", "DOING_WELL"}
     assert {decision.game.name for decision in decisions} == {"BEGINNING", "MIDDLE", "END"}
     for hint in hints.values():
@@ -160,15 +160,15 @@ def test_what_is_recorded_of_a_hint_is_true_of_what_this_visitor_has_seen(seed: 
             mate = next(p for p in name_at if name_at[p] == event.name and p != event.target)
             assert name_at[event.target] == event.name
             assert (event.seen, event.mate_seen) == (flipped.count(event.target), flipped.count(mate))
-            assert event.row == (None if event.action is Action.SUG_COL else event.target.row)
-            assert event.column == (None if event.action is Action.SUG_ROW else event.target.column)
+            assert event.row == (None if event.action is ActionSpec.SUG_COL else event.target.row)
+            assert event.column == (None if event.action is ActionSpec.SUG_ROW else event.target.column)
             assert event.flip == len(flipped) + 1
             utterances.append(event.utterance)
     assert utterances == list(range(1, len(utterances) + 1))
 
 
 def test_without_assistance_nothing_is_decided_and_nothing_said() -> None:
-    driver = Driver(plan(Condition.NO_ASSISTANCE, always(Action.SUG_CARD)), 1)
+    driver = Driver(plan(Condition.NO_ASSISTANCE, always(ActionSpec.SUG_CARD)), 1)
     driver.to_the_game()
     driver.play(with_memory(1))
     assert not driver.noted(happened.AssistanceDecided)
@@ -178,7 +178,7 @@ def test_without_assistance_nothing_is_decided_and_nothing_said() -> None:
 
 
 def test_a_hint_holds_the_board_and_is_shown_as_it_is_recorded() -> None:
-    driver = playing(Action.SUG_CARD)
+    driver = playing(ActionSpec.SUG_CARD)
     hint = driver.noted(happened.HintGiven)[0]
     assert driver.view.held is BoardWait.SPEAKING
     assert (driver.view.bubble, driver.view.speaking) == (hint.sentence, hint.utterance)
@@ -186,7 +186,7 @@ def test_a_hint_holds_the_board_and_is_shown_as_it_is_recorded() -> None:
 
 
 def test_taps_while_the_assistant_speaks_are_ignored() -> None:
-    driver = playing(Action.SUG_CARD)
+    driver = playing(ActionSpec.SUG_CARD)
     before = driver.session.measures
     for place in (Position(0, 0), Position(-5, 0)):
         assert driver.tap(place) == Outcome(
@@ -201,9 +201,9 @@ def test_taps_while_the_assistant_speaks_are_ignored() -> None:
 
 @pytest.mark.parametrize(
     ("action", "row", "column"),
-    [(Action.SUG_ROW, True, False), (Action.SUG_COL, False, True), (Action.SUG_CARD, True, True)],
+    [(ActionSpec.SUG_ROW, True, False), (ActionSpec.SUG_COL, False, True), (ActionSpec.SUG_CARD, True, True)],
 )
-def test_the_mark_shows_no_more_than_the_hint_gives_away(action: Action, *, row: bool, column: bool) -> None:
+def test_the_mark_shows_no_more_than_the_hint_gives_away(action: ActionSpec, *, row: bool, column: bool) -> None:
     driver = playing(action)
     target = driver.noted(happened.HintGiven)[0].target
     driver.wait_until_open()
@@ -212,7 +212,7 @@ def test_the_mark_shows_no_more_than_the_hint_gives_away(action: Action, *, row:
 
 @pytest.mark.parametrize("delay", [0, 1000, 1900])
 def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
-    driver = playing(Action.SUG_CARD, highlight_delay_ms=delay)
+    driver = playing(ActionSpec.SUG_CARD, highlight_delay_ms=delay)
     given_at = driver.now
     while driver.view.mark is None:
         driver.wait()
@@ -221,7 +221,7 @@ def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
 
 
 def test_the_mark_comes_with_the_end_of_a_short_sentence() -> None:
-    driver = playing(Action.SUG_CARD, highlight_delay_ms=9000)
+    driver = playing(ActionSpec.SUG_CARD, highlight_delay_ms=9000)
     given_at = driver.now
     driver.wait_until_open()
     assert driver.now == given_at + SPEECH_TIME
@@ -272,7 +272,7 @@ def test_a_flip_without_a_hint_clears_nothing() -> None:
 
 
 def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
-    driver = playing(Action.SUG_ROW)
+    driver = playing(ActionSpec.SUG_ROW)
     given_at = driver.now
     driver.wait_until_open()
     assert driver.now == given_at + SPEECH_TIME
@@ -280,7 +280,7 @@ def test_a_sentence_that_was_said_opens_the_board_at_once() -> None:
 
 
 def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.FAILS, reading_ms_per_char=50, highlight_delay_silent_ms=600)
+    driver = playing(ActionSpec.SUG_ROW, Voice.FAILS, reading_ms_per_char=50, highlight_delay_silent_ms=600)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait()
     assert driver.running.keys() == {Timer.IDLE, Timer.READING, Timer.MARK}
@@ -292,14 +292,14 @@ def test_a_sentence_that_fails_gives_the_time_to_read_it() -> None:
 
 
 def test_a_sentence_that_breaks_off_gives_what_is_left_of_the_time_to_read_it() -> None:
-    driver = playing(Action.SUG_ROW, Voice.BREAKS_OFF, reading_ms_per_char=50)
+    driver = playing(ActionSpec.SUG_ROW, Voice.BREAKS_OFF, reading_ms_per_char=50)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait_until_open()
     assert driver.now == given_at + max(SPEECH_TIME, 1500, 50 * len(sentence))
 
 
 def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT, speech_deadline_ms_per_char=100, speech_deadline_min_ms=1000)
+    driver = playing(ActionSpec.SUG_ROW, Voice.IS_SILENT, speech_deadline_ms_per_char=100, speech_deadline_min_ms=1000)
     given_at, sentence = driver.now, str(driver.view.bubble)
     driver.wait_until_open()
     assert driver.now == given_at + max(1000, 100 * len(sentence))
@@ -313,7 +313,7 @@ def test_a_body_that_never_answers_holds_the_game_no_longer_than_the_deadline() 
 
 @pytest.mark.parametrize("voice", Voice)
 def test_a_least_hold_keeps_the_board_held_equally_long_whatever_is_said(voice: Voice) -> None:
-    driver = playing(Action.SUG_ROW, voice, hold_min_ms=30_000)
+    driver = playing(ActionSpec.SUG_ROW, voice, hold_min_ms=30_000)
     given_at = driver.now
     driver.wait_until_open()
     assert driver.now == given_at + 30_000
@@ -322,14 +322,14 @@ def test_a_least_hold_keeps_the_board_held_equally_long_whatever_is_said(voice: 
 
 
 def test_a_least_hold_that_is_shorter_than_the_sentence_does_not_cut_it_short() -> None:
-    driver = playing(Action.SUG_ROW, hold_min_ms=SPEECH_TIME - 500)
+    driver = playing(ActionSpec.SUG_ROW, hold_min_ms=SPEECH_TIME - 500)
     given_at = driver.now
     driver.wait_until_open()
     assert driver.now == given_at + SPEECH_TIME
 
 
 def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
+    driver = playing(ActionSpec.SUG_ROW, Voice.IS_SILENT)
     driver.wait_until_open()
     late = driver.view
     for event in (
@@ -343,7 +343,7 @@ def test_a_sentence_that_ends_too_late_changes_nothing() -> None:
 
 @pytest.mark.parametrize("utterance", [-1, 0, 1, 3, 10**20])
 def test_another_sentence_s_end_does_not_open_the_board(utterance: int) -> None:
-    driver = playing(Action.SUG_ROW, Voice.IS_SILENT)
+    driver = playing(ActionSpec.SUG_ROW, Voice.IS_SILENT)
     assert driver.noted(happened.HintGiven)[0].utterance == 2
     for event in (
         happened.SpeechStarted(at_ms=driver.now, utterance=utterance),
@@ -379,7 +379,7 @@ def test_a_hint_that_was_not_followed_makes_it_confused() -> None:
 
 
 def test_a_hint_that_was_followed_in_vain_makes_it_sad() -> None:
-    policy = always(Action.SUG_ROW, Gate(opening=0, patience=99, first_patience=99))
+    policy = always(ActionSpec.SUG_ROW, Gate(opening=0, patience=99, first_patience=99))
     driver = Driver(plan(policy=policy), 1)
     driver.to_the_game()
     first, mate = a_pair(driver)
@@ -399,6 +399,6 @@ def test_a_second_flip_without_a_hint_leaves_the_face_as_it_is() -> None:
 
 
 def test_a_hint_for_the_first_card_alone_leaves_the_face_as_it_is() -> None:
-    driver = playing(Action.SUG_CARD)
+    driver = playing(ActionSpec.SUG_CARD)
     driver.flip(Position(0, 0))
     assert driver.view.mood is Mood.IDLE

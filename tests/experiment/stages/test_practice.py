@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from kiosk.assistance.policy import Action
+from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
@@ -17,7 +17,7 @@ from tests.experiment.table import a_pair, another, miss
 from tests.samples import ANIMALS, FRUIT, always, whole
 
 TOLD = (happened.BoardDealt, happened.AssistanceDecided, happened.HintGiven, happened.CardFlipped)
-HELPFUL = always(Action.SUG_CARD)
+HELPFUL = always(ActionSpec.SUG_CARD)
 
 
 def practising(longest: int = 300_000) -> Driver:
