@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.assistance.mentaliser import HintReason
-from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
+from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import (
     EmbodimentKind,
@@ -42,6 +42,7 @@ def kinds(family: type[Any]) -> Iterator[type[Any]]:
 EVERY_EVENT = list(kinds(Event))
 
 
+st.register_type_strategy(ActionSpec, st.sampled_from(ACTIONS))
 st.register_type_strategy(
     EmbodimentName, st.one_of(st.just(EmbodimentName.AVATAR), st.text(min_size=1).map(EmbodimentName.robot))
 )

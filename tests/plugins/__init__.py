@@ -1,1 +1,1 @@
-"""Three packages of a lab that adds to Recollect, and what installs them beside it."""
+"""Three packages of a lab that adds to Recollect, and the tests that install and use them."""

@@ -1,0 +1,216 @@
+"""One virtual environment with the three packages of a lab, one study that uses all of them, and one session of it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kiosk.assistance.policy import find_action
+from kiosk.extensions import installed
+
+PLUGINS = Path(__file__).parent
+PACKAGES = ("encourage", "printing_robot", "ranking")
+
+QUESTIONS = """\
+id = "helpers"
+version = "1"
+note = "our own"
+
+[[items]]
+id = "H1"
+kind = "ranking"
+text.en = "Who would you like to play with?"
+counted = "robot"
+options = [
+    { id = "robot", text.en = "a robot" },
+    { id = "person", text.en = "a person" },
+    { id = "alone", text.en = "nobody" },
+]
+"""
+
+STUDY = """\
+languages = ["en"]
+questionnaires = ["helpers.toml"]
+[assistance]
+policy = "enc.json"
+[robot]
+kind = "printing"
+[robot.options]
+delay_ms = 1
+"""
+
+
+@dataclass(frozen=True)
+class Lab:
+    """A virtual environment that sees the libraries and the source of this one, and has packages of its own."""
+
+    python: Path
+    site: Path
+    """The folder in which its packages are installed."""
+
+    def recollect(self, *arguments: object, more: Path | None = None) -> subprocess.CompletedProcess[str]:
+        """Run the command in it; ``more`` is a folder with further packages."""
+        environment = os.environ | {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software"}
+        if more is not None:
+            environment["PYTHONPATH"] = str(more)
+        return subprocess.run(
+            [self.python, "-m", "kiosk", *map(str, arguments)],
+            env=environment,
+            capture_output=True,
+            encoding="utf-8",
+            timeout=240,
+            check=False,
+        )
+
+    def json(self, *arguments: object) -> Any:
+        """Run a command that works, and return what it prints as JSON."""
+        called = self.recollect(*arguments, "--json")
+        assert called.returncode == 0, called.stderr
+        return json.loads(called.stdout)
+
+
+@pytest.fixture(scope="package")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    """The environment with the three packages, installed as pip does it without a network."""
+    folder = tmp_path_factory.mktemp("lab")
+    venv.create(folder / "venv", with_pip=False, symlinks=os.name != "nt")
+    scripts = folder / "venv" / ("Scripts" if os.name == "nt" else "bin")
+    found = sysconfig.get_path("purelib", "venv", {"base": str(folder / "venv"), "platbase": str(folder / "venv")})
+    made = Lab(scripts / "python", Path(found))
+    beneath = (str(PLUGINS.parents[1]), sysconfig.get_path("purelib"))
+    lines = "".join(f"import site; site.addsitedir({place!r})\n" for place in beneath)
+    (made.site / "beneath.pth").write_text(lines, "utf-8")
+    for name in PACKAGES:
+        shutil.copytree(PLUGINS / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    pip = [sys.executable, "-m", "pip", "--python", str(made.python), "install", "--quiet"]
+    offline = ["--no-index", "--no-deps", "--no-build-isolation"]
+    subprocess.run([*pip, *offline, *(str(folder / name) for name in PACKAGES)], check=True, timeout=240)
+    return made
+
+
+@dataclass(frozen=True)
+class Day:
+    """A session of a study that uses all three packages, and its data set."""
+
+    study: Path
+    data: Path
+    dataset: Path
+    played: dict[str, Any]
+    """What the rehearsal said of the session."""
+    said: tuple[str, ...]
+    """What the robot printed."""
+
+    def rows(self, table: str) -> Iterator[dict[str, str]]:
+        """The rows of a table of the data set."""
+        (file,) = self.dataset.glob(f"data/*{table}_data.csv")
+        with file.open(encoding="utf-8-sig", newline="") as open_file:
+            yield from csv.DictReader(open_file)
+
+    def codebook(self, table: str) -> str:
+        """The codebook of a table of the data set."""
+        (file,) = self.dataset.glob(f"data/*{table}_data.json")
+        return file.read_text("utf-8")
+
+
+@pytest.fixture(scope="package")
+def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
+    """The table is trained with the action; after so few games it still takes it often."""
+    folder = tmp_path_factory.mktemp("day")
+    study, data, dataset = folder / "study.toml", folder / "data", folder / "set"
+    trained = lab.recollect("train", "--action", "encourage", "--episodes", 100, "--out", folder / "enc.json")
+    assert trained.returncode == 0, trained.stderr
+    (folder / "helpers.toml").write_text(QUESTIONS, "utf-8")
+    study.write_text(STUDY, "utf-8")
+    rehearsed = lab.recollect("rehearse", "--headless", "--json", "--seed", 1, "--study", study, "--data", data)
+    assert rehearsed.returncode == 0, rehearsed.stderr
+    exported = lab.recollect("export", "--out", dataset, "--data", data, "--with-rehearsals")
+    assert exported.returncode == 0, exported.stderr
+    said = tuple(line for line in rehearsed.stderr.splitlines() if line.startswith("robot: "))
+    return Day(study, data, dataset, json.loads(rehearsed.stdout), said)
+
+
+@pytest.fixture(scope="package")
+def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[str, str]]:
+    """What `recollect check` says of everything that it lists: how it is, and in which words."""
+    checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
+    findings = json.loads(checked.stdout)["findings"]
+    return {finding["what"]: (finding["state"], finding["words"]) for finding in findings}
+
+
+Beside = Callable[[Path], None]
+
+
+@pytest.fixture
+def beside(monkeypatch: pytest.MonkeyPatch) -> Iterator[Beside]:
+    """Make the robots and actions of a folder known in this process; kinds of items are read when it starts."""
+    before = set(sys.modules)
+
+    def put(folder: Path) -> None:
+        monkeypatch.syspath_prepend(str(folder))
+        installed.cache_clear()
+        find_action.cache_clear()
+
+    yield put
+    monkeypatch.undo()
+    for name in set(sys.modules) - before:
+        if name.partition(".")[0] in {"a_lab", "printing_robot", "recollect_encourage"}:
+            del sys.modules[name]
+    installed.cache_clear()
+    find_action.cache_clear()
+
+
+Register = Callable[..., Path]
+
+
+@pytest.fixture
+def register(tmp_path: Path) -> Register:
+    """Write the metadata and the modules of a made-up package, as an installer leaves them."""
+
+    def write(package: str, group: str, entries: dict[str, str], **modules: str) -> Path:
+        folder = tmp_path / "packages"
+        info = folder / f"{package.replace('-', '_')}-0.1.dist-info"
+        info.mkdir(parents=True)
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 0.1\n", "utf-8")
+        lines = "".join(f"{name} = {place}\n" for name, place in entries.items())
+        (info / "entry_points.txt").write_text(f"[{group}]\n{lines}", "utf-8")
+        for name, text in modules.items():
+            (folder / f"{name}.py").write_text(text, "utf-8")
+        return folder
+
+    return write
+
+
+@pytest.fixture
+def refusal(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[[Path], str]:
+    """Why `recollect study check` refuses a file in this process: the one sentence that it says."""
+
+    def refused(file: Path) -> str:
+        from kiosk.cli.main import main  # noqa: PLC0415 - importing it takes a second that most tests do not need
+
+        monkeypatch.setattr(sys, "argv", ["recollect", "study", "check", str(file)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        (sentence,) = capsys.readouterr().err.splitlines()
+        assert left.value.code == 2
+        return str(sentence)
+
+    return refused
+
+
+@pytest.fixture(scope="package")
+def documented() -> Callable[[str, str], bool]:
+    """Whether docs/extend.md shows a file of a package as it is installed here."""
+    page = (PLUGINS.parents[1] / "docs" / "extend.md").read_text("utf-8")
+    return lambda package, file: (PLUGINS / package / file).read_text("utf-8") in page
