@@ -15,7 +15,7 @@ from kiosk.experiment.condition import Condition
 
 MEASURES = {
     "flips": "flips until the last pair is found",
-    "completion_without_speech_ms": "completion time without speech",
+    "completion_ms": "completion time without speech",
     "assistance_per_flip": "assistance per flip",
     "followed_rate": "share of hints that were followed",
     "first_led_to_match_rate": "share of first-card hints that led to a match",
@@ -150,7 +150,7 @@ family = "performance"
 
 [[hypothesis]]
 id = "H1-time"
-measure = "completion_without_speech_ms"
+measure = "completion_ms"
 direction = "less"
 family = "performance"
 

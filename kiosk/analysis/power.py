@@ -117,7 +117,7 @@ def _arm(job: PowerJob, name: str, games: int, rng: np.random.Generator, *, firs
     pace = np.exp(np.log(SECONDS_PER_FLIP) + PACE_SPREAD * rng.standard_normal(games))
     measures = {
         "flips": flips,
-        "completion_without_speech_ms": 1000 * pace * flips,
+        "completion_ms": 1000 * pace * flips,
         "assistance_per_flip": levels / flips,
         "followed_rate": followed,
         "first_led_to_match_rate": led,

@@ -119,7 +119,7 @@ def _measures(game: RecordedGame, rng: np.random.Generator, shifts: Mapping[str,
     measures = game_measures(game)
     pace = float(np.exp(np.log(SECONDS_PER_FLIP) + PACE_SPREAD * rng.standard_normal()))
     own = 1000 * pace * measures["flips"]
-    measures |= {"completion_without_speech_ms": own, "completion_ms": own + 3500 * measures["hints"]}
+    measures |= {"completion_ms": own, "completion_with_speech_ms": own + 3500 * measures["hints"]}
     measures["per_match_ms"] = own / PAIRS
     for scale, (mean, sd) in SCALES.items():
         drawn = mean + sd * (rng.standard_normal() + shifts.get(scale, 0.0))
@@ -212,7 +212,7 @@ def _cards(person: SimulatedParticipant) -> Iterator[dict[str, Any]]:
 def _flips(person: SimulatedParticipant) -> Iterator[tuple[dict[str, Any], dict[str, Any] | None]]:
     """The rows of the tables of flips and hints."""
     game = person.game
-    pace = round(person.measures["completion_without_speech_ms"] / person.measures["flips"])
+    pace = round(person.measures["completion_ms"] / person.measures["flips"])
     for at, (place, action, target) in enumerate(game.flips):
         second = at % 2 == 1
         move = game.flips[at - at % 2 : at - at % 2 + 2]
