@@ -7,6 +7,7 @@ import hashlib
 import io
 import json
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -19,7 +20,7 @@ import numpy.typing as npt
 from kiosk import UserInputError, why
 from kiosk.experiment.condition import Condition
 from kiosk.export.columns import CODEBOOK_VERSION
-from kiosk.export.layouts import file_of
+from kiosk.export.layouts import PLANS, file_of, plan_file
 
 Floats = npt.NDArray[np.float64]
 Truths = npt.NDArray[np.bool_]
@@ -96,6 +97,16 @@ def _is_number(cell: str) -> bool:
 
 
 @dataclass(frozen=True)
+class FrozenRecord:
+    """A plan that was frozen where the data were recorded; ``looks`` are the participants an arm at each look."""
+
+    sha256: str
+    before_first_session: bool
+    looks: tuple[int, ...]
+    file: Path
+
+
+@dataclass(frozen=True)
 class ExportedStudy:
     """A data set: its title, its tables, and a hash of the files that were read."""
 
@@ -103,6 +114,7 @@ class ExportedStudy:
     title: str
     tables: Mapping[str, ExportTable]
     sha256: str
+    plans: tuple[FrozenRecord, ...] = ()
 
     @property
     def participants(self) -> ExportTable:
@@ -131,7 +143,36 @@ def load_study(folder: Path) -> ExportedStudy:
     tables = {}
     for name, columns in COLUMNS.items():
         tables[name] = load_table(folder, name, columns, OPTIONAL.get(name, ()), digest)
-    return ExportedStudy(folder, str(described.get("name", "")), tables, digest.hexdigest())
+    plans = _frozen_plans(folder, digest)
+    return ExportedStudy(folder, str(described.get("name", "")), tables, digest.hexdigest(), plans)
+
+
+def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:
+    """The plans that the data set carries, oldest first; a file that is not what its hash says is refused."""
+    path = folder / PLANS
+    if not path.exists():
+        return ()
+    try:
+        content = path.read_bytes()
+        rows = json.loads(content)
+        plans = tuple(
+            FrozenRecord(
+                str(row["sha256"]),
+                row["before_first_session"] is True,
+                tuple(int(look) for look in row["looks"]),
+                path.with_name(plan_file(str(row["sha256"]))),
+            )
+            for row in rows
+        )
+    except OSError as error:
+        raise UserInputError(f"{path} cannot be read: {why(error)}") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise UserInputError(f"{path} is not a list of frozen plans; export the data again") from error
+    digest.update(content)
+    for plan in plans:
+        if not plan.file.is_file() or hashlib.sha256(plan.file.read_bytes()).hexdigest() != plan.sha256:
+            raise UserInputError(f"{plan.file} is not the plan that was frozen; export the data again")
+    return plans
 
 
 def load_table(
@@ -214,7 +255,7 @@ def scale_items(study: ExportedStudy, participants: Sequence[str]) -> tuple[Scal
     table = study.tables["answers"]
     scored = table.numbers("scored")
     wanted = {name: row for row, name in enumerate(participants)}
-    named = _scale_names(table)
+    named = scale_names(table)
     found: dict[tuple[str, str], dict[str, Floats]] = {}
     keys = zip(table.text("questionnaire"), table.text("scale"), table.text("item"), strict=True)
     for (questionnaire, scale, item), who, score in zip(keys, table.text("participant_id"), scored, strict=True):
@@ -231,14 +272,11 @@ def scale_items(study: ExportedStudy, participants: Sequence[str]) -> tuple[Scal
     return tuple(sorted(scales, key=lambda scale: list(named.values()).index(scale.name)))
 
 
-def _scale_names(table: ExportTable) -> dict[tuple[str, str], str]:
+def scale_names(table: ExportTable) -> dict[tuple[str, str], str]:
     """What each scale is called: its own name, after its questionnaire's where two have the same."""
-    keys = sorted({key for key in zip(table.text("questionnaire"), table.text("scale"), strict=True) if key[1]})
-    alone = [scale for _, scale in keys]
-    return {
-        (questionnaire, scale): scale if alone.count(scale) == 1 else f"{questionnaire}.{scale}"
-        for questionnaire, scale in keys
-    }
+    keys = dict.fromkeys(key for key in zip(table.text("questionnaire"), table.text("scale"), strict=True) if key[1])
+    alone = Counter(scale for _, scale in keys)
+    return {key: key[1] if alone[key[1]] == 1 else ".".join(key) for key in keys}
 
 
 def _natural(name: str) -> tuple[tuple[str, int], ...]:

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from kiosk import UserInputError
+from kiosk.analysis.compare import kept_values
 from kiosk.analysis.plan import Correction, Exclusion, StudyPlan
 from kiosk.analysis.policy_figures import STYLE
 from kiosk.analysis.sequential import bayes_factors
@@ -52,7 +53,6 @@ BLOCK = 50
 REFERENCE_EFFECTS = (0.35, 0.8)
 """Cohen's d of two normal measures that stand beside the plan's own: the two effects that the paper names."""
 WANTED_POWER = 0.8
-TWO_SD = 2.0
 
 Progress = Callable[[int, int], None]
 
@@ -160,7 +160,7 @@ def _tests(plan: StudyPlan) -> list[_Test]:
 def _signed(test: _Test, one: dict[str, Array], two: dict[str, Array], size: int) -> float:
     """The two-sided p, negative where the first group is lower; NaN where there is no test."""
     groups = [arm[test.measure][:size] for arm in (one, two)]
-    x, y = _kept([group[~np.isnan(group)] for group in groups], test.exclusions)
+    x, y = kept_values([group[~np.isnan(group)] for group in groups], test.exclusions)
     if min(len(x), len(y)) < 3 or (np.ptp(x) == 0 and np.ptp(y) == 0):  # noqa: PLR2004 - no variance from fewer
         return float("nan")
     if test.test == "mann-whitney":
@@ -172,18 +172,6 @@ def _signed(test: _Test, one: dict[str, Array], two: dict[str, Array], size: int
         t = float(x.mean() - y.mean()) / error
         p, lower = two_sided(t, df), t < 0
     return -p if lower else p
-
-
-def _kept(groups: list[Array], exclusions: Exclusion) -> list[Array]:
-    """The values that the rule leaves."""
-    if exclusions == "technical" or min(map(len, groups)) < 3:  # noqa: PLR2004 - no SD from fewer
-        return groups
-    both = np.concatenate(groups)
-    bases = [both, both] if exclusions == "2sd-pooled" else groups
-    return [
-        group[np.abs(group - base.mean()) <= TWO_SD * base.std(ddof=1)]
-        for group, base in zip(groups, bases, strict=True)
-    ]
 
 
 # Running

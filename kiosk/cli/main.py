@@ -37,6 +37,7 @@ _COMMANDS = {
     "withdraw": "kiosk.cli.data:withdraw_command",
     "merge": "kiosk.cli.data:merge_command",
     "export": "kiosk.cli.data:export_command",
+    "report": "kiosk.cli.report:report_command",
     "calibrate": "kiosk.cli.calibrate:calibrate_command",
     "plan": "kiosk.cli.plan:plan_group",
     "train": "kiosk.cli.learning:train_command",

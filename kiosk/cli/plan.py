@@ -92,9 +92,10 @@ def plan_freeze(plan: Path, data: Path, *, as_json: bool) -> None:
     """Write the plan's hash and the time into the database, before the first participant."""
     module = analysis("plan")
     module.StudyPlan.read(plan)
-    frozen = freeze_plan(data, module.plan_sha256(plan), plan.read_text("utf-8"))
+    frozen = freeze_plan(data, module.plan_sha256(plan), plan.read_bytes().decode("utf-8"))
     told = f"Frozen in {data} at {frozen.frozen_at}: {frozen.sha256}"
-    click.echo(json.dumps(asdict(frozen)) if as_json else told)
+    document = {"sha256": frozen.sha256, "frozen_at": frozen.frozen_at}
+    click.echo(json.dumps(document) if as_json else told)
 
 
 @plan_group.command("look")

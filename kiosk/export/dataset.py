@@ -14,6 +14,7 @@ from kiosk.export.layouts import DatasetContents, Layout, new_folder
 from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
+from kiosk.store.plans import frozen_plans
 from kiosk.store.session_records import RecordSource, SessionRecord, open_records
 
 _KINDS = {ExportOption.REHEARSALS: SessionKind.SIMULATED, ExportOption.TRIALS: SessionKind.TRIAL}
@@ -54,7 +55,7 @@ def export_dataset(
     kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
     with open_records(data, kinds) as stored, new_folder(out) as folder:
         study = StudyMaterials(stored.plans())
-        contents = DatasetContents(study, all_tables(study, extras), extras)
+        contents = DatasetContents(study, all_tables(study, extras), extras, frozen_plans(data))
         flows = {kind: ParticipantFlow(kind, stored.archive.counts(simulated=kind)) for kind in sorted(kinds)}
         with closing(layout(folder, contents)) as writing:
             wanted = len(stored)

@@ -37,6 +37,7 @@ from kiosk.export.participants import ParticipantFlow, exported_items, item_vari
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import DatasetTables
 from kiosk.store.connecting import atomic_directory
+from kiosk.store.plans import FrozenPlan
 from kiosk.store.session_records import SessionRecord
 from kiosk.units import MS_PER_SECOND
 
@@ -163,6 +164,7 @@ class DatasetContents:
     study: StudyMaterials
     tables: DatasetTables
     extras: frozenset[ExportOption]
+    frozen: tuple[FrozenPlan, ...] = ()
 
 
 class Layout(ABC):
@@ -207,6 +209,9 @@ PUBLISHED = frozenset(
 _PARTLY: dict[str, bool | set[str]] = {"randomisation": {"target_n", "block_size"}, "consent": {"adult"}}
 """What else is told of other parts: who wants to analyse an allocation as it was made has to know its blocks."""
 
+PLANS = Path("materials", "plans", "plans.json")
+"""The plans that were frozen in the data folder; only a data set that has one has this file."""
+
 _SHOWN = 12
 """Characters of a hash in a file's name."""
 
@@ -215,6 +220,24 @@ def write_materials(folder: Path, study: StudyMaterials) -> None:
     """Write everything once, however many sessions followed it."""
     for name, content in {material for plan in study.plans for material in _materials(plan)}:
         write_text(folder / name, content)
+
+
+def plan_file(sha256: str) -> str:
+    """What the file of a frozen plan is called."""
+    return f"plan-{sha256[:_SHOWN]}.toml"
+
+
+def write_plans(root: Path, plans: Sequence[FrozenPlan]) -> None:
+    """Write the plans that were frozen, and what a reader must know of each; no dates."""
+    if not plans:
+        return
+    for plan in plans:
+        write_text(root / PLANS.with_name(plan_file(plan.sha256)), plan.text)
+    told = [
+        {"sha256": plan.sha256, "before_first_session": plan.before_first_session, "looks": list(plan.looks)}
+        for plan in plans
+    ]
+    write_json(root / PLANS, told)
 
 
 def _materials(plan: SessionConfig) -> Iterator[tuple[str, str]]:
@@ -275,6 +298,7 @@ class PsychDs(Layout):
         write_text(root / "results" / "README.md", readme_text.RESULTS)
         write_text(root / "materials" / "README.md", readme_text.MATERIALS)
         write_materials(root / "materials", self.contents.study)
+        write_plans(root, self.contents.frozen)
 
     def close(self) -> None:
         """Let go of all files."""

@@ -8,6 +8,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from kiosk import UserInputError
 from kiosk.experiment.session_config import SessionKind
@@ -21,10 +22,17 @@ LOOK_TAKEN = "LookTaken"
 
 @dataclass(frozen=True, slots=True)
 class FrozenPlan:
-    """A plan that was frozen in a data folder; ``frozen_at`` is in UTC."""
+    """A plan that was frozen in a data folder; ``frozen_at`` is in UTC.
+
+    ``before_first_session`` says whether that was before any session of the study; ``looks`` are the participants an
+    arm at each look that was taken under it.
+    """
 
     sha256: str
     frozen_at: str
+    text: str
+    before_first_session: bool
+    looks: tuple[int, ...] = ()
 
 
 def frozen_plans(folder: Path) -> tuple[FrozenPlan, ...]:
@@ -32,11 +40,21 @@ def frozen_plans(folder: Path) -> tuple[FrozenPlan, ...]:
     if not has_database(folder):
         return ()
     with closing(open_for_reading(folder)) as connection:
-        rows = connection.execute("SELECT wall_ms, body FROM booth_event WHERE type = ? ORDER BY id", (PLAN_FROZEN,))
-        return tuple(
-            FrozenPlan(json.loads(body)["sha256"], datetime.fromtimestamp(ms / MS_PER_SECOND, UTC).isoformat())
-            for ms, body in rows
-        )
+        query = "SELECT wall_ms, body FROM booth_event WHERE type = ? ORDER BY id"
+        frozen = connection.execute(query, (PLAN_FROZEN,)).fetchall()
+        looks = [json.loads(body) for _, body in connection.execute(query, (LOOK_TAKEN,))]
+        first = connection.execute(
+            "SELECT min(started_at) FROM session WHERE simulated = ?", (int(SessionKind.STUDY),)
+        ).fetchone()[0]
+    began = datetime.fromisoformat(first) if first is not None else None
+    return tuple(_frozen(datetime.fromtimestamp(ms / MS_PER_SECOND, UTC), body, looks, began) for ms, body in frozen)
+
+
+def _frozen(at: datetime, body: str, looks: Sequence[dict[str, Any]], began: datetime | None) -> FrozenPlan:
+    """One row of the audit log, with the looks that were taken under it."""
+    told = json.loads(body)
+    own = tuple(look["per_arm"] for look in looks if look["sha256"] == told["sha256"])
+    return FrozenPlan(told["sha256"], at.isoformat(), told["plan"], began is None or at <= began, own)
 
 
 def freeze_plan(folder: Path, sha256: str, text: str) -> FrozenPlan:

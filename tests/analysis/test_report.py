@@ -1,0 +1,199 @@
+"""The report of a data set: its numbers, its status, its files, and what it refuses."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from kiosk import UserInputError
+from kiosk.analysis.data import load_study
+from kiosk.analysis.page import (
+    Page,
+    Picture,
+    Section,
+    Source,
+    Table,
+    latex_table,
+    markdown_table,
+    to_html,
+    to_markdown,
+)
+from kiosk.analysis.paper import recompute
+from kiosk.analysis.plan import TEMPLATE, StudyPlan
+from kiosk.analysis.report import check_hypotheses, make_report
+from kiosk.analysis.report_page import hypotheses_table
+from kiosk.analysis.sample import ExclusionStep, choose_sample, read_exclusions
+from kiosk.cli.main import recollect
+from kiosk.export.layouts import file_of
+
+
+def run(*words: str) -> str:
+    done = CliRunner().invoke(recollect, words)
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def export(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A simulated study of 12 + 12."""
+    folder = tmp_path_factory.mktemp("study")
+    (folder / "plan.toml").write_text(TEMPLATE.replace("n_per_arm = 56", "n_per_arm = 12"))
+    run("plan", "simulate", str(folder / "plan.toml"), "--out", str(folder / "export"))
+    return folder / "export"
+
+
+@pytest.fixture(scope="module")
+def written(export: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Everything that a report writes into a folder, with the paper."""
+    out = tmp_path_factory.mktemp("report") / "out"
+    run("report", str(export), "--out", str(out), "--paper")
+    return out
+
+
+def plan_of(folder: Path) -> StudyPlan:
+    (folder / "template.toml").write_text(TEMPLATE)
+    return StudyPlan.read(folder / "template.toml")
+
+
+def edited(export: Path, folder: Path, table: str, edit: Callable[[dict[str, str]], dict[str, str] | None]) -> Path:
+    """A copy of a data set whose rows of one table went through ``edit``; None drops a row."""
+    copy = folder / "edited"
+    shutil.copytree(export, copy)
+    path = copy / file_of(table)
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(row for row in map(edit, rows) if row is not None)
+    return copy
+
+
+def test_a_report_has_every_form_of_its_content(written: Path) -> None:
+    page = (written / "report.html").read_text("utf-8")
+    for part in ("Hypotheses", "Participants", "Sensitivity", "Bayes factors", "Reliability", "recomputed"):
+        assert f"{part}" in page
+        assert part in (written / "report.md").read_text("utf-8")
+    assert {"hypotheses-table.csv", "hypotheses-table.tex", "paper-table.csv"} <= {
+        path.name for path in (written / "tables").iterdir()
+    }
+    assert {"flow.svg", "effects.svg", "values-flips.svg"} <= {path.name for path in (written / "figures").iterdir()}
+    assert json.loads((written / "results.json").read_text("utf-8"))["status"] == "EXPLORATORY"
+
+
+def test_a_page_asks_for_nothing_outside_and_no_id_occurs_twice(written: Path) -> None:
+    page = (written / "report.html").read_text("utf-8")
+    outside = [link for link in re.findall(r'(?:src|href)="([^"]*)"', page) if not link.startswith("#")]
+    assert outside == []
+    assert "url(http" not in page
+    assert "@import" not in page
+    ids = re.findall(r'\bid="([^"]*)"', page)
+    assert len(ids) == len(set(ids))
+    assert set(re.findall(r'href="#([^"]*)"', page)) <= set(ids)
+
+
+def test_the_same_data_give_the_same_bytes(export: Path, written: Path, tmp_path: Path) -> None:
+    run("report", str(export), "--out", str(tmp_path / "again.html"), "--paper")
+    assert (tmp_path / "again.html").read_bytes() == (written / "report.html").read_bytes()
+
+
+def test_no_text_of_a_study_can_break_the_page() -> None:
+    bad = "<script>alert('1')</script> & |co"
+    table = Table("t", bad, (bad, bad), ((bad, bad),), bad)
+    blocks = (bad, table, Source(bad, bad), Picture("p", bad, "<svg ></svg>", bad, wide=True))
+    shown = Page(bad, "EXPLORATORY", bad, ((bad, bad),), (Section("s", bad, blocks),))
+    assert "<script" not in to_html(shown)
+    assert "<script" not in to_markdown(shown).replace("\\<", "").replace(f"```\n{bad}\n```", "")
+
+
+def test_declared_exclusions_are_counted_by_condition_with_their_reason(export: Path, tmp_path: Path) -> None:
+    (tmp_path / "out.csv").write_text("participant_id,reason\ns0001,the screen went dark\n")
+    sample = choose_sample(load_study(export), plan_of(tmp_path), read_exclusions(tmp_path / "out.csv"))
+    assert sample.steps == (ExclusionStep("the screen went dark", {"tom": 1}),)
+    assert [int(sample.rows(name).sum()) for name in sample.conditions] == [11, 12]
+
+
+def test_who_was_not_drawn_or_did_not_finish_is_left_out_and_counted(export: Path, tmp_path: Path) -> None:
+    ends = {
+        "s0001": {"allotted": "override"},
+        "s0002": {"game_completed": "false", "last_stage": "game"},
+        "s0013": {"game_completed": "false", "last_stage": "practice"},
+    }
+    copy = edited(export, tmp_path, "participants", lambda row: row | ends.get(row["participant_id"], {}))
+    found = json.loads(run("report", str(copy), "--json"))
+    assert [(step["rule"], step["counts"]) for step in found["exclusions"]] == [
+        ("the experimenter chose the condition", {"tom": 1}),
+        ("the game was not completed", {"tom": 1, "notom": 1}),
+    ]
+    completion = {row["condition"]: row for row in found["completion"]}
+    assert (completion["tom"]["allotted"], completion["tom"]["ended"]) == (11, {"game": 1})
+    assert completion["notom"]["ended"] == {"practice": 1}
+
+
+def test_a_constant_measure_gets_a_reason_and_no_number(export: Path, tmp_path: Path) -> None:
+    copy = edited(export, tmp_path, "participants", lambda row: row | {"flips": "40"})
+    plan = plan_of(tmp_path)
+    hypothesis = check_hypotheses(choose_sample(load_study(copy), plan), plan)[0]
+    assert hypothesis.measure == "flips"
+    assert hypothesis.verdict == "not tested: every value in each group is the same"
+    assert math.isnan(hypothesis.p)
+
+
+@pytest.mark.parametrize(
+    ("edit", "sentence"),
+    [
+        (lambda row: row if row["condition"] == "tom" else None, "people in one condition only"),
+        (
+            lambda row: row if row["participant_id"] not in {f"s{n:04}" for n in range(3, 13)} else None,
+            "needs at least 3",
+        ),
+        (lambda row: row | {"condition": "tomm"} if row["condition"] == "tom" else row, "0 people to analyse in tom"),
+    ],
+)
+def test_too_few_people_get_a_sentence(
+    export: Path, tmp_path: Path, edit: Callable[[dict[str, str]], dict[str, str] | None], sentence: str
+) -> None:
+    copy = edited(export, tmp_path, "participants", edit)
+    with pytest.raises(UserInputError, match=sentence):
+        choose_sample(load_study(copy), plan_of(tmp_path))
+
+
+def test_a_report_that_cannot_be_written_says_so_before_it_reads(export: Path, tmp_path: Path) -> None:
+    done = CliRunner().invoke(recollect, ["report", str(export), "--out", str(tmp_path / "nowhere" / "page.html")])
+    assert isinstance(done.exception, UserInputError)
+    nothing = CliRunner().invoke(recollect, ["report"])
+    assert "a report needs the folder of an exported data set" in str(nothing.exception)
+
+
+def test_the_table_for_a_paper_is_valid_in_markdown_and_latex(export: Path) -> None:
+    table = hypotheses_table(make_report(load_study(export)))
+    lines = markdown_table(table).splitlines()
+    assert len({line.count(" | ") for line in lines}) == 1
+    latex = latex_table(table)
+    assert latex.count("\\begin{") == latex.count("\\end{")
+    rows = [line for line in latex.splitlines() if line.endswith(r"\\") and " & " in line]
+    assert {line.count(" & ") for line in rows} == {len(table.head) - 1}
+    assert not re.search(r"(?<!\\)[%_#]", latex.replace("\\label{tab:hypotheses-table}", ""))
+
+
+def test_the_papers_numbers_are_those_of_its_means() -> None:
+    found: dict[str, Any] = {row.measure: row for row in recompute()}
+    assert found["turns (flips)"].t == pytest.approx(-1.60, abs=0.005)
+    assert found["turns (flips)"].d == pytest.approx(-0.43, abs=0.005)
+    assert found["time"].p == pytest.approx(0.053, abs=5e-4)
+    assistance = found["assistance per flip"]
+    assert (assistance.t, assistance.low, assistance.high) == pytest.approx((-3.74, -4.61, -2.99), abs=0.006)
+    assert found["competence (AC)"].t == pytest.approx(2.49, abs=0.006)
+    social = found["social intelligence (SOC)"]
+    assert (social.low, social.high) == pytest.approx((1.07, 1.10), abs=0.005)
+    assert [row.measure for row in recompute() if row.holm < 0.05] == ["assistance per flip"]
+    assert json.loads(run("report", "--paper", "--json"))["paper"][3]["printed"] == "t = 2.4"
