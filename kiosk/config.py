@@ -226,6 +226,13 @@ class ConsentConfig(ConfigModel):
             description="Whom to write to for withdrawing, best a mail address; shown with the code.",
         ),
     ] = ""
+    on_withdrawal: Annotated[
+        Literal["keep", "delete"],
+        Field(
+            description="What becomes of a session that the visitor stops: it is kept as withdrawn, or deleted at "
+            "once. The consent must say the same."
+        ),
+    ] = "keep"
 
 
 class Game(ConfigModel):

@@ -20,7 +20,7 @@ from kiosk.experiment.items import (
     Single,
 )
 from kiosk.experiment.questionnaire import Questionnaire
-from kiosk.experiment.session_config import SessionConfig
+from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.game import Board
 
 SHORT = ("introduction", "game", "result", "questions")
@@ -30,7 +30,7 @@ WITH_PIN = f'[experimenter]\npin_hash = "scrypt:{"0" * 32}:{"0" * 64}"\n'
 """The lines of a study file for a PIN of the right form, which no digits open."""
 
 CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
-ENGLISH = CATALOGUES["en"]
+ENGLISH, ITALIAN = CATALOGUES["en"], CATALOGUES["it"]
 
 
 def _deck(name: str) -> tuple[str, ...]:
@@ -79,6 +79,9 @@ INFORMATION = Information(
     debrief=Page(title="Debrief", paragraphs=("what it was about",)),
 )
 """An information sheet with two purposes, of which one is required."""
+ITALIAN_INFORMATION = INFORMATION.model_copy(
+    update={"about": Page(title="Di che cosa si tratta", paragraphs=("di questo",))}
+)
 
 
 def policy_that(choose: Callable[[State], ActionSpec], gate: Gate = NO_GATE) -> QTable:
@@ -116,6 +119,7 @@ def plan(
         questionnaires=(CLOSING,),
         deck=ANIMALS,
         practice_deck=FRUIT,
+        translations=(Translation(ENGLISH, INFORMATION), Translation(ITALIAN, ITALIAN_INFORMATION)),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, Timer
+from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, TextSize, Timer
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.experiment.items import Answer
 from kiosk.experiment.questionnaire import Item
@@ -233,6 +233,34 @@ class HideStillThere:
 
 
 @dataclass(frozen=True)
+class OfferBack:
+    """Let the visitor go back to the page before, or not."""
+
+    offered: bool
+
+
+@dataclass(frozen=True)
+class SetLanguage:
+    """Show everything in another language, and speak it; what is answered and typed stays."""
+
+    language: str
+
+
+@dataclass(frozen=True)
+class SetTextSize:
+    """Show all texts in this size."""
+
+    size: TextSize
+
+
+@dataclass(frozen=True)
+class SetSound:
+    """Let the visitor hear voice and sounds, or not."""
+
+    on: bool
+
+
+@dataclass(frozen=True)
 class StartTimer:
     """Send TimerExpired in so many milliseconds; a timer that runs starts anew."""
 
@@ -277,6 +305,10 @@ Effect = (
     | HidePause
     | AskStillThere
     | HideStillThere
+    | OfferBack
+    | SetLanguage
+    | SetTextSize
+    | SetSound
     | StartTimer
     | StopTimer
 )

@@ -64,6 +64,8 @@ class Status(Enum):
     ABANDONED = "abandoned"
     STOPPED = "stopped"
     """The experimenter ended it, with a reason."""
+    WITHDRAWN = "withdrawn"
+    """The visitor stopped it."""
     INTERRUPTED = "interrupted"
 
 
@@ -74,6 +76,14 @@ class NotRecordedReason(Enum):
     UNDER_AGE = "under_age"
     LEFT = "left"
     """Whoever it was left before they had decided."""
+
+
+class TextSize(Enum):
+    """How large a visitor has the texts, in three steps."""
+
+    NORMAL = "normal"
+    LARGE = "large"
+    LARGEST = "largest"
 
 
 class PracticeEnd(Enum):
@@ -153,6 +163,51 @@ class ContinuePressed(WorldEvent):
     """The visitor goes on to what comes next."""
 
     by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class BackPressed(WorldEvent):
+    """The visitor goes back to the page before."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopPressed(WorldEvent):
+    """The visitor stops the session, and has confirmed it."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class RepeatPressed(WorldEvent):
+    """The visitor wants to hear the last sentence again."""
+
+    by_visitor = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class LanguageSelected(WorldEvent):
+    """The visitor goes on in another language."""
+
+    by_visitor = True
+    language: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class TextSizeSelected(WorldEvent):
+    """The visitor makes all texts larger or smaller."""
+
+    by_visitor = True
+    size: TextSize
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoundSelected(WorldEvent):
+    """The visitor turns voice and sounds off, or on again; the text stays."""
+
+    by_visitor = True
+    on: bool
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -35,6 +35,7 @@ class _Given:
     """The hint or remark that stands: whether it still holds the board, and whether its mark is on it."""
 
     hint: Hint | None
+    action: ActionSpec
     flip: int
     utterance: int
     sentence: str
@@ -116,6 +117,24 @@ class GameStage(StageHandler):
                 self._let_be_read(utterance, outcome)
             case happened.TimerExpired(timer=timer):
                 self._go_on_after(timer, outcome)
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Give the hint that stands in the language of now; a sentence that is being said starts anew."""
+        given = self._given
+        if given is None or self._guide is None:
+            return
+        sentences = self._guide.sentences
+        given.sentence = sentences.remark(given.action) if given.hint is None else sentences.sentence(given.hint)
+        given.utterance = next(self._utterances)
+        outcome.emit(
+            happened.SentenceRequested(at_ms=outcome.at_ms, utterance=given.utterance, sentence=given.sentence)
+        )
+        outcome.effect(do.StopSpeaking(), do.Speak(given.utterance, given.sentence))
+        if given.holds and not given.told:
+            outcome.effect(
+                do.StopTimer(Timer.READING),
+                do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(given.sentence)),
+            )
 
     def _select_card(self, position: Position, outcome: OutcomeBuilder) -> None:
         """Flip the card if that is possible now; if not, say why and change nothing."""
@@ -214,7 +233,7 @@ class GameStage(StageHandler):
             return
         hint, sentences = decision.hint, self._guide.sentences
         sentence = sentences.remark(decision.action) if hint is None else sentences.sentence(hint)
-        given = _Given(hint, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
+        given = _Given(hint, decision.action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
         self._given = given
         outcome.emit(
@@ -295,6 +314,11 @@ class PracticeStage(GameStage):
         super().enter(outcome)
         outcome.effect(do.StartTimer(Timer.PRACTICE, self._longest_ms))
         self._speaker.say("practice-speech", outcome)
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Say what there is to do in the language of now, if it is still to be read."""
+        if self.game.flips == 0:
+            self._speaker.say_again(outcome)
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """End early, or play."""

@@ -24,6 +24,7 @@ from kiosk.experiment.questionnaire import (
     ItemOrder,
     Questionnaire,
 )
+from kiosk.experiment.session_config import Translation
 from kiosk.experiment.session_state import effective_answer
 
 
@@ -38,8 +39,23 @@ class StageHandler:
         """How much there is to read on its longest page, in characters."""
         return 0
 
+    @property
+    def goes_back(self) -> bool:
+        """Whether there is a page before within the stage."""
+        return False
+
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Begin, or begin anew."""
+
+    def come_back(self, outcome: OutcomeBuilder) -> None:
+        """Show it to a visitor who goes back to it."""
+        self.enter(outcome)
+
+    def translate(self, to: Translation) -> None:
+        """Speak another language from now on."""
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Show what is worded in another language by now."""
 
     def accepts(self, event: WorldEvent) -> bool:  # noqa: ARG002 - most scenes take whatever comes
         """Whether this event makes sense now."""
@@ -56,9 +72,17 @@ class SpeechWriter:
         """Speak in these words; ``numbers`` go on through the whole session."""
         self._wording = wording
         self._numbers = numbers
+        self._last: tuple[str, dict[str, str | int]] | None = None
+
+    def say_again(self, outcome: OutcomeBuilder) -> None:
+        """Say what was said last, in the language of now."""
+        if self._last is not None:
+            message, variables = self._last
+            self.say(message, outcome, **variables)
 
     def say(self, message: str, outcome: OutcomeBuilder, **variables: str | int) -> None:
         """Have one wording of the message said."""
+        self._last = (message, variables)
         sentence, number = self._wording.say(message, **variables), next(self._numbers)
         outcome.emit(happened.SentenceRequested(at_ms=outcome.at_ms, utterance=number, sentence=sentence))
         outcome.effect(do.Speak(number, sentence))
@@ -85,9 +109,19 @@ class ConsentStage(StageHandler):
         return self._information.consent.characters
 
     def enter(self, outcome: OutcomeBuilder) -> None:
-        """Show the boxes."""
-        self._ticked = frozenset()
+        """Show the boxes, with the ticks of a visitor who was here before."""
         outcome.effect(do.ShowConsent(self._information.consent))
+        if self._ticked:
+            outcome.effect(do.ShowTicks(self._ticked))
+
+    def translate(self, to: Translation) -> None:
+        """Ask for the consent of another sheet from now on."""
+        self._information = to.information
+        self._language = to.catalogue.language
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Show the sheet of the language."""
+        self.enter(outcome)
 
     def accepts(self, event: WorldEvent) -> bool:
         """Whether the purpose is one of those that are shown."""
@@ -157,6 +191,14 @@ class AboutStage(StageHandler):
         """Show it."""
         outcome.effect(do.ShowAbout(self._page))
 
+    def translate(self, to: Translation) -> None:
+        """Tell it in another language."""
+        self._page = to.information.about
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Show the page of the language."""
+        self.enter(outcome)
+
 
 class IntroductionStage(StageHandler):
     """The assistant greets, and says what is to be done."""
@@ -172,6 +214,10 @@ class IntroductionStage(StageHandler):
         outcome.effect(do.ShowIntroduction(helped=self._helped))
         speech = "introduction-speech" if self._helped else "introduction-speech-alone"
         self._speaker.say(speech, outcome, cards=2 * self._pairs, pairs=self._pairs)
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Greet in the language of now."""
+        self._speaker.say_again(outcome)
 
 
 class ResultStage(StageHandler):
@@ -190,6 +236,10 @@ class ResultStage(StageHandler):
         outcome.effect(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
         self._speaker.say(_remark(measures), outcome, moves=measures.moves)
 
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Show the figures and remark on them in the language of now."""
+        self.enter(outcome)
+
 
 class DebriefStage(StageHandler):
     """What the study was about, and how to withdraw."""
@@ -207,6 +257,14 @@ class DebriefStage(StageHandler):
         """Show it."""
         outcome.effect(do.ShowDebrief(self._page))
 
+    def translate(self, to: Translation) -> None:
+        """Tell it in another language."""
+        self._page = to.information.debrief
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Show the page of the language."""
+        self.enter(outcome)
+
 
 class ThanksStage(StageHandler):
     """The end, for a moment, or until it is tapped away."""
@@ -222,6 +280,10 @@ class ThanksStage(StageHandler):
         """Thank the visitor."""
         outcome.effect(do.ShowThanks(), do.StartTimer(Timer.THANKS, self._stay_ms))
         self._speaker.say("thanks-speech", outcome)
+
+    def show_again(self, outcome: OutcomeBuilder) -> None:
+        """Thank in the language of now."""
+        self._speaker.say_again(outcome)
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Leave when the time is over."""
@@ -296,7 +358,7 @@ class QuestionnaireStage(StageHandler):
         self._language = language
         self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
         self._number = 0
-        self._answers: dict[str, Answer] = {}
+        self._answers: dict[tuple[str, str], Answer] = {}
 
     @property
     def characters(self) -> int:
@@ -307,9 +369,23 @@ class QuestionnaireStage(StageHandler):
         return sum(len(in_language(words, self._language)) for item in sheet.items for words in item.texts())
 
     def enter(self, outcome: OutcomeBuilder) -> None:
-        """Show the first page."""
+        """Show the first page; nothing is answered."""
         self._number = 0
+        self._answers.clear()
         self._show(outcome)
+
+    def come_back(self, outcome: OutcomeBuilder) -> None:
+        """Show the last page as it was left."""
+        self._show(outcome)
+
+    @property
+    def goes_back(self) -> bool:
+        """Whether this is not the first page."""
+        return self._number > 0
+
+    def translate(self, to: Translation) -> None:
+        """Ask in another language; the items on the screen hold all of theirs."""
+        self._language = to.catalogue.language
 
     def accepts(self, event: WorldEvent) -> bool:
         """Whether an answer is one that an item of this page can have."""
@@ -327,12 +403,19 @@ class QuestionnaireStage(StageHandler):
                 outcome.effect(do.ShowAnswer(item, value))
             case happened.ContinuePressed():
                 self._go_on(outcome)
+            case happened.BackPressed() if self.goes_back:
+                self._number -= 1
+                self._show(outcome)
 
     def _keep(self, item: str, value: Answer | None) -> None:
+        key = (self._sheet.questionnaire, item)
         if value is None:
-            self._answers.pop(item, None)
+            self._answers.pop(key, None)
         else:
-            self._answers[item] = value
+            self._answers[key] = value
+
+    def _answer(self, item: Item) -> Answer | None:
+        return self._answers.get((self._sheet.questionnaire, item.id))
 
     def _go_on(self, outcome: OutcomeBuilder) -> None:
         missing = tuple(item.id for item in self._sheet.items if self._lacks(item))
@@ -345,15 +428,16 @@ class QuestionnaireStage(StageHandler):
             outcome.emit(happened.QuestionnairesCompleted(at_ms=outcome.at_ms))
 
     def _lacks(self, item: Item) -> bool:
-        return not isinstance(item, TextPage) and item.required and effective_answer(self._answers.get(item.id)) is None
+        return not isinstance(item, TextPage) and item.required and effective_answer(self._answer(item)) is None
 
     def _show(self, outcome: OutcomeBuilder) -> None:
-        self._answers.clear()
         names = tuple(item.id for item in self._sheet.items)
         outcome.emit(
             happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
         )
         outcome.effect(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets), self._rates))
+        given = ((item.id, self._answer(item)) for item in self._sheet.items)
+        outcome.effect(*(do.ShowAnswer(item, value) for item, value in given if value is not None))
 
     @property
     def _sheet(self) -> ItemPage:

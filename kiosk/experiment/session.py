@@ -17,7 +17,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
-from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, TextSize, Timer, WorldEvent
 from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage
 from kiosk.experiment.page_stages import (
     AboutStage,
@@ -32,7 +32,7 @@ from kiosk.experiment.page_stages import (
     ThanksStage,
 )
 from kiosk.experiment.projections import Measures, measure
-from kiosk.experiment.session_config import SessionConfig
+from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition, Transition, check_expected, transition
 from kiosk.game import Board
 
@@ -119,7 +119,7 @@ class SpeechState:
         match event:
             case happened.RobotDisconnected():
                 return not self._robot_lost
-            case happened.RepeatRequested():
+            case happened.RepeatRequested() | happened.RepeatPressed():
                 return self._said is not None and self._unsaid is None
         return True
 
@@ -128,7 +128,7 @@ class SpeechState:
         match event:
             case happened.RobotDisconnected(why=why):
                 self._go_on_without_robot(why, outcome)
-            case happened.RepeatRequested() if self._said is not None:
+            case happened.RepeatRequested() | happened.RepeatPressed() if self._said is not None:
                 self._speaker.repeat(self._said, outcome)
             case happened.SessionResumed():
                 self._robot_lost = False
@@ -162,6 +162,7 @@ class StageFactory:
     def __init__(self, plan: SessionConfig, seed: int, log: Callable[[OutcomeBuilder], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
         self._plan, self._seed = plan, seed
+        self.language = plan.language
         self._wording, self._numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
         self.speaker = SpeechWriter(self._wording, self._numbers)
         settings = plan.settings
@@ -194,6 +195,13 @@ class StageFactory:
         pairs = game.game.board.pairs
         self._scenes[Stage.GAME] = game
         self._scenes[Stage.INTRODUCTION] = IntroductionStage(self.speaker, pairs, helped=game.helped)
+
+    def translate(self, to: Translation) -> None:
+        """Have all stages speak another language from now on."""
+        self.language = to.catalogue.language
+        self._wording.catalogue = to.catalogue
+        for scene in self._scenes.values():
+            scene.translate(to)
 
     def of(self, stage: Stage) -> StageHandler:
         """The scene of a stage; before the first and after the last one nothing is to be seen of a session."""
@@ -249,6 +257,9 @@ class Session:
         self._course = plan.stage_order
         self._timing = plan.settings.timing
         self._closed_in: Stage | None = None
+        self._plan = plan
+        self._offers_back = False
+        self._text_size, self._sound = TextSize.NORMAL, True
         self._log: list[Event] = []
         self._waiting: set[Timer] = set()
         self._scenery = StageFactory(plan, seed, lambda outcome: [*self._log, *outcome.events])
@@ -265,6 +276,7 @@ class Session:
         self._scenery.of(self.stage).react(event, outcome)
         for step in (event, *outcome.events):
             self._go_on_after(step, outcome)
+        self._offer_back(outcome)
         self._log += [event, *outcome.events]
         self._keep_track(outcome)
         return outcome.build()
@@ -289,6 +301,10 @@ class Session:
         match event:
             case happened.TimerExpired(timer=timer):
                 return timer in self._waiting
+            case happened.BackPressed():
+                return self._can_go_back
+            case happened.LanguageSelected(language=language):
+                return language != self._scenery.language and self._plan.translation(language) is not None
             case happened.SessionResumed():
                 return self.keeping is RecordingState.KEPT and self._cut_off_in not in (Stage.GAME, Stage.OVER)
         return True
@@ -304,12 +320,46 @@ class Session:
                 self._forget(NotRecordedReason.DECLINED, outcome)
             case happened.AgeConfirmed(adult=False):
                 self._forget(NotRecordedReason.UNDER_AGE, outcome)
+            case happened.LanguageSelected(language=language):
+                self._translate(language, outcome)
+            case happened.TextSizeSelected(size=size):
+                self._text_size = size
+                outcome.effect(do.SetTextSize(size))
+            case happened.SoundSelected(on=on):
+                self._sound = on
+                outcome.effect(do.SetSound(on))
+
+    def _translate(self, language: str, outcome: OutcomeBuilder) -> None:
+        translation = self._plan.translation(language)
+        if translation is not None:
+            self._scenery.translate(translation)
+            outcome.effect(do.SetLanguage(language))
+            self._scenery.of(self.stage).show_again(outcome)
+
+    @property
+    def _can_go_back(self) -> bool:
+        """Whether there is a page before that the visitor can go back to."""
+        return self._scenery.of(self.stage).goes_back or self._stage_before is not None
+
+    @property
+    def _stage_before(self) -> Stage | None:
+        return self._course.before(self.stage, kept=self.keeping is not RecordingState.FORGOTTEN)
+
+    def _offer_back(self, outcome: OutcomeBuilder) -> None:
+        """Let the visitor go back where that leads somewhere."""
+        if self._can_go_back is not self._offers_back:
+            self._offers_back = not self._offers_back
+            outcome.effect(do.OfferBack(self._offers_back))
 
     def _resume(self, outcome: OutcomeBuilder) -> None:
         """Begin the stage anew in which the session was cut off."""
         self.stage = self._cut_off_in
         self._closed_in = None
         self._presence.resume(outcome)
+        # The window has begun anew, and knows nothing of what the visitor chose.
+        self._offers_back = False
+        outcome.effect(do.SetLanguage(self._scenery.language))
+        outcome.effect(do.SetTextSize(self._text_size), do.SetSound(self._sound))
         self._leave_scene(outcome)
         self._enter(self.stage, outcome)
 
@@ -324,6 +374,10 @@ class Session:
             case Transition.ON:
                 after = self._course.after(self.stage, kept=self.keeping is not RecordingState.FORGOTTEN)
                 self._change_stage(after, Status.COMPLETED, outcome)
+            case Transition.BACK if self._stage_before is not None:
+                self._leave_scene(outcome)
+                self.stage = self._stage_before
+                self._enter(self.stage, outcome, back=True)
             case Transition.OVER:
                 self._closed_in = self.stage if isinstance(event, happened.ApplicationClosed) else None
                 self._change_stage(Stage.OVER, _ENDINGS[type(event)], outcome)
@@ -345,11 +399,12 @@ class Session:
         outcome.effect(*(do.StopTimer(timer) for timer in Timer if timer in running))
         self._presence.dismiss(outcome)
 
-    def _enter(self, stage: Stage, outcome: OutcomeBuilder) -> None:
+    def _enter(self, stage: Stage, outcome: OutcomeBuilder, *, back: bool = False) -> None:
         outcome.emit(happened.StageEntered(at_ms=outcome.at_ms, stage=stage))
         self._presence.restart(stage, outcome)
         outcome.effect(do.SetExpression(self._scenery.of(stage).mood))
-        self._scenery.of(stage).enter(outcome)
+        scene = self._scenery.of(stage)
+        (scene.come_back if back else scene.enter)(outcome)
 
     def _keep_from(self, stage: Stage, outcome: OutcomeBuilder) -> None:
         """Whoever is past all that is decided beforehand has agreed to be recorded."""
@@ -383,5 +438,6 @@ class Session:
 _ENDINGS = {
     happened.IdleTimedOut: Status.ABANDONED,
     happened.AbortRequested: Status.STOPPED,
+    happened.StopPressed: Status.WITHDRAWN,
     happened.ApplicationClosed: Status.INTERRUPTED,
 }

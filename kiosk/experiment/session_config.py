@@ -35,8 +35,16 @@ def kind_of(settings: Settings) -> SessionKind:
 
 
 @dataclass(frozen=True)
+class Translation:
+    """What a session says and shows in one language; the questionnaires hold all of theirs."""
+
+    catalogue: Catalogue
+    information: Information
+
+
+@dataclass(frozen=True)
 class SessionConfig:
-    """Everything that a session follows, except chance and what happens in it; its words are in one language."""
+    """Everything that a session follows, except chance and what happens in it; it begins in one language."""
 
     settings: Settings
     condition: Condition
@@ -47,6 +55,18 @@ class SessionConfig:
     questionnaires: tuple[Questionnaire, ...]
     deck: tuple[str, ...]
     practice_deck: tuple[str, ...]
+    translations: tuple[Translation, ...] = ()
+    """All languages that the visitor can go on in; none but its own if this is empty."""
+
+    def translation(self, language: str) -> Translation | None:
+        """What it says in another of its languages; None if it has no such language."""
+        own = Translation(self.catalogue, self.information)
+        return next((each for each in (own, *self.translations) if each.catalogue.language == language), None)
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """The languages that the visitor can go on in, in the study's order."""
+        return tuple(each.catalogue.language for each in self.translations) or (self.language,)
 
     @property
     def language(self) -> str:
@@ -106,4 +126,5 @@ class StudyConfig:
     def plan(self, language: str, condition: Condition | None = None) -> SessionConfig:
         """The plan of one of its languages, in the study file's condition or another one."""
         plan = self.plans[self.languages.index(language)]
+        plan = replace(plan, translations=tuple(Translation(each.catalogue, each.information) for each in self.plans))
         return plan if condition is None else replace(plan, condition=condition)

@@ -11,6 +11,7 @@ from kiosk.assistance.mentaliser import points_to
 from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment.events import (
     AssistanceDecided,
+    BackPressed,
     BoardDealt,
     BoardUnlocked,
     CardFlipped,
@@ -21,6 +22,7 @@ from kiosk.experiment.events import (
     GameFinished,
     HintGiven,
     HintHighlighted,
+    LanguageSelected,
     PauseEnded,
     PauseRequested,
     PracticeEnd,
@@ -181,7 +183,7 @@ class SpokenSentence:
 
 @dataclass(frozen=True)
 class ItemResponse:
-    """One item of a session; times in ms since its page was shown, without pauses.
+    """One item of a session; times in ms since its page was shown first, without pauses.
 
     ``value`` is None where nothing was answered, or nothing was left of it. ``first_ms`` and ``last_ms`` are the times
     of the first and the last answer, also of one that was taken back; None where there was none. ``changes`` counts
@@ -276,6 +278,18 @@ def with_stages(events: Iterable[_AnyEvent]) -> Iterator[tuple[Stage, _AnyEvent]
         if isinstance(event, StageEntered):
             stage = event.stage
         yield stage, event
+
+
+def language_before_flip(events: Iterable[Event], flip: int) -> str | None:
+    """The language that a visitor had changed to when a flip (from 1) of the game was decided about; else None."""
+    language = None
+    for stage, event in with_stages(events):
+        match event:
+            case LanguageSelected(language=chosen):
+                language = chosen
+            case AssistanceDecided(flip=number) | CardFlipped(number=number) if stage is Stage.GAME and number >= flip:
+                break
+    return language
 
 
 class _Course:
@@ -381,7 +395,9 @@ class _Responses:
         self._by_stage: dict[Stage, dict[tuple[str, str], ItemResponse]] = {}
         self._here: dict[tuple[str, str], ItemResponse] = {}
         self._questionnaire = ""
-        self._shown_ms = 0
+        self._shown_ms: dict[tuple[str, str], int] = {}
+        self._shown_by_stage: dict[Stage, dict[tuple[str, str], int]] = {}
+        self._goes_back = False
 
     @property
     def given(self) -> dict[tuple[str, str], ItemResponse]:
@@ -390,16 +406,24 @@ class _Responses:
     def take(self, event: Event, pauses: Iterable[Interval]) -> None:
         match event:
             case StageEntered(stage=stage):
-                self._here = self._by_stage[stage] = {}
+                # Whoever goes back finds the answers that were given there; a stage that begins anew has none.
+                if not self._goes_back:
+                    self._by_stage[stage], self._shown_by_stage[stage] = {}, {}
+                self._here = self._by_stage.setdefault(stage, {})
+                self._shown_ms = self._shown_by_stage.setdefault(stage, {})
                 self._questionnaire = ""
             case QuestionnairePageShown(questionnaire=questionnaire, items=items, at_ms=at_ms):
-                self._questionnaire, self._shown_ms = questionnaire, at_ms
+                self._questionnaire = questionnaire
+                for item in items:
+                    self._shown_ms.setdefault((questionnaire, item), at_ms)
                 shown = self.shown.setdefault(questionnaire, [])
                 shown += [item for item in items if item not in shown]
             case ResponseGiven(item=item, value=value, at_ms=at_ms):
                 key = (self._questionnaire, item)
-                after_ms = elapsed_ms(self._shown_ms, at_ms, pauses)
+                after_ms = elapsed_ms(self._shown_ms.get(key, at_ms), at_ms, pauses)
                 self._here[key] = self._here.get(key, ItemResponse(*key)).answered(value, after_ms)
+        if not isinstance(event, StageEntered | QuestionnairePageShown):
+            self._goes_back = isinstance(event, BackPressed)
 
 
 class _Speech:

@@ -17,6 +17,7 @@ from kiosk.experiment.events import (
     AbortRequested,
     AgeConfirmed,
     ApplicationClosed,
+    BackPressed,
     CardSelected,
     ConsentDeclined,
     ConsentGiven,
@@ -26,6 +27,7 @@ from kiosk.experiment.events import (
     Event,
     GameFinished,
     IdleTimedOut,
+    LanguageSelected,
     MuteChanged,
     NextParticipantRequested,
     PauseEnded,
@@ -34,15 +36,19 @@ from kiosk.experiment.events import (
     PracticeSkipped,
     PresenceConfirmed,
     QuestionnairesCompleted,
+    RepeatPressed,
     RepeatRequested,
     ResponseGiven,
     RobotDisconnected,
     SessionResumed,
     SessionStarted,
+    SoundSelected,
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
     Stage,
+    StopPressed,
+    TextSizeSelected,
     ThanksTimedOut,
     TimerExpired,
     TypingActivity,
@@ -67,6 +73,8 @@ class Transition(Enum):
     STAY = "stay"
     ON = "on"
     """To the next stage of the study."""
+    BACK = "back"
+    """To the stage before, where that is only pages as well."""
     OVER = "over"
     """To the end of the session."""
 
@@ -80,12 +88,16 @@ _ANYWHERE = (
     PresenceConfirmed,
     UserActivity,
     RepeatRequested,
+    RepeatPressed,
+    LanguageSelected,
+    TextSizeSelected,
+    SoundSelected,
     PauseRequested,
     PauseEnded,
     MuteChanged,
     SessionResumed,
 )
-_LEAVING = (IdleTimedOut, AbortRequested, ApplicationClosed)
+_LEAVING = (IdleTimedOut, AbortRequested, StopPressed, ApplicationClosed)
 
 
 def _underway(own: Mapping[type[Event], Transition]) -> Mapping[type[Event], Transition]:
@@ -96,10 +108,12 @@ def _underway(own: Mapping[type[Event], Transition]) -> Mapping[type[Event], Tra
 
 
 _READ: Mapping[type[Event], Transition] = {ContinuePressed: Transition.ON}
+_BACK: Mapping[type[Event], Transition] = {BackPressed: Transition.BACK}
 _ASK: Mapping[type[Event], Transition] = {
     TypingActivity: Transition.STAY,
     ResponseGiven: Transition.STAY,
     ContinuePressed: Transition.STAY,
+    BackPressed: Transition.STAY,
     QuestionnairesCompleted: Transition.ON,
 }
 
@@ -113,11 +127,12 @@ TABLE: Mapping[Stage, Mapping[type[Event], Transition]] = MappingProxyType(
                 ConsentSubmitted: Transition.STAY,
                 ConsentGiven: Transition.ON,
                 ConsentDeclined: Transition.ON,
+                **_BACK,
             }
         ),
-        Stage.AGE: _underway({AgeConfirmed: Transition.ON}),
+        Stage.AGE: _underway({AgeConfirmed: Transition.ON, **_BACK}),
         Stage.ABOUT_YOU: _underway(_ASK),
-        Stage.INTRODUCTION: _underway(_READ),
+        Stage.INTRODUCTION: _underway({**_READ, **_BACK}),
         Stage.PRACTICE: _underway(
             {CardSelected: Transition.STAY, PracticeSkipped: Transition.STAY, PracticeFinished: Transition.ON}
         ),
@@ -126,7 +141,12 @@ TABLE: Mapping[Stage, Mapping[type[Event], Transition]] = MappingProxyType(
         Stage.QUESTIONS: _underway(_ASK),
         Stage.DEBRIEF: _underway(_READ),
         Stage.THANKS: _underway(
-            {ContinuePressed: Transition.ON, NextParticipantRequested: Transition.ON, ThanksTimedOut: Transition.ON}
+            {
+                ContinuePressed: Transition.ON,
+                NextParticipantRequested: Transition.ON,
+                ThanksTimedOut: Transition.ON,
+                **_BACK,
+            }
         ),
         # Only a session that was cut off with the program may go on; Session sees to that.
         Stage.OVER: MappingProxyType({SessionResumed: Transition.STAY}),
@@ -138,6 +158,13 @@ BEFORE_DECIDING = frozenset({Stage.ABOUT, Stage.CONSENT, Stage.AGE})
 
 _ONLY_WHEN_KEPT = frozenset({Stage.CONSENT, Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF})
 """Stages that would ask, or tell, somebody about a record that there is not."""
+
+_WAY_BACK = (
+    frozenset({Stage.ABOUT, Stage.AGE, Stage.CONSENT}),
+    frozenset({Stage.ABOUT_YOU, Stage.INTRODUCTION}),
+    frozenset({Stage.DEBRIEF, Stage.THANKS}),
+)
+"""A visitor can go back within each of these; never across the consent that was given, a game, or the debriefing."""
 
 _BEFORE: Mapping[Stage, tuple[Stage, ...]] = {
     Stage.CONSENT: (Stage.ABOUT_YOU, Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS),
@@ -180,6 +207,12 @@ class StageOrder:
         ahead = self.stages[0 if stage is Stage.ATTRACT else self.stages.index(stage) + 1 :]
         return next((coming for coming in ahead if kept or coming not in _ONLY_WHEN_KEPT), Stage.OVER)
 
+    def before(self, stage: Stage, *, kept: bool) -> Stage | None:
+        """The stage that a visitor can go back to from this one; None if there is none."""
+        behind = self.stages[: self.stages.index(stage)] if stage in self.stages else ()
+        last = next((gone for gone in reversed(behind) if kept or gone not in _ONLY_WHEN_KEPT), None)
+        return last if last and any({last, stage} <= pages for pages in _WAY_BACK) else None
+
 
 def check_expected(stage: Stage, event: WorldEvent) -> None:
     """Raise UnexpectedEvent if the stage has no place for this event."""
@@ -200,7 +233,7 @@ def diagram() -> str:
         for stage, row in TABLE.items()
         for kind, step in row.items()
         if kind not in (*_ANYWHERE, *_LEAVING)
-        for coming in (_coming(course, stage, kind) if step is Transition.ON else (stage,))
+        for coming in _leads_to(course, stage, kind, step)
     ]
     left_out = ", ".join(stage.value for stage in course.stages if stage in _ONLY_WHEN_KEPT)
     notes = (
@@ -216,6 +249,14 @@ def diagram() -> str:
 
 _KEPT_AFTER: Mapping[type[Event], tuple[bool, ...]] = {ConsentDeclined: (False,), AgeConfirmed: (True, False)}
 """Whether a session can still be kept after what may decide against it."""
+
+
+def _leads_to(course: StageOrder, stage: Stage, kind: type[Event], step: Transition) -> tuple[Stage, ...]:
+    """The stages that this kind of event may lead to from here; none where there is no way back."""
+    if step is Transition.BACK:
+        before = course.before(stage, kept=True)
+        return () if before is None else (before,)
+    return _coming(course, stage, kind) if step is Transition.ON else (stage,)
 
 
 def _coming(course: StageOrder, stage: Stage, kind: type[Event]) -> tuple[Stage, ...]:

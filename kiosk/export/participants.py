@@ -553,6 +553,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
                 completed="by going through all its stages",
                 abandoned="the visitor left",
                 stopped="the experimenter ended it",
+                withdrawn="the visitor stopped it with the button on the screen",
                 interrupted="the program was closed or cut off",
             ),
         ),

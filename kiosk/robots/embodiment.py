@@ -626,6 +626,7 @@ class EmbodimentSelector:
         self._robot: AsyncRobotAdapter | None = None
         self._current: Embodiment | None = None
         self._mouth: MutableSpeech | None = None
+        self._muted = self._muted_by_visitor = False
         self._prefers_avatar = False
         self._in_session = False
         self._unsettled = False
@@ -640,8 +641,13 @@ class EmbodimentSelector:
 
     @property
     def is_muted(self) -> bool:
-        """Whether no sentence is heard."""
-        return self._mouth is not None and self._mouth.muted
+        """Whether the experimenter lets no sentence be heard."""
+        return self._muted
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether no sentence is heard, because the experimenter or the visitor wants it so."""
+        return self._muted or self._muted_by_visitor
 
     @property
     def prefers_avatar(self) -> bool:
@@ -687,25 +693,43 @@ class EmbodimentSelector:
 
     def mute(self) -> None:
         """Let no sentence be heard; one that is being said breaks off."""
-        if self._mouth is not None:
-            self._mouth.mute()
+        self._muted = True
+        self._apply_mute()
 
     def unmute(self) -> None:
-        """Let sentences be heard again."""
-        if self._mouth is not None:
+        """Let sentences be heard again, unless the visitor wants silence."""
+        self._muted = False
+        self._apply_mute()
+
+    def set_sound(self, *, on: bool) -> None:
+        """Let the visitor hear sentences or not; it holds to the end of the session."""
+        self._muted_by_visitor = not on
+        self._apply_mute()
+
+    def set_language(self, language: str) -> None:
+        """Speak this language from the next sentence on."""
+        for body in (self._avatar, self._robot):
+            if body is not None:
+                body.set_language(language)
+
+    def _apply_mute(self) -> None:
+        if self._mouth is None or self._mouth.muted is self.is_silent:
+            return
+        if self.is_silent:
+            self._mouth.mute()
+        else:
             self._mouth.unmute()
 
     def begin_session(self, language: str) -> None:
         """A session begins in this language: the body stays as it is, unless the robot is lost."""
         self._in_session = True
-        for body in (self._avatar, self._robot):
-            if body is not None:
-                body.set_language(language)
+        self.set_language(language)
 
     def end_session(self) -> None:
         """No session is under way: nothing of the last one is kept, and the robot may be taken back."""
         kept = self._in_session and self._robot is not None and self._current is self._robot
         self._in_session = False
+        self.set_sound(on=True)
         if kept:
             self._pause = self._settings.backoff_initial_ms
         if self._current is not None:
@@ -776,6 +800,7 @@ class EmbodimentSelector:
         """One mouth for whoever helps: whether it is shut outlasts a change of body."""
         if self._mouth is None:
             self._mouth = MutableSpeech(body, self._listener)
+            self._apply_mute()
         self._mouth.embodiment = body
 
     def _wait_for_robot(self, ms: int) -> None:

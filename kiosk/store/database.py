@@ -91,7 +91,8 @@ _TABLES = (
             CHECK (allotted IN ('list', 'override', 'beyond') AND (allotted IS 'list') = (place IS NOT NULL)),
         information_source TEXT REFERENCES source (sha256),
         about_you_source TEXT REFERENCES source (sha256),
-        practice_deck TEXT
+        practice_deck TEXT,
+        translations TEXT NOT NULL DEFAULT '{}' CHECK (json_valid(translations))
     ) STRICT
     """,
     # at_ms counts from the start of the session; wall_ms is the time of day at which it was written, ms since 1970.

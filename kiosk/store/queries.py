@@ -20,6 +20,7 @@ from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import (
     Event,
+    LanguageSelected,
     SessionEnded,
     Stage,
     Status,
@@ -30,8 +31,8 @@ from kiosk.experiment.projections import Measures, measure_game
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.replay import DecisionContext, agrees_with_record
-from kiosk.experiment.session_config import SessionConfig, SessionKind
-from kiosk.experiment.session_state import SessionState
+from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
+from kiosk.experiment.session_state import SessionState, language_before_flip
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_of
 
@@ -136,9 +137,24 @@ class SessionRepository:
                 questionnaires=QUESTIONNAIRES.validate_json(self.source(row["questionnaire_source"])),
                 deck=tuple(json.loads(row["deck"])),
                 practice_deck=tuple(json.loads(row["practice_deck"])),
+                translations=self._translations(row) if self._changed_language(number) else (),
             )
         except ValueError as error:
             raise UserInputError(f"what session {number} followed cannot be read: {error}") from error
+
+    def _changed_language(self, number: int) -> bool:
+        where = "session = ? AND type = ?"
+        return self._database["event"].count_where(where, [number, LanguageSelected.__name__]) > 0
+
+    def _translations(self, row: dict[str, Any]) -> tuple[Translation, ...]:
+        """All languages that the visitor could go on in."""
+        return tuple(
+            Translation(
+                Catalogue(Path(language), json.loads(self.source(kept["sentences"]))),
+                Information.model_validate_json(self.source(kept["information"])),
+            )
+            for language, kept in json.loads(row["translations"]).items()
+        )
 
     def seed(self, number: int) -> int:
         """The seed of a session, from which all its chance came."""
@@ -207,10 +223,13 @@ def explain_stored_decision(archive: SessionRepository, number: int, flip: int) 
 
     Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
     """
-    game = SessionState.from_events(archive.events(number)).game
+    events = archive.events(number)
+    game = SessionState.from_events(events).game
     if game is None:
         raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")
     plan = archive.plan(number)
+    spoken = plan.translation(language_before_flip(events, flip) or plan.language)
+    plan = plan if spoken is None else replace(plan, catalogue=spoken.catalogue)
     helped = plan.condition is not Condition.NO_ASSISTANCE
     if flip not in game.decisions and (helped or flip > len(game.flips)):
         raise UserInputError(f"session {number} has {len(game.flips)} flips; nothing was decided about a flip {flip}")

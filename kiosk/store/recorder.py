@@ -20,7 +20,7 @@ from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.store.connecting import failure, primary_code, reason
 from kiosk.store.database import BUSY, lock_folder, open_for_writing
 from kiosk.store.participants import (
@@ -31,7 +31,7 @@ from kiosk.store.participants import (
     enrol,
     participant_of,
 )
-from kiosk.store.withdrawal import finish_cut_off, is_unfinished
+from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished
 
 
 def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | None]) -> int:
@@ -248,6 +248,17 @@ class Recorder:
             self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
         self._next_seq += len(events)
 
+    def append_and_withdraw(self, events: Sequence[Event], code: str) -> None:
+        """Write a session's last events and delete its rows, in one transaction; a tombstone stays.
+
+        What is left of it in free pages and backups goes when the kiosk is opened next.
+        """
+        with self._transaction():
+            self._connection.execute("PRAGMA secure_delete = ON")
+            self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
+            bury(self._connection, self._session, code)
+        self._next_seq += len(events)
+
     # Outside sessions
 
     def count_visit(self, why: NotRecordedReason, *, simulated: bool | SessionKind) -> None:
@@ -337,6 +348,14 @@ class Recorder:
             "about_you_source": self._keep_source(plan.about_you.model_dump_json()),
             "information_source": self._keep_source(plan.information.model_dump_json()),
             "sentences_source": self._keep_source(json.dumps(plan.catalogue.sources, ensure_ascii=False)),
+            "translations": json.dumps({each.catalogue.language: self._keep(each) for each in plan.translations}),
+        }
+
+    def _keep(self, translation: Translation) -> dict[str, str]:
+        """Keep what can be said in a language that the visitor may go on in; returns the hashes."""
+        return {
+            "sentences": self._keep_source(json.dumps(translation.catalogue.sources, ensure_ascii=False)),
+            "information": self._keep_source(translation.information.model_dump_json()),
         }
 
     def _allotment(self, provenance: Provenance) -> dict[str, str | int | None]:

@@ -171,6 +171,7 @@ _FOLLOWED = (
     "sentences_source",
     "information_source",
     "about_you_source",
+    "translations",
 )
 """The columns that tell what a session followed."""
 

@@ -75,7 +75,7 @@ def withdraw(folder: Path, code: str) -> Withdrawal:
             _keep_to_oneself(connection)
             if not found.cut_off:
                 with _alone(connection, folder):
-                    _bury(connection, found.session, code)
+                    bury(connection, found.session, code)
             _clean(connection, folder)
         _replace_backups(folder)
         _forget(folder)
@@ -152,7 +152,8 @@ def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
             connection.execute("ROLLBACK")
 
 
-def _bury(connection: sqlite3.Connection, session: int, code: str) -> None:
+def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
+    """Replace the rows of a session by a tombstone; the caller has a transaction open."""
     connection.execute(
         """
         INSERT INTO tombstone

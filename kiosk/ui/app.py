@@ -190,7 +190,7 @@ class App:
         return self.voice.spoken_by if body is not None and body.name is EmbodimentName.AVATAR else {}
 
     def _play(self, effect: SoundEffect) -> None:
-        if not self.embodiments.is_muted:
+        if not self.embodiments.is_silent:
             self.voice.play(effect.file)
 
     def _take_robot(self, device: RobotDriver | None, settings: Settings) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTextBoundaryFinder
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTextBoundaryFinder
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 
@@ -79,6 +79,10 @@ class HeldKeys(QObject):
 
 
 _HAND = frozenset({QEvent.Type.MouseButtonPress, QEvent.Type.TouchBegin, QEvent.Type.TouchUpdate, QEvent.Type.Wheel})
+POINTED_PX = 80
+"""How far a pointer has to be moved to show that somebody is there; a mouse on a table that is bumped moves less."""
+POINTED_MS = 1_000
+"""A pointer that rests for so long begins to be moved anew."""
 _MODIFIERS = frozenset(
     {
         Qt.Key.Key_Control,
@@ -101,6 +105,8 @@ class Activity(QObject):
         self._kiosk = kiosk
         self._clock = clock
         self._last_ms: int | None = None
+        self._pointed: tuple[QPointF, float, int] | None = None
+        """Where the pointer was last, how far it has come in one go, and when."""
         window.installEventFilter(self)
 
     def last_ms(self) -> int | None:
@@ -111,6 +117,8 @@ class Activity(QObject):
         """Notice what a visitor does; return whether it was taken as an answer."""
         key = _is_key(event)
         if not key and event.type() not in _HAND and not _drags(event):
+            if self._points(event) and not self._kiosk.covered:
+                self._last_ms = self._clock.now_ms()
             return False
         if self._kiosk.waits_for_answer and self._kiosk.takes_input:
             self._kiosk.confirm()
@@ -119,6 +127,16 @@ class Activity(QObject):
         if not self._kiosk.covered:
             self._last_ms = self._clock.now_ms()
         return False
+
+    def _points(self, event: QEvent) -> bool:
+        """Whether the pointer has been moved far enough; where it is put by a table that moves, it has not."""
+        if event.type() != QEvent.Type.MouseMove or not isinstance(event, QMouseEvent):
+            return False
+        place, now_ms = event.globalPosition(), self._clock.now_ms()
+        before, way, last_ms = self._pointed or (place, 0.0, now_ms)
+        way = (place - before).manhattanLength() + (way if now_ms - last_ms < POINTED_MS else 0.0)
+        self._pointed = (place, way, now_ms)
+        return way >= POINTED_PX
 
 
 def _is_key(event: QEvent) -> bool:

@@ -71,12 +71,15 @@ class Renderer:
         self._input_guard: TimerWait | None = None
         self._calming: TimerWait | None = None
         self._is_rated = False
+        self._plan: SessionConfig | None = None
         screens.kiosk.screen_changed.connect(self._start_input_guard)
         screens.kiosk.screen_changed.connect(self._mind_screen)
 
     def begin(self, plan: SessionConfig) -> None:
         """A session begins: everything speaks its language, and tells its contact."""
+        self._plan = plan
         self.screens.set_language(plan.catalogue)
+        self.screens.kiosk.begin(plan.languages, plan.language, plan.settings.consent)
         self.screens.debrief.give_contact(plan.settings.consent.contact)
         self._is_rated = False
         if self.embodiments is not None:
@@ -179,6 +182,16 @@ class Renderer:
                     screens.kiosk.ask_still_there(asks=True)
                 case do.HideStillThere():
                     screens.kiosk.ask_still_there(asks=False)
+                case do.OfferBack(offered=offered):
+                    screens.kiosk.offer_back(offered=offered)
+                case do.SetLanguage(language=language):
+                    self._set_language(language)
+                case do.SetTextSize(size=size):
+                    screens.kiosk.set_text_size(size)
+                case do.SetSound(on=on):
+                    screens.kiosk.set_sound(on=on)
+                    if self.embodiments is not None:
+                        self.embodiments.set_sound(on=on)
                 case do.StartTimer(timer=timer, after_ms=after_ms):
                     self._stop_wait(timer)
                     # The wait may stay here when it is over: to cancel it then changes nothing.
@@ -222,6 +235,13 @@ class Renderer:
     def _mind_screen(self) -> None:
         if self.screens.kiosk.shown != "form":
             self._let_be_rated(rated=False)
+
+    def _set_language(self, language: str) -> None:
+        translation = None if self._plan is None else self._plan.translation(language)
+        if translation is not None:
+            self.screens.set_language(translation.catalogue)
+            if self.embodiments is not None:
+                self.embodiments.set_language(language)
 
     def _start_input_guard(self) -> None:
         """Take no input for a moment: the second half of a double click belongs to what was shown before."""

@@ -153,10 +153,20 @@ class SessionRecording:
                 self._recorder.count_visit(why, simulated=self._provenance.simulated)
                 self._keeping = RecordingState.FORGOTTEN
                 self._held.clear()
+            case None if self._keeping is RecordingState.KEPT and self._is_deleted_by(outcome):
+                self._recorder.append_and_withdraw(events, self.code)
+                self._keeping = RecordingState.FORGOTTEN
             case None if self._keeping is RecordingState.KEPT:
                 self._recorder.append(events)
             case None if self._keeping is RecordingState.UNDECIDED:
                 self._held += events
+
+    def _is_deleted_by(self, outcome: Outcome) -> bool:
+        """Whether the visitor has stopped, and the study deletes what it has of those who do."""
+        if self._provenance.plan.settings.consent.on_withdrawal == "keep":
+            return False
+        ends = (event.status for event in outcome.events if isinstance(event, happened.SessionEnded))
+        return any(status is happened.Status.WITHDRAWN for status in ends)
 
     def _keep(self, events: list[Event]) -> None:
         self.code = self._recorder.begin(self._provenance, events).code
@@ -471,6 +481,7 @@ class SessionRunner:
         if _timers(outcome).get(Timer.IDLE):
             self._idle_since = self._clock.now_ms()
         self._renderer.screens.debrief.give_code(code)
+        self._renderer.screens.kiosk.give_code(code)
 
     def _after_effects(self, handled: _Handled, stage: Stage) -> None:
         event, outcome = handled.event, handled.outcome

@@ -11,6 +11,12 @@ EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
     for event in (
         happened.SessionStarted(at_ms=9),
         happened.ContinuePressed(at_ms=9),
+        happened.BackPressed(at_ms=9),
+        happened.StopPressed(at_ms=9),
+        happened.RepeatPressed(at_ms=9),
+        happened.LanguageSelected(at_ms=9, language="it"),
+        happened.TextSizeSelected(at_ms=9, size=happened.TextSize.LARGE),
+        happened.SoundSelected(at_ms=9, on=False),
         happened.ConsentPurposeToggled(at_ms=9, purpose="share", ticked=True),
         happened.ConsentSubmitted(at_ms=9),
         happened.ConsentDeclined(at_ms=9),

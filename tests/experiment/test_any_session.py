@@ -40,6 +40,11 @@ ANYTHING = st.one_of(
         happened.ConsentPurposeToggled, at_ms=TIMES, purpose=st.sampled_from([*PURPOSES, ""]), ticked=st.booleans()
     ),
     st.builds(happened.ConsentSubmitted, at_ms=TIMES),
+    st.builds(happened.BackPressed, at_ms=TIMES),
+    st.builds(happened.RepeatPressed, at_ms=TIMES),
+    st.builds(happened.LanguageSelected, at_ms=TIMES, language=st.sampled_from(["en", "it", "xx"])),
+    st.builds(happened.TextSizeSelected, at_ms=TIMES, size=st.sampled_from(happened.TextSize)),
+    st.builds(happened.SoundSelected, at_ms=TIMES, on=st.booleans()),
     st.builds(happened.PracticeSkipped, at_ms=TIMES),
     st.builds(happened.CardSelected, at_ms=TIMES, position=st.builds(Position, st.integers(), st.integers())),
     st.builds(happened.CardSelected, at_ms=TIMES, position=st.builds(Position, st.integers(-1, 3), st.integers(-1, 3))),

@@ -67,6 +67,12 @@ def test_a_tap_shows_that_somebody_is_there_and_a_clock_does_not() -> None:
     assert {kind.__name__ for kind in kinds(WorldEvent) if kind.by_visitor} == {
         "SessionStarted",
         "ContinuePressed",
+        "BackPressed",
+        "StopPressed",
+        "RepeatPressed",
+        "LanguageSelected",
+        "TextSizeSelected",
+        "SoundSelected",
         "ConsentPurposeToggled",
         "ConsentSubmitted",
         "ConsentDeclined",

@@ -31,6 +31,7 @@ UNDERWAY = list(Stage)[1:-1]
 ANYWHERE = {
     *("TimerExpired", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotDisconnected"),
     *("UserActivity", "PauseRequested", "MuteChanged", "AbortRequested", "ApplicationClosed"),
+    *("StopPressed", "LanguageSelected", "TextSizeSelected", "SoundSelected"),
 }
 KEPT = {"SessionResumed"}
 """What needs a record that can be gone on with; a game is never gone on with."""
@@ -38,16 +39,16 @@ KEPT = {"SessionResumed"}
 EXPECTED = {
     Stage.ATTRACT: {"SessionStarted"},
     Stage.ABOUT: {"ContinuePressed"} | ANYWHERE,
-    Stage.CONSENT: {"ConsentPurposeToggled", "ConsentSubmitted", "ConsentDeclined"} | ANYWHERE,
-    Stage.AGE: {"AgeConfirmed"} | ANYWHERE,
+    Stage.CONSENT: {"ConsentPurposeToggled", "ConsentSubmitted", "ConsentDeclined", "BackPressed"} | ANYWHERE,
+    Stage.AGE: {"AgeConfirmed", "BackPressed"} | ANYWHERE,
     Stage.ABOUT_YOU: {"ContinuePressed", "TypingActivity"} | ANYWHERE | KEPT,
-    Stage.INTRODUCTION: {"ContinuePressed"} | ANYWHERE | KEPT,
+    Stage.INTRODUCTION: {"ContinuePressed", "BackPressed"} | ANYWHERE | KEPT,
     Stage.PRACTICE: {"CardSelected", "PracticeSkipped"} | ANYWHERE | KEPT,
     Stage.GAME: {"CardSelected"} | ANYWHERE,
     Stage.RESULT: {"ContinuePressed"} | ANYWHERE | KEPT,
     Stage.QUESTIONS: {"ContinuePressed", "ResponseGiven", "TypingActivity"} | ANYWHERE | KEPT,
     Stage.DEBRIEF: {"ContinuePressed"} | ANYWHERE | KEPT,
-    Stage.THANKS: {"ContinuePressed", "NextParticipantRequested"} | ANYWHERE | KEPT,
+    Stage.THANKS: {"ContinuePressed", "NextParticipantRequested", "BackPressed"} | ANYWHERE | KEPT,
     Stage.OVER: set[str](),
 }
 """What each stage takes as it begins: nobody was asked whether they are still there, and nothing is paused."""
@@ -144,7 +145,9 @@ def test_no_stage_is_left_but_by_the_table() -> None:
         ("thanks", "NextParticipantRequested", Transition.ON),
         ("thanks", "ThanksTimedOut", Transition.ON),
         *((stage.value, "IdleTimedOut", Transition.OVER) for stage in UNDERWAY),
+        *((stage, "BackPressed", Transition.BACK) for stage in ("age", "consent", "introduction", "thanks")),
         *((stage.value, "AbortRequested", Transition.OVER) for stage in UNDERWAY),
+        *((stage.value, "StopPressed", Transition.OVER) for stage in UNDERWAY),
         *((stage.value, "ApplicationClosed", Transition.OVER) for stage in UNDERWAY),
     }
 

@@ -14,6 +14,7 @@ from kiosk.experiment.events import (
     SpeechFailed,
     SpeechFinished,
     Status,
+    TextSize,
     WorldEvent,
 )
 from kiosk.experiment.items import Answer
@@ -45,6 +46,10 @@ class View:
     answers: dict[str, Answer] = field(default_factory=dict)
     still_there: bool = False
     paused: bool = False
+    goes_back: bool = False
+    language: str = ""
+    text_size: TextSize = TextSize.NORMAL
+    sound: bool = True
     kept: list[RecordingDecision] = field(default_factory=list)
     ended: Status | None = None
 
@@ -156,6 +161,14 @@ class View:
                 self.paused = True
             case do.HidePause():
                 self.paused = False
+            case do.OfferBack(offered=offered):
+                self.goes_back = offered
+            case do.SetLanguage(language=language):
+                self.language = language
+            case do.SetTextSize(size=size):
+                self.text_size = size
+            case do.SetSound(on=on):
+                self.sound = on
             case _:
                 return False
         return True

@@ -173,7 +173,7 @@ def test_a_session_s_row_says_what_it_followed(folder: Path, provenance: Provena
 def test_sessions_are_numbered_and_share_what_they_followed(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         assert [recorder.begin(provenance, [START]).session for _ in range(3)] == [1, 2, 3]
-    assert rows(folder, "SELECT count(*) FROM source") == [(6,)]
+    assert rows(folder, "SELECT count(*) FROM source") == [(8,)]
     assert rows(folder, "SELECT session, seq FROM event WHERE type = 'SessionStarted'") == [(1, 1), (2, 1), (3, 1)]
 
 

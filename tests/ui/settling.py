@@ -110,7 +110,7 @@ Item {
 
 SOURCES = {
     name: SOURCE % {"name": name, "screen": f"{name.title()}Screen", "view": f"{name.title()}View", "more": more}
-    for name, more in {"form": "kiosk: root.kiosk", "about": "", "consent": "", "debrief": ""}.items()
+    for name, more in dict.fromkeys(("form", "about", "consent", "debrief"), "kiosk: root.kiosk").items()
 }
 
 ITEMS: TypeAdapter[Item] = TypeAdapter(Item)

@@ -100,6 +100,7 @@ console-status-running = under way
 console-status-completed = completed
 console-status-abandoned = abandoned
 console-status-stopped = stopped
+console-status-withdrawn = stopped by the visitor
 console-status-interrupted = interrupted
 console-stage-attract = nobody there
 console-stage-about = about the study

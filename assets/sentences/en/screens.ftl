@@ -100,7 +100,6 @@ result-speech-many =
 form-progress = Page { $number } of { $all }
 form-next = Next
 form-skip = Skip
-form-finish = Finish
 form-missing = Please answer this one first.
 form-refused = This holds a line break or another character that cannot be stored. Please type it again.
 form-range = from { $lowest } to { $highest }
@@ -145,3 +144,19 @@ wait-title = One moment, please
 wait-line = It goes on by itself.
 replay-line = How far it has been played
 replay-differs = differs from the record
+
+## The corner: what a visitor may do on every screen
+
+control-stop = Stop
+control-language = Language
+control-text-size = Text size
+control-sound-on = Turn the sound on
+control-sound-off = Turn the sound off
+control-say-again = Say it again
+control-back = Back
+stop-title = Do you want to stop?
+stop-line-nothing = Nothing about you is stored.
+stop-line-kept = What was recorded so far is kept, marked as unfinished. With the code { $code } you can have it deleted.
+stop-line-deleted = What was recorded so far is deleted.
+stop-yes = Stop now
+stop-no = Go on

@@ -100,6 +100,7 @@ console-status-running = en curso
 console-status-completed = completada
 console-status-abandoned = abandonada
 console-status-stopped = detenida
+console-status-withdrawn = detenida por el visitante
 console-status-interrupted = interrumpida
 console-stage-attract = nadie
 console-stage-about = sobre el estudio

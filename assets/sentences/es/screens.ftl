@@ -101,7 +101,6 @@ result-speech-many =
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
 form-skip = Saltar
-form-finish = Terminar
 form-missing = Responde primero a esta pregunta, por favor.
 form-refused = Contiene un salto de línea u otro carácter que no se puede guardar. Escríbelo de nuevo, por favor.
 form-range = de { $lowest } a { $highest }
@@ -146,3 +145,19 @@ wait-title = Un momento, por favor
 wait-line = Continúa por sí solo.
 replay-line = Hasta dónde se ha reproducido
 replay-differs = distinto de lo registrado
+
+## La esquina: lo que se puede hacer en cualquier pantalla
+
+control-stop = Parar
+control-language = Idioma
+control-text-size = Tamaño del texto
+control-sound-on = Activar el sonido
+control-sound-off = Quitar el sonido
+control-say-again = Repetir
+control-back = Atrás
+stop-title = ¿Quieres parar?
+stop-line-nothing = No se guarda nada sobre ti.
+stop-line-kept = Lo registrado hasta ahora se conserva, marcado como incompleto. Con el código { $code } puedes pedir que se borre.
+stop-line-deleted = Lo registrado hasta ahora se borra.
+stop-yes = Parar ahora
+stop-no = Seguir

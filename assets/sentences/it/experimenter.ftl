@@ -100,6 +100,7 @@ console-status-running = in corso
 console-status-completed = completata
 console-status-abandoned = abbandonata
 console-status-stopped = fermata
+console-status-withdrawn = interrotta dal visitatore
 console-status-interrupted = interrotta
 console-stage-attract = nessuno
 console-stage-about = sullo studio

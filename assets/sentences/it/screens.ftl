@@ -105,7 +105,6 @@ result-speech-many =
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
 form-skip = Salta
-form-finish = Fine
 form-missing = Rispondi prima a questa domanda, per favore.
 form-refused = Contiene un a capo o un altro carattere che non si può salvare. Scrivilo di nuovo, per favore.
 form-range = da { $lowest } a { $highest }
@@ -150,3 +149,19 @@ wait-title = Un momento, per favore
 wait-line = Continua da solo.
 replay-line = Fin dove è arrivata la riproduzione
 replay-differs = diverso dalla registrazione
+
+## L'angolo: ciò che chi gioca può fare su ogni schermata
+
+control-stop = Smetti
+control-language = Lingua
+control-text-size = Dimensione del testo
+control-sound-on = Attiva l'audio
+control-sound-off = Disattiva l'audio
+control-say-again = Ripeti
+control-back = Indietro
+stop-title = Vuoi smettere?
+stop-line-nothing = Non viene conservato nulla su di te.
+stop-line-kept = Quanto registrato finora resta conservato, segnato come incompleto. Con il codice { $code } puoi farlo cancellare.
+stop-line-deleted = Quanto registrato finora viene cancellato.
+stop-yes = Smetti ora
+stop-no = Continua

@@ -8,6 +8,7 @@ FocusScope {
     id: view
 
     required property AboutScreen about
+    required property KioskScreen kiosk
     required property var words
 
     // Whatever the last visitor's keyboard was at, the next one's is at the button.
@@ -39,13 +40,14 @@ FocusScope {
                 size: Theme.body
             }
         }
-        BigButton {
+        WayOn {
             id: go
-            objectName: "continue"
-            most: parent.width
-            words: view.words["about-continue"]
+            width: parent.width
+            kiosk: view.kiosk
+            words: view.words
+            label: view.words["about-continue"]
             focus: true
-            onClicked: view.about.proceed()
+            onWent: view.about.proceed()
         }
     }
 }

@@ -8,6 +8,7 @@ FocusScope {
     id: view
 
     required property AgeScreen age
+    required property KioskScreen kiosk
     required property var words
 
     onVisibleChanged: yes.focus = true
@@ -55,6 +56,12 @@ FocusScope {
                 font.pixelSize: Theme.heading
                 onClicked: view.age.answer(false)
             }
+        }
+        WayOn {
+            width: Math.min(900 * Theme.unit, view.width - 4 * Theme.gap)
+            anchors.horizontalCenter: parent.horizontalCenter
+            kiosk: view.kiosk
+            words: view.words
         }
     }
 }

@@ -1,4 +1,5 @@
-// A calm word over everything: a title, a line, and perhaps one button.
+// A calm word over everything: a title, a line, and perhaps something to choose.
+pragma ComponentBehavior: Bound
 import QtQuick
 import "."
 
@@ -6,9 +7,12 @@ FocusScope {
     id: calm
 
     required property string title
-    required property string line
-    property string button: ""
-    signal confirmed()
+    property string line: ""
+    // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
+    property var choices: []
+    signal chosen(string name)
+
+    onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
 
     // Whatever lies below cannot be reached, and steps back.
     Rectangle {
@@ -42,20 +46,37 @@ FocusScope {
             }
             PlainText {
                 width: parent.width
+                visible: text !== ""
                 text: calm.line
                 font.pixelSize: Theme.body
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.Wrap
             }
-            BigButton {
-                objectName: "still-here"
-                most: content.width
+            Flow {
+                id: flow
+                readonly property real needed: {
+                    let sum = 0
+                    for (let i = 0; i < buttons.count; i++)
+                        sum += (buttons.itemAt(i) as BigButton)?.width ?? 0
+                    return sum + (buttons.count - 1) * spacing
+                }
                 anchors.horizontalCenter: parent.horizontalCenter
-                visible: calm.button !== ""
-                words: calm.button
-                focus: true
-                onClicked: calm.confirmed()
+                width: Math.min(content.width, Math.ceil(needed))
+                spacing: Theme.gap
+                visible: calm.choices.length > 0
+                Repeater {
+                    id: buttons
+                    model: calm.choices
+                    BigButton {
+                        required property var modelData
+                        objectName: modelData.name
+                        most: content.width
+                        words: modelData.words
+                        quiet: modelData.quiet ?? false
+                        onClicked: calm.chosen(modelData.name)
+                    }
+                }
             }
         }
     }

@@ -8,6 +8,7 @@ FocusScope {
     id: view
 
     required property ConsentScreen consent
+    required property KioskScreen kiosk
     required property var words
 
     onVisibleChanged: home.focus = true
@@ -69,8 +70,10 @@ FocusScope {
         }
         Grid {
             id: answers
+            readonly property real wish: agree.implicitWidth + decline.implicitWidth
+                + (back.visible ? back.implicitWidth + 2 * Theme.gap : 0) + columnSpacing
             // Side by side, or where texts are long, one above the other.
-            columns: agree.implicitWidth + decline.implicitWidth + columnSpacing <= parent.width ? 2 : 1
+            columns: wish <= parent.width ? 3 : 1
             columnSpacing: 1.5 * Theme.gap
             rowSpacing: 0.7 * Theme.gap
             topPadding: 0.5 * Theme.gap
@@ -89,6 +92,16 @@ FocusScope {
                 quiet: true
                 words: view.words["consent-decline"]
                 onClicked: view.consent.decline()
+            }
+            BigButton {
+                id: back
+                objectName: "back"
+                visible: view.kiosk.goesBack
+                most: answers.parent.width
+                quiet: true
+                horizontalPadding: 40 * Theme.unit
+                words: view.words["control-back"]
+                onClicked: view.kiosk.goBack()
             }
         }
     }

@@ -8,6 +8,7 @@ FocusScope {
     id: view
 
     required property DebriefScreen debrief
+    required property KioskScreen kiosk
     required property var words
 
     // Whole pixels for each square, so that their edges are sharp.
@@ -97,13 +98,14 @@ FocusScope {
                 }
             }
         }
-        BigButton {
+        WayOn {
             id: go
-            objectName: "continue"
-            most: parent.width
-            words: view.words["debrief-continue"]
+            width: parent.width
+            kiosk: view.kiosk
+            words: view.words
+            label: view.words["debrief-continue"]
             focus: true
-            onClicked: view.debrief.proceed()
+            onWent: view.debrief.proceed()
         }
     }
 }

@@ -23,7 +23,7 @@ FocusScope {
         anchors { left: parent.left; right: parent.right; top: parent.top; bottom: keyboard.visible ? keyboard.top : parent.bottom }
 
         // To tap beside everything is to have done with typing.
-        TapHandler { onTapped: go.forceActiveFocus() }
+        TapHandler { onTapped: go.button.forceActiveFocus() }
 
         Column {
             id: group
@@ -71,14 +71,14 @@ FocusScope {
                     }
                 }
             }
-            BigButton {
+            WayOn {
                 id: go
-                objectName: "continue"
-                most: group.width
-                anchors.horizontalCenter: parent.horizontalCenter
+                width: parent.width
+                kiosk: view.kiosk
+                words: view.words
                 quiet: view.form.skips
-                words: view.words[quiet ? "form-skip" : view.form.last ? "form-finish" : "form-next"]
-                onClicked: view.form.proceed()
+                label: view.words[quiet ? "form-skip" : "form-next"]
+                onWent: view.form.proceed()
                 onActiveFocusChanged: if (activeFocus) keyboard.field = null
             }
         }
@@ -87,12 +87,12 @@ FocusScope {
         id: keyboard
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
         words: view.words
-        onDone: go.forceActiveFocus(Qt.MouseFocusReason)
+        onDone: go.button.forceActiveFocus(Qt.MouseFocusReason)
     }
     Connections {
         target: view.form
         // A new page begins at its top, for eyes and for the keyboard.
-        function onChanged() {
+        function onTurned() {
             keyboard.field = null
             pane.rewind()
             home.focus = true

@@ -9,6 +9,7 @@ FocusScope {
 
     required property IntroductionScreen introduction
     required property AttractScreen attract
+    required property KioskScreen kiosk
     required property var words
     required property url cardBack
     required property url cardShadow
@@ -68,12 +69,13 @@ FocusScope {
             text: view.words["introduction-help"]
             leftCard: view.attract.pictures[4]
         }
-        BigButton {
-            objectName: "continue"
-            most: view.width - 4 * Theme.gap
-            words: view.words["introduction-continue"]
+        WayOn {
+            width: parent.width
+            kiosk: view.kiosk
+            words: view.words
+            label: view.words["introduction-continue"]
             focus: true
-            onClicked: view.introduction.proceed()
+            onWent: view.introduction.proceed()
         }
     }
 }

@@ -35,7 +35,8 @@ Window {
     // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
     readonly property bool whole: wide && !avatar.present
     readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
-    readonly property real said: whole && speaks ? 176 * Math.max(1, textSize) * Theme.unit : 0
+    readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
+    readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
     readonly property real room: height - (replay === null ? 0 : controls.height)
 
     width: 1920
@@ -52,7 +53,7 @@ Window {
         value: root.wide ? Math.min(root.width / 1920, root.room / 1080)
                          : Math.min(root.width / 1080, root.room / 1920)
     }
-    Binding { target: Theme; property: "textSize"; value: root.textSize }
+    Binding { target: Theme; property: "textSize"; value: root.texts }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
 
@@ -77,6 +78,7 @@ Window {
             visible: root.kiosk.screen === "about"
             focus: visible && root.kiosk.bare
             about: root.about
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
         ConsentView {
@@ -84,6 +86,7 @@ Window {
             visible: root.kiosk.screen === "consent"
             focus: visible && root.kiosk.bare
             consent: root.consent
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
         AgeView {
@@ -91,6 +94,7 @@ Window {
             visible: root.kiosk.screen === "age"
             focus: visible && root.kiosk.bare
             age: root.age
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
         FormView {
@@ -106,6 +110,7 @@ Window {
             visible: root.kiosk.screen === "introduction"
             focus: visible && root.kiosk.bare
             introduction: root.introduction
+            kiosk: root.kiosk
             attract: root.attract
             words: root.kiosk.words
             cardBack: root.cardBack
@@ -136,6 +141,7 @@ Window {
             visible: root.kiosk.screen === "debrief"
             focus: visible && root.kiosk.bare
             debrief: root.debrief
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
         ThanksView {
@@ -143,6 +149,7 @@ Window {
             visible: root.kiosk.screen === "thanks"
             focus: visible && root.kiosk.bare
             thanks: root.thanks
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
     }
@@ -155,14 +162,27 @@ Window {
         id: helper
         readonly property bool below: !root.wide || root.whole
         x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
-        y: below ? stage.height : 0
+        readonly property real above: !below && corner.visible ? corner.height + 0.7 * Theme.gap : 0
+        y: below ? stage.height : above
         width: below ? root.width * 0.76 : root.width - stage.width - Theme.gap
-        height: below ? root.room - stage.height : root.room
+        height: below ? root.room - stage.height : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
+    }
+    // Above the assistant; beside a robot and on an upright screen at the bottom, where a sentence leaves room.
+    Corner {
+        id: corner
+        readonly property bool atLeft: root.wide && !root.whole && root.boardOnRight
+        kiosk: root.kiosk
+        words: root.kiosk.words
+        canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
+        places: !root.wide ? 1 : root.whole && root.speaks ? 3 : 5
+        visible: kiosk.inSession && root.replay === null
+        x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
+        y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
     }
     Feast {
         id: feast
@@ -176,8 +196,30 @@ Window {
         enabled: root.kiosk.takesInput
         title: root.kiosk.words["still-there-title"]
         line: root.kiosk.words["still-there-line"]
-        button: root.kiosk.words["still-there-yes"]
-        onConfirmed: root.kiosk.confirm()
+        choices: [{ name: "still-here", words: root.kiosk.words["still-there-yes"] }]
+        onChosen: root.kiosk.confirm()
+    }
+    CalmCard {
+        anchors.fill: parent
+        visible: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
+        focus: visible
+        enabled: root.kiosk.takesInput
+        title: root.kiosk.words["stop-title"]
+        line: root.kiosk.stopLine
+        choices: [{ name: "stop-no", words: root.kiosk.words["stop-no"] }, { name: "stop-yes", words: root.kiosk.words["stop-yes"], quiet: true }]
+        onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
+        Keys.onEscapePressed: root.kiosk.ask("")
+    }
+    CalmCard {
+        anchors.fill: parent
+        visible: root.kiosk.asks === "language" && !root.kiosk.paused && !root.kiosk.waits
+        focus: visible
+        enabled: root.kiosk.takesInput
+        title: root.kiosk.words["control-language"]
+        choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
+            .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
+        onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
+        Keys.onEscapePressed: root.kiosk.ask("")
     }
     CalmCard {
         anchors.fill: parent

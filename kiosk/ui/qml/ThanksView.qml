@@ -8,6 +8,7 @@ FocusScope {
     id: view
 
     required property ThanksScreen thanks
+    required property KioskScreen kiosk
     required property var words
 
     Column {
@@ -31,14 +32,15 @@ FocusScope {
             width: 1
             height: Theme.gap
         }
-        BigButton {
-            objectName: "continue"
-            most: view.width - 4 * Theme.gap
+        WayOn {
             anchors.horizontalCenter: parent.horizontalCenter
+            width: Math.min(900 * Theme.unit, view.width - 4 * Theme.gap)
+            kiosk: view.kiosk
+            words: view.words
             quiet: true
-            words: view.words["thanks-continue"]
+            label: view.words["thanks-continue"]
             focus: true
-            onClicked: view.thanks.proceed()
+            onWent: view.thanks.proceed()
         }
     }
 }

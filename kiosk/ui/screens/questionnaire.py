@@ -56,6 +56,8 @@ class FormScreen(QObject):
     """A page of items."""
 
     changed = Signal()
+    """The items are others, or worded otherwise."""
+    turned = Signal()
     """Another page is shown."""
     marked = Signal()
     """Another answer is chosen, typed or missed; apart from ``changed``, so that the items stay the same items."""
@@ -84,9 +86,15 @@ class FormScreen(QObject):
         self._keystrokes = 0
 
     def set_language(self, catalogue: Catalogue) -> None:
-        """Ask in this language, from the next page on."""
+        """Ask in this language; answers, and what is typed, stay."""
+        if catalogue is self._catalogue:
+            return
         self._catalogue = catalogue
+        typed = dict(self._drafts)
+        self.changed.emit()
         self.marked.emit()
+        for item, text in typed.items():
+            self.filled.emit(item, text)
 
     def show(self, items: tuple[Item, ...], number: int, of: int) -> None:
         """Show a page, ``number`` ``of`` so many; nothing is answered."""
@@ -94,6 +102,7 @@ class FormScreen(QObject):
         self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
         self._keystrokes = 0
         self.changed.emit()
+        self.turned.emit()
         self.marked.emit()
 
     def show_answer(self, item: str, value: Answer | None) -> None:
@@ -139,11 +148,6 @@ class FormScreen(QObject):
         if self._of < 2:  # noqa: PLR2004 - a single page needs no number
             return ""
         return self._catalogue.text("form-progress", number=self._number, all=self._of)
-
-    @Property(bool, notify=changed)
-    def last(self) -> bool:
-        """Whether no further page follows."""
-        return self._number == self._of
 
     @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def answers(self) -> dict[str, Any]:
@@ -244,13 +248,17 @@ class FormScreen(QObject):
     @Slot()
     def proceed(self) -> None:
         """The visitor goes on; what is typed is answered first, and what cannot be an answer has to be mended."""
-        for item in tuple(self._drafts):
-            self.finish(item)
+        self.finish_typing()
         wrong = tuple(item for item in self._drafts if self._is_wrong(item))
         if wrong:
             self.show_missing(wrong)
         else:
             self.continued.emit()
+
+    def finish_typing(self) -> None:
+        """Take what is typed as answered, as far as it can be an answer."""
+        for item in tuple(self._drafts):
+            self.finish(item)
 
     def _answer(self, item: str, value: Answer | None) -> None:
         self._given[item] = value

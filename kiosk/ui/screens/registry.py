@@ -118,6 +118,16 @@ class ScreenSet:
         """Hand on what visitors do: the language of a new one, and an event for everything after that."""
         dispatch, now_ms = to.dispatch, to.now_ms
         self.attract.started.connect(to.start)
+        self.kiosk.stopped.connect(lambda: dispatch(happened.StopPressed(at_ms=now_ms())))
+        self.kiosk.went_back.connect(lambda: self._go_back(to))
+        self.kiosk.asked_again.connect(lambda: dispatch(happened.RepeatPressed(at_ms=now_ms())))
+        self.kiosk.language_selected.connect(
+            lambda language: dispatch(happened.LanguageSelected(at_ms=now_ms(), language=language))
+        )
+        self.kiosk.text_size_selected.connect(
+            lambda size: dispatch(happened.TextSizeSelected(at_ms=now_ms(), size=happened.TextSize(size)))
+        )
+        self.kiosk.sound_selected.connect(lambda on: dispatch(happened.SoundSelected(at_ms=now_ms(), on=on)))
         self.kiosk.confirmed.connect(lambda: dispatch(happened.PresenceConfirmed(at_ms=now_ms())))
         self.consent.ticked.connect(
             lambda purpose, ticked: dispatch(
@@ -135,6 +145,11 @@ class ScreenSet:
         self.board.skipped.connect(lambda: dispatch(happened.PracticeSkipped(at_ms=now_ms())))
         for screen in (self.about, self.form, self.introduction, self.result, self.debrief, self.thanks):
             screen.continued.connect(lambda: dispatch(happened.ContinuePressed(at_ms=now_ms())))
+
+    def _go_back(self, to: InputHandler) -> None:
+        """Go back a page; what is being typed is answered first."""
+        self.form.finish_typing()
+        to.dispatch(happened.BackPressed(at_ms=to.now_ms()))
 
 
 def _pictures(study: StudyConfig, folder_of: Callable[[str], Path]) -> list[str]:

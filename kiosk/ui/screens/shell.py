@@ -8,12 +8,15 @@ from PySide6.QtCore import Property, QObject, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistance.wording import Catalogue
+from kiosk.config import ConsentConfig
+from kiosk.experiment.events import TextSize
 from kiosk.ui.screens.texts import fixed_texts
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _NO_CARD = -1
+_TEXT_SCALES = {TextSize.NORMAL: 1.0, TextSize.LARGE: 1.15, TextSize.LARGEST: 1.3}
 
 
 @QmlElement
@@ -27,6 +30,16 @@ class KioskScreen(QObject):
     """The visitor said that they are still there."""
     screen_changed = Signal()
     """Something else is shown than a moment ago."""
+    controls = Signal()
+    """What the visitor can do in the corner has changed."""
+    stopped = Signal()
+    """The visitor stops, and has confirmed it."""
+    went_back = Signal()
+    asked_again = Signal()
+    """The visitor wants to hear the last sentence again."""
+    language_selected = Signal(str)
+    text_size_selected = Signal(str)
+    sound_selected = Signal(bool)
 
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -36,15 +49,54 @@ class KioskScreen(QObject):
         self._paused = self._behind_panel = self._waits = False
         self._leaving = False
         self._takes_input = True
+        self._catalogue = catalogue
+        self._languages: tuple[str, ...] = ()
+        self._language = catalogue.language
+        self._consent: ConsentConfig | None = None
+        self._code = ""
+        self._text_size = TextSize.NORMAL
+        self._sound = True
+        self._goes_back = False
+        self._asks: str = ""
+
+    def begin(self, languages: Sequence[str], language: str, consent: ConsentConfig) -> None:
+        """A visitor is there, who can go on in one of these languages, or stop."""
+        self._languages, self._language, self._consent = tuple(languages), language, consent
+        self.controls.emit()
+
+    def give_code(self, code: str) -> None:
+        """Keep the code of what is recorded, for a visitor who stops; empty while nothing is."""
+        if code != self._code:
+            self._code = code
+            self.controls.emit()
+
+    def offer_back(self, *, offered: bool) -> None:
+        """Let the visitor go back to the page before, or not."""
+        self._goes_back = offered
+        self.controls.emit()
+
+    def set_text_size(self, size: TextSize) -> None:
+        """Show all texts in this size."""
+        self._text_size = size
+        self.controls.emit()
+
+    def set_sound(self, *, on: bool) -> None:
+        """Show whether the visitor hears voice and sounds."""
+        self._sound = on
+        self.controls.emit()
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Show every fixed text in this language."""
         self._words = fixed_texts(catalogue)
+        self._catalogue, self._language = catalogue, catalogue.language
         self.spoken.emit()
+        self.controls.emit()
 
     def show(self, screen: str) -> None:
         """Show the screen of this name; it takes no input until ``end_input_guard``."""
         self._screen = screen
+        self._asks = ""
+        self.controls.emit()
         self._start_input_guard()
 
     def end_input_guard(self) -> None:
@@ -56,6 +108,8 @@ class KioskScreen(QObject):
         """Ask over whatever is shown, or stop asking."""
         if asks != self._asks_still_there:
             self._asks_still_there = asks
+            self._asks = ""
+            self.controls.emit()
             self._start_input_guard()
 
     def pause(self, *, paused: bool) -> None:
@@ -80,6 +134,9 @@ class KioskScreen(QObject):
         self.ask_still_there(asks=False)
         self.pause(paused=False)
         self.wait(waits=False)
+        self._languages, self._consent, self._code = (), None, ""
+        self._text_size, self._sound, self._goes_back, self._asks = TextSize.NORMAL, True, False, ""
+        self.controls.emit()
 
     @property
     def shown(self) -> str:
@@ -99,7 +156,7 @@ class KioskScreen(QObject):
     @property
     def covered(self) -> bool:
         """Whether a question, a calm word or the experimenter's panel lies over the screen."""
-        return self._asks_still_there or self._paused or self._waits or self._behind_panel
+        return self._asks_still_there or self._paused or self._waits or self._behind_panel or bool(self._asks)
 
     @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def words(self) -> dict[str, str]:
@@ -150,6 +207,98 @@ class KioskScreen(QObject):
     def confirm(self) -> None:
         """The visitor is still there."""
         self.confirmed.emit()
+
+    # The corner
+
+    @Property(bool, notify=controls)
+    def inSession(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether a visitor is there, who can stop."""
+        return self._consent is not None
+
+    @Property(bool, notify=controls)
+    def goesBack(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether there is a page to go back to."""
+        return self._goes_back
+
+    @Property(str, notify=controls)
+    def asks(self) -> str:
+        """What the corner asks over the screen: ``stop``, ``language``, or nothing."""
+        return self._asks
+
+    @Property(float, notify=controls)
+    def textScale(self) -> float:  # noqa: N802 - QML's convention
+        """How many times larger than usual the visitor has the texts."""
+        return _TEXT_SCALES[self._text_size]
+
+    @Property(int, notify=controls)
+    def textStep(self) -> int:  # noqa: N802 - QML's convention
+        """The step of the text size, from 0."""
+        return list(TextSize).index(self._text_size)
+
+    @Property(bool, notify=controls)
+    def sound(self) -> bool:
+        """Whether the visitor hears voice and sounds."""
+        return self._sound
+
+    @Property(str, notify=controls)
+    def language(self) -> str:
+        """The code of the language that is shown."""
+        return self._language
+
+    @Property(list, notify=controls)
+    def languages(self) -> list[str]:
+        """The codes of the languages to choose from; fewer than two are no choice."""
+        return list(self._languages)
+
+    @Property(str, notify=controls)
+    def stopLine(self) -> str:  # noqa: N802 - QML's convention
+        """What becomes of what is recorded if the visitor stops now."""
+        if self._consent is None or not self._code:
+            return self._catalogue.text("stop-line-nothing")
+        if self._consent.on_withdrawal == "delete":
+            return self._catalogue.text("stop-line-deleted")
+        return self._catalogue.text("stop-line-kept", code=self._code)
+
+    @Slot(str)
+    def ask(self, what: str) -> None:
+        """Ask over the screen whether to ``stop``, or for a ``language``; with nothing, ask no longer."""
+        self._asks = what
+        self.controls.emit()
+        self._start_input_guard()
+
+    @Slot()
+    def stop(self) -> None:
+        """The visitor stops, and was asked."""
+        self.ask("")
+        self.stopped.emit()
+
+    @Slot()
+    def goBack(self) -> None:  # noqa: N802 - QML's convention
+        """The visitor goes back to the page before."""
+        self.went_back.emit()
+
+    @Slot()
+    def sayAgain(self) -> None:  # noqa: N802 - QML's convention
+        """The visitor wants to hear the last sentence again."""
+        self.asked_again.emit()
+
+    @Slot(str)
+    def selectLanguage(self, language: str) -> None:  # noqa: N802 - QML's convention
+        """The visitor goes on in this language."""
+        self.ask("")
+        if language != self._language:
+            self.language_selected.emit(language)
+
+    @Slot()
+    def changeTextSize(self) -> None:  # noqa: N802 - QML's convention
+        """The visitor wants the next size of texts; after the largest comes the usual one."""
+        sizes = list(TextSize)
+        self.text_size_selected.emit(sizes[(sizes.index(self._text_size) + 1) % len(sizes)].value)
+
+    @Slot()
+    def changeSound(self) -> None:  # noqa: N802 - QML's convention
+        """The visitor wants silence, or sound again."""
+        self.sound_selected.emit(not self._sound)
 
     def _start_input_guard(self) -> None:
         self._takes_input = False

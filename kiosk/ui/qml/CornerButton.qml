@@ -1,0 +1,48 @@
+// A round button of the corner: a drawing, and a word for those who do not see it.
+import QtQuick
+import QtQuick.Controls.Basic
+import QtQuick.Shapes
+import "."
+
+AbstractButton {
+    id: button
+
+    required property string words
+    // The lines of the drawing, on a square of 24.
+    required property string drawing
+
+    width: 64 * Theme.unit
+    height: width
+    focusPolicy: Qt.StrongFocus
+    scale: down ? 0.92 : 1
+    Accessible.name: words
+    onDoubleClicked: {}
+    Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
+    Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
+
+    contentItem: Item {
+        Shape {
+            anchors.centerIn: parent
+            width: 24
+            height: 24
+            scale: 1.5 * Theme.unit
+            ShapePath {
+                strokeColor: Theme.sea
+                strokeWidth: 2
+                capStyle: ShapePath.RoundCap
+                joinStyle: ShapePath.RoundJoin
+                fillColor: "transparent"
+                PathSvg { path: button.drawing }
+            }
+        }
+    }
+    background: Rectangle {
+        radius: height / 2
+        color: Theme.white
+        border { color: button.hovered ? Theme.sea : Theme.edge; width: (button.hovered ? 3 : 2) * Theme.unit }
+        FocusRing {
+            around: button
+            reach: 6 * Theme.unit
+        }
+    }
+}
