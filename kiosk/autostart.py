@@ -24,7 +24,7 @@ def autostart_check() -> Iterator[CheckResult]:
     """Whether the kiosk is started again when it dies, and comes up with the machine."""
     reasons = [*(("a supervisor runs",) if supervisor_runs() else ()), *(f"{name} is enabled" for name in enabled())]
     if reasons:
-        yield CheckResult.good(WHAT, ", ".join(reasons))
+        yield CheckResult.ok(WHAT, ", ".join(reasons))
     else:
         remedy = "open it with 'recollect run --supervise', or enable the service (packaging/README.md)"
         yield CheckResult.warning(WHAT, "nobody starts the kiosk again if it dies or hangs", remedy)

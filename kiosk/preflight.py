@@ -9,43 +9,43 @@ from typing import Self
 
 
 class Severity(Enum):
-    """How a thing is."""
+    """How serious a result is."""
 
-    GOOD = "good"
+    OK = "ok"
     WARNING = "warning"
     """A session can be held, but not as it should be."""
-    BAD = "bad"
+    ERROR = "error"
     """No session can be held."""
 
 
 @dataclass(frozen=True)
 class CheckResult:
-    """How one thing is; ``remedy`` is what to do, and empty only of what is good."""
+    """What a check found out about one thing; ``remedy`` says what to do, and is empty only where all is well."""
 
-    what: str
-    state: Severity
-    words: str
+    name: str
+    severity: Severity
+    message: str
     remedy: str = ""
 
     @classmethod
-    def good(cls, what: str, words: str) -> Self:
-        """All is well."""
-        return cls(what, Severity.GOOD, words)
+    def ok(cls, name: str, message: str) -> Self:
+        """Report that all is well."""
+        return cls(name, Severity.OK, message)
 
     @classmethod
-    def warning(cls, what: str, words: str, remedy: str) -> Self:
-        """Something is not as it should be."""
-        return cls(what, Severity.WARNING, words, remedy)
+    def warning(cls, name: str, message: str, remedy: str) -> Self:
+        """Report something that is not as it should be, though sessions can be held."""
+        return cls(name, Severity.WARNING, message, remedy)
 
     @classmethod
-    def bad(cls, what: str, words: str, remedy: str) -> Self:
-        """Nobody can sit down until this is mended."""
-        return cls(what, Severity.BAD, words, remedy)
+    def error(cls, name: str, message: str, remedy: str) -> Self:
+        """Report something without which no session can be held."""
+        return cls(name, Severity.ERROR, message, remedy)
 
     @property
-    def well(self) -> bool:
+    def is_ok(self) -> bool:
         """Whether nothing has to be done."""
-        return self.state is Severity.GOOD
+        return self.severity is Severity.OK
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -90,10 +91,18 @@ def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
         yield name, parts[1] if parts[1] != "__init__" else package.name, file
 
 
-def imported(module: str, file: Path) -> Iterator[tuple[int, str]]:
+def imported(module: str, file: Path) -> tuple[tuple[int, str], ...]:
     """Everything that a module imports, anywhere in it and by whatever means that can be read, and in which line."""
-    package = module if file.name == "__init__.py" else module.rpartition(".")[0]
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    return _imports(module if file.name == "__init__.py" else module.rpartition(".")[0], file.read_text("utf-8"))
+
+
+@cache
+def _imports(package: str, text: str) -> tuple[tuple[int, str], ...]:
+    return tuple(_walk(package, ast.parse(text)))
+
+
+def _walk(package: str, tree: ast.Module) -> Iterator[tuple[int, str]]:
+    for node in ast.walk(tree):
         match node:
             case ast.Import(names=names):
                 yield from ((node.lineno, alias.name) for alias in names)

@@ -88,7 +88,7 @@ def machine_check(load: Load) -> Iterator[CheckResult]:
     elif load.waiting > BUSY * load.processors:
         yield CheckResult.warning(MACHINE, words, "end other programs: they take the time that frames and sounds need")
     else:
-        yield CheckResult.good(MACHINE, words)
+        yield CheckResult.ok(MACHINE, words)
 
 
 def program_check(commit: str) -> Iterator[CheckResult]:
@@ -98,7 +98,7 @@ def program_check(commit: str) -> Iterator[CheckResult]:
         remedy = "commit the changes, or undo them, before people come: the data name the commit"
         yield CheckResult.warning(PROGRAM, f"{words}, and changed since", remedy)
     else:
-        yield CheckResult.good(PROGRAM, words)
+        yield CheckResult.ok(PROGRAM, words)
 
 
 def log_check(folder: Path) -> Iterator[CheckResult]:
@@ -106,12 +106,12 @@ def log_check(folder: Path) -> Iterator[CheckResult]:
     file = folder / LOG
     size = sum(each.stat().st_size for each in folder.glob(f"{LOG}*")) if folder.is_dir() else 0
     if file.exists() and not os.access(file, os.W_OK):
-        yield CheckResult.bad(LOGGED, f"{file} cannot be written", "give it to the user who runs the kiosk")
+        yield CheckResult.error(LOGGED, f"{file} cannot be written", "give it to the user who runs the kiosk")
     elif size > LOG_BYTES * (LOGS_KEPT + 2):
         words = f"{size / MIB:.1f} MiB; it should be renewed at {LOG_BYTES / MIB:.0f} MiB"
         yield CheckResult.warning(LOGGED, words, f"look into {file}, then remove it while no kiosk is open")
     else:
-        yield CheckResult.good(LOGGED, f"{size / MIB:.1f} MiB in {LOG}" if size else "nothing was logged yet")
+        yield CheckResult.ok(LOGGED, f"{size / MIB:.1f} MiB in {LOG}" if size else "nothing was logged yet")
 
 
 _TICK_S = 0.1
@@ -146,7 +146,7 @@ def run_checks(probes: Sequence[Check], tell: ProgressCallback) -> tuple[CheckRe
     for outcome in outcomes.values():
         if outcome.fault is not None:
             raise outcome.fault
-    return tuple(finding for number in range(len(probes)) for finding in outcomes[number].found)
+    return tuple(result for number in range(len(probes)) for result in outcomes[number].found)
 
 
 def _look(number: int, probe: Check, heard: queue.SimpleQueue[_Outcome]) -> None:
@@ -174,7 +174,7 @@ def extensions_check() -> Iterator[CheckResult]:
     """List what other packages add, and import each, so that a broken one is found before it is needed."""
     added = [each for group in ExtensionGroup for each in installed(group) if not each.is_built_in]
     if not added:
-        yield CheckResult.good(EXTENSIONS, "none installed")
+        yield CheckResult.ok(EXTENSIONS, "none installed")
     for extension in added:
         what = f"{extension.group.noun} {extension.name}"
         try:
@@ -182,9 +182,9 @@ def extensions_check() -> Iterator[CheckResult]:
             _LOADERS[extension.group](extension)
         except UserInputError as error:
             remedy = f"mend the package {extension.package}, or remove it: pip uninstall {extension.package}"
-            yield CheckResult.bad(what, str(error), remedy)
+            yield CheckResult.error(what, str(error), remedy)
         else:
-            yield CheckResult.good(what, f"{extension.package} {extension.version}")
+            yield CheckResult.ok(what, f"{extension.package} {extension.version}")
 
 
 _LOADERS: Mapping[ExtensionGroup, Callable[[Extension], object]] = {
@@ -240,14 +240,14 @@ def _shown(booth: CheckTargets) -> Iterator[Check]:
     number = str(booth.settings.screen.display if booth.settings else 0)
     remedy = "see that the session has a screen, and run this in it"
     screens = partial(run_check_process, "screen", program("_display", "screens", number), _DISPLAY_S, remedy)
-    yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.BAD)
+    yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
     if booth.study is not None and booth.study.own_pictures:
         drawn = partial(found_pictures, booth.study.own_pictures)
-        yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.BAD)
+        yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.ERROR)
     remedy = "install Recollect anew, with the system's packages that packaging/README.md names"
     study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
     frame = partial(run_check_process, "drawing", program("_display", "frame", *study), _DISPLAY_S, remedy)
-    yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.BAD)
+    yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
 
 
 def found_pictures(files: Sequence[Path]) -> Iterator[CheckResult]:
@@ -257,9 +257,9 @@ def found_pictures(files: Sequence[Path]) -> Iterator[CheckResult]:
     except CannotDraw as error:
         yield CheckResult.warning(PICTURES, f"they were not tried: {error}", "see what is said of the drawing")
         return
-    yield from (CheckResult.bad(PICTURES, fault, "draw it anew, with plain shapes") for fault in faults)
+    yield from (CheckResult.error(PICTURES, fault, "draw it anew, with plain shapes") for fault in faults)
     if not faults:
-        yield CheckResult.good(PICTURES, f"{len(files)} of the study's own can be drawn")
+        yield CheckResult.ok(PICTURES, f"{len(files)} of the study's own can be drawn")
 
 
 def _heard(booth: CheckTargets) -> Iterator[Check]:
@@ -270,7 +270,7 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
     within_s = robots_checks.WITHIN_S + _MARGIN_S
     yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, probe, busy=booth.busy), within_s)
     if not settings.voice.enabled:
-        yield Check("voice", lambda: [CheckResult.good("voice", "switched off in the study file")])
+        yield Check("voice", lambda: [CheckResult.ok("voice", "switched off in the study file")])
     elif booth.study is not None:
         for plan in booth.study.plans:
             command = voice_program(settings.voice_from_here, plan.language)
@@ -282,10 +282,10 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
 
 def _kept(booth: CheckTargets) -> Iterator[Check]:
     folder, busy, now = booth.folder, booth.busy, datetime.now().astimezone()
-    yield Check(store_checks.ROOM, partial(store_checks.free_space_check, folder), late=Severity.BAD)
-    yield Check(store_checks.FOLDER, partial(store_checks.access_check, folder), late=Severity.BAD)
-    yield Check(store_checks.WRITING, partial(store_checks.write_speed_check, folder), late=Severity.BAD)
-    yield Check(store_checks.DATABASE, partial(store_checks.database_check, folder, busy=busy), late=Severity.BAD)
+    yield Check(store_checks.ROOM, partial(store_checks.free_space_check, folder), late=Severity.ERROR)
+    yield Check(store_checks.FOLDER, partial(store_checks.access_check, folder), late=Severity.ERROR)
+    yield Check(store_checks.WRITING, partial(store_checks.write_speed_check, folder), late=Severity.ERROR)
+    yield Check(store_checks.DATABASE, partial(store_checks.database_check, folder, busy=busy), late=Severity.ERROR)
     yield Check(store_checks.SESSIONS, partial(store_checks.sessions_check, folder, busy=busy))
     yield Check(store_checks.COPY, partial(store_checks.backup_check, folder, folder / FOLDER, now))
     if booth.settings is not None and booth.study is not None:
@@ -309,8 +309,8 @@ def _machine(folder: Path) -> Iterator[Check]:
 NOT_READY = 1
 """The exit code when no session can be held."""
 
-_MARKS = {Severity.GOOD: "yes", Severity.WARNING: "but", Severity.BAD: "NO"}
-_STYLES = {Severity.GOOD: "green", Severity.WARNING: "yellow", Severity.BAD: "bold red"}
+_MARKS = {Severity.OK: "OK", Severity.WARNING: "WARN", Severity.ERROR: "FAIL"}
+_STYLES = {Severity.OK: "green", Severity.WARNING: "yellow", Severity.ERROR: "bold red"}
 LEAST_WIDTH = 100
 
 
@@ -337,14 +337,14 @@ def check_command(
     looks = tuple(all_checks(booth))
     with progress_bar("looking", len(looks), hidden=as_json) as tell:
         found = run_checks(looks, tell)
-    ready = all(finding.state is not Severity.BAD for finding in found)
+    ready = all(result.severity is not Severity.ERROR for result in found)
     if as_json:
-        rows = [asdict(finding) | {"state": finding.state.value} for finding in found]
-        click.echo(json.dumps({"ready": ready, "findings": rows}))
+        rows = [asdict(result) | {"severity": result.severity.value} for result in found]
+        click.echo(json.dumps({"ready": ready, "results": rows}))
     else:
         _show(found, ready=ready)
     nouns = tuple(f"{group.noun} " for group in ExtensionGroup)
-    broken = [each.words for each in found if each.state is Severity.BAD and each.what.startswith(nouns)]
+    broken = [each.message for each in found if each.severity is Severity.ERROR and each.name.startswith(nouns)]
     if booth.faults or broken:
         raise UserInputError(*dict.fromkeys((*booth.faults, *broken)))
     context.exit(0 if ready else NOT_READY)
@@ -370,16 +370,16 @@ def _show(found: tuple[CheckResult, ...], *, ready: bool) -> None:
     console = Console()
     console.width = max(console.width, LEAST_WIDTH)
     table = Table(box=None, show_header=False, pad_edge=False)
-    for finding in found:
-        style = _STYLES[finding.state]
-        words = finding.words if finding.well else f"{finding.words}\n-> {finding.remedy}"
-        table.add_row(f"[{style}]{_MARKS[finding.state]}[/]", finding.what, escape(words))
+    for result in found:
+        style = _STYLES[result.severity]
+        words = result.message if result.is_ok else f"{result.message}\n-> {result.remedy}"
+        table.add_row(f"[{style}]{_MARKS[result.severity]}[/]", result.name, escape(words))
     console.print(table)
-    bad, warnings = (sum(finding.state is state for finding in found) for state in (Severity.BAD, Severity.WARNING))
+    bad, warnings = (sum(result.severity is state for result in found) for state in (Severity.ERROR, Severity.WARNING))
     console.print(_verdict(bad, warnings, ready=ready))
 
 
 def _verdict(bad: int, warnings: int, *, ready: bool) -> str:
     if not ready:
-        return f"No session can be held before what is marked {_MARKS[Severity.BAD]} is mended ({bad})."
+        return f"No session can be held before what is marked {_MARKS[Severity.ERROR]} is mended ({bad})."
     return f"A session can be held; to see to: {warnings or 'nothing'}."

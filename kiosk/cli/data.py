@@ -61,7 +61,7 @@ def verify_command(data: Path, *, as_json: bool) -> None:
         flaws = checking.verify(data, tell)
     if as_json:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
-        click.echo(json.dumps({"data": str(data), "sound": not flaws, "findings": rows}))
+        click.echo(json.dumps({"data": str(data), "sound": not flaws, "results": rows}))
     else:
         Console().print(_table(flaws))
     sys.exit(SOMETHING_WRONG if flaws else 0)

@@ -71,7 +71,7 @@ def robot_command(
     for step in _tried(device, language, sentence):
         steps.append(step)
         if not as_json:
-            click.echo(f"{'yes' if step.worked else 'NO':4}{step.step:22}{step.ms:6} ms  {step.found}")
+            click.echo(f"{'OK' if step.worked else 'FAIL':5}{step.step:22}{step.ms:6} ms  {step.found}")
     worked = all(step.worked for step in steps)
     if as_json:
         click.echo(

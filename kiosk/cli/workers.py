@@ -71,7 +71,7 @@ def _print(what: str, look: Callable[[], Iterable[CheckResult]]) -> None:
         missing = missing_library(error)
         if missing is None:
             raise
-        found = to_json([CheckResult.bad(what, missing.words, missing.remedy)])
+        found = to_json([CheckResult.error(what, missing.words, missing.remedy)])
     click.echo(found)
 
 

@@ -25,7 +25,7 @@ _UNHEARD = "sentences are shown, and nothing is heard"
 def sound_check(command: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
     """Have the voice's process play silence; not while a kiosk is ``busy``, which may need the card itself."""
     if busy:
-        yield CheckResult.good(SOUND, "not tried while a kiosk is open here; its panel tells whether it is heard")
+        yield CheckResult.ok(SOUND, "not tried while a kiosk is open here; its panel tells whether it is heard")
         return
     try:
         probed = dict(_events(_run(command))).get("probed", {"why": "the sound's process died"})
@@ -35,7 +35,7 @@ def sound_check(command: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
         probed = {"why": f"the sound's process cannot be started: {error.strerror}"}
     device, why = probed.get("device"), probed.get("why")
     if device:
-        yield CheckResult.good(SOUND, f"{device} plays")
+        yield CheckResult.ok(SOUND, f"{device} plays")
     else:
         remedy = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play it any sound"
         yield CheckResult.warning(SOUND, f"{_UNHEARD}: {why}", remedy)
@@ -111,7 +111,7 @@ def _told(what: str, language: str, events: dict[str, dict[str, Any]]) -> CheckR
     words = f"{events['ready'].get('spoken') or speaker} has a sentence ready in {took_ms} ms"
     if took_ms > SLOW_MS:
         return CheckResult.warning(what, words, "end other programs: the kiosk takes a slower voice for one that hangs")
-    return CheckResult.good(what, words)
+    return CheckResult.ok(what, words)
 
 
 ROBOT = "robot"
@@ -135,14 +135,14 @@ def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool
     try:
         device = create_robot(settings, languages[0])
     except UserInputError as refusal:
-        yield CheckResult.bad(ROBOT, str(refusal), f"install it anew, or set robot.kind to {NO_ROBOT!r}")
+        yield CheckResult.error(ROBOT, str(refusal), f"install it anew, or set robot.kind to {NO_ROBOT!r}")
         return
     if device is None:
-        yield CheckResult.good(ROBOT, "none in the study file: the avatar helps")
+        yield CheckResult.ok(ROBOT, "none in the study file: the avatar helps")
     elif isinstance(device, InspectableRobot):
         yield from _inspected(device, settings, languages)
     elif busy:
-        yield CheckResult.good(ROBOT, "not tried while a kiosk is open here; its panel tells how the robot is")
+        yield CheckResult.ok(ROBOT, "not tried while a kiosk is open here; its panel tells how the robot is")
     else:
         yield _any(device)
 
@@ -157,7 +157,7 @@ def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequ
     except RobotError as failure:
         yield _lost(failure)
         return
-    yield CheckResult.good(ROBOT, f"it answers, with {len(voices)} voices and {len(gestures)} gestures")
+    yield CheckResult.ok(ROBOT, f"it answers, with {len(voices)} voices and {len(gestures)} gestures")
     for language in languages:
         what = f"{ROBOT}: {language}"
         try:
@@ -166,7 +166,7 @@ def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequ
             remedy = f"install a voice for {language!r} in the robot's own pages; {_AVATAR}"
             yield CheckResult.warning(what, str(failure), remedy)
         else:
-            yield CheckResult.good(what, f"{voice.name} ({voice.language})")
+            yield CheckResult.ok(what, f"{voice.name} ({voice.language})")
 
 
 def _any(device: RobotDriver) -> CheckResult:
@@ -177,7 +177,7 @@ def _any(device: RobotDriver) -> CheckResult:
         return _lost(failure)
     finally:
         device.close()
-    return CheckResult.good(ROBOT, "it answers; it does not tell its voices")
+    return CheckResult.ok(ROBOT, "it answers; it does not tell its voices")
 
 
 def _lost(failure: RobotError) -> CheckResult:

@@ -49,7 +49,7 @@ def clock_check(folder: Path, now: datetime, made: datetime | None) -> Iterator[
     elif made is not None and now + SLACK < made:
         yield CheckResult.warning(WHAT, f"{shown} is before this program was made, {made:%Y-%m-%d}", _REMEDY)
     else:
-        yield CheckResult.good(WHAT, shown)
+        yield CheckResult.ok(WHAT, shown)
 
 
 def newest_write(folder: Path) -> datetime | None:
@@ -72,7 +72,7 @@ OLD = timedelta(days=1)
 def database_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
     """The file itself; ``busy`` tells whether a kiosk is open on the folder."""
     if not (folder / FILE).exists():
-        yield CheckResult.good(DATABASE, "none yet; it is made when the kiosk opens")
+        yield CheckResult.ok(DATABASE, "none yet; it is made when the kiosk opens")
         return
     try:
         with closing(open_as_it_is(folder)) as connection:
@@ -80,13 +80,13 @@ def database_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
             answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
             unfinished = schema == SCHEMA and is_unfinished(connection)
     except UserInputError as refusal:
-        yield CheckResult.bad(DATABASE, str(refusal), _remedy(refusal, folder))
+        yield CheckResult.error(DATABASE, str(refusal), _remedy(refusal, folder))
         return
     except sqlite3.Error as error:
-        yield CheckResult.bad(DATABASE, reason(error, folder), _remedy(error, folder))
+        yield CheckResult.error(DATABASE, reason(error, folder), _remedy(error, folder))
         return
     if answer != "ok":
-        yield CheckResult.bad(DATABASE, f"it is damaged: {answer}", _REPLACE)
+        yield CheckResult.error(DATABASE, f"it is damaged: {answer}", _REPLACE)
     elif busy:
         remedy = "nothing, if that is this booth's kiosk; else leave it, for a second one is refused"
         yield CheckResult.warning(DATABASE, "it is whole; a Recollect is open on it", remedy)
@@ -95,7 +95,7 @@ def database_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
         yield CheckResult.warning(DATABASE, "it is whole; a withdrawal was cut off and is not finished", remedy)
     else:
         newer = "" if schema == SCHEMA else f"; it is brought from schema {schema} to {SCHEMA} when the kiosk opens"
-        yield CheckResult.good(DATABASE, f"it is whole{newer}")
+        yield CheckResult.ok(DATABASE, f"it is whole{newer}")
 
 
 _REPLACE = "copy the whole folder elsewhere first, then put the newest copy of 'backups' in its place"
@@ -128,7 +128,7 @@ def sessions_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
             """
         ).fetchone()
         less = "cut off or under way" if busy else "cut off"
-        yield CheckResult.good(SESSIONS, f"{stored} of people, {cut_off} of them {less}")
+        yield CheckResult.ok(SESSIONS, f"{stored} of people, {cut_off} of them {less}")
 
     return _reading(folder, look)
 
@@ -137,7 +137,7 @@ def backup_check(folder: Path, into: Path, now: datetime) -> Iterator[CheckResul
     """How old the newest copy is."""
     written = newest_write(folder)
     if written is None:
-        yield CheckResult.good(COPY, "nothing is written yet")
+        yield CheckResult.ok(COPY, "nothing is written yet")
         return
     made = max((file.stat().st_mtime for file in list_backups(into)), default=None) if into.is_dir() else None
     if made is None:
@@ -148,7 +148,7 @@ def backup_check(folder: Path, into: Path, now: datetime) -> Iterator[CheckResul
     if now - at > OLD and written > at:
         yield CheckResult.warning(COPY, f"{words}, and more was written since", "recollect backup")
     else:
-        yield CheckResult.good(COPY, words)
+        yield CheckResult.ok(COPY, words)
 
 
 _AS_FIXED = "put quotas, block and seed back as they are fixed; another study needs a data folder of its own"
@@ -159,7 +159,7 @@ def allocation_check(
 ) -> Iterator[CheckResult]:
     """Whether the list that is fixed for this kind of sessions is the study file's, and how much of it is left."""
     if not declared.target_n:
-        yield CheckResult.good(LIST, "no quotas in the study file: every visitor gets the same condition")
+        yield CheckResult.ok(LIST, "no quotas in the study file: every visitor gets the same condition")
         return
     quotas = {Condition.from_name(name): quota for name, quota in declared.target_n.items()}
 
@@ -168,7 +168,7 @@ def allocation_check(
         try:
             lists.check(quotas, declared.block_size, declared.seed)
         except UserInputError as refusal:
-            yield CheckResult.bad(
+            yield CheckResult.error(
                 LIST,
                 str(refusal),
                 "put quotas, block and seed back as they are fixed; another study needs a data folder of its own",
@@ -177,7 +177,7 @@ def allocation_check(
         yield _left(lists.latest(), lists.consumed(), quotas)
 
     if not (folder / FILE).exists():
-        yield CheckResult.good(LIST, f"{ratio_in_words(quotas)}; fixed when the kiosk opens")
+        yield CheckResult.ok(LIST, f"{ratio_in_words(quotas)}; fixed when the kiosk opens")
     else:
         yield from _reading(folder, look)
 
@@ -188,7 +188,7 @@ def _left(stored: AllocationList | None, consumed: set[int], quotas: Mapping[Con
     done = ", ".join(f"{condition.value} {taken[condition]} of {quota}" for condition, quota in quotas.items())
     if len(consumed) >= sum(quotas.values()):
         return CheckResult.warning(LIST, f"used up: {done}", "raise the quotas in their ratio, or end the study")
-    return CheckResult.good(LIST, done if places else f"{done}; fixed when the kiosk opens")
+    return CheckResult.ok(LIST, done if places else f"{done}; fixed when the kiosk opens")
 
 
 _Look = Callable[[sqlite3.Connection], Iterator[CheckResult]]
@@ -227,29 +227,29 @@ def free_space_check(folder: Path) -> Iterator[CheckResult]:
     try:
         left = free_space(folder)
     except UserInputError as failure:
-        yield CheckResult.bad(ROOM, str(failure), "see that the disk is there")
+        yield CheckResult.error(ROOM, str(failure), "see that the disk is there")
         return
     words = f"{left.free_mib:,} MiB are free"
     match left.level:
         case SpaceLevel.ENOUGH:
-            yield CheckResult.good(ROOM, words)
+            yield CheckResult.ok(ROOM, words)
         case SpaceLevel.WARN:
             yield CheckResult.warning(ROOM, words, f"make room, to {WARN_MIB} MiB: below {REFUSE_MIB} nobody can begin")
         case SpaceLevel.REFUSE:
-            yield CheckResult.bad(ROOM, f"{words}, and nobody can begin", f"make room, to {WARN_MIB} MiB")
+            yield CheckResult.error(ROOM, f"{words}, and nobody can begin", f"make room, to {WARN_MIB} MiB")
 
 
 def access_check(folder: Path) -> Iterator[CheckResult]:
     """Who may read the data, and whether we may write there."""
     place = existing_part(folder)
     if not os.access(place, os.W_OK | os.X_OK):
-        yield CheckResult.bad(FOLDER, f"{place} cannot be written", "give it to the user who runs the kiosk")
+        yield CheckResult.error(FOLDER, f"{place} cannot be written", "give it to the user who runs the kiosk")
     elif place != folder.absolute():
-        yield CheckResult.good(FOLDER, f"{folder} is not there yet; it is made when the kiosk opens")
+        yield CheckResult.ok(FOLDER, f"{folder} is not there yet; it is made when the kiosk opens")
     elif sys.platform != "win32" and stat.S_IMODE(folder.stat().st_mode) & _OTHERS:
         yield CheckResult.warning(FOLDER, f"others on this machine can look into {folder}", f"chmod 700 {folder}")
     else:
-        yield CheckResult.good(FOLDER, f"{folder} is this user's alone")
+        yield CheckResult.ok(FOLDER, f"{folder} is this user's alone")
 
 
 def write_speed_check(folder: Path, measure: Callable[[Path], Sequence[float]] | None = None) -> Iterator[CheckResult]:
@@ -257,7 +257,7 @@ def write_speed_check(folder: Path, measure: Callable[[Path], Sequence[float]] |
     try:
         times = sorted((measure or written_ms)(existing_part(folder)))
     except (OSError, sqlite3.Error) as failure:
-        yield CheckResult.bad(
+        yield CheckResult.error(
             WRITING,
             f"the disk takes no records: {reason(failure, existing_part(folder))}",
             "see that it is neither full nor read-only",
@@ -269,7 +269,7 @@ def write_speed_check(folder: Path, measure: Callable[[Path], Sequence[float]] |
         remedy = "use a disk of this machine, not a memory card or a network; end what else writes to it"
         yield CheckResult.warning(WRITING, words, remedy)
     else:
-        yield CheckResult.good(WRITING, words)
+        yield CheckResult.ok(WRITING, words)
 
 
 def written_ms(place: Path) -> list[float]:
@@ -326,7 +326,7 @@ def forms(folder: Path, plan: SessionConfig) -> Iterator[CheckResult]:
             what = f"{asked.id!r} is still version {asked.version!r}, but visitors were asked otherwise before: "
             yield CheckResult.warning(FORMS, what + ", ".join(differ), _FORMS_REMEDY)
     if not changed:
-        yield CheckResult.good(FORMS, "nothing was changed without a new version")
+        yield CheckResult.ok(FORMS, "nothing was changed without a new version")
 
 
 def _stored(folder: Path) -> list[Questionnaire]:

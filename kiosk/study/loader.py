@@ -543,13 +543,13 @@ _MEND = "mend the study file; 'recollect study check FILE' reads it again"
 
 def faults_check(sentences: Sequence[str]) -> Iterator[CheckResult]:
     """Whatever keeps a study file from being used."""
-    return (CheckResult.bad(FILE, sentence, _MEND) for sentence in sentences)
+    return (CheckResult.error(FILE, sentence, _MEND) for sentence in sentences)
 
 
 def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
     """What the study is, and what of it may not be meant."""
     longest = max(round(expected_minutes(plan)) for plan in study.plans)
-    yield CheckResult.good(
+    yield CheckResult.ok(
         FILE, f"{study.settings.title!r}, about {longest} minutes, {study.settings.sha256[:SHORT_SHA]}"
     )
     for caution in study_warnings(study):
@@ -563,7 +563,7 @@ def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
     name = study.settings.assistance.policy
     card = None if name == NONE else study.settings.resolve_asset("policies", name).with_suffix(POLICY_CARD)
     if card is None or card.is_file():
-        yield CheckResult.good(POLICY, words)
+        yield CheckResult.ok(POLICY, words)
     else:
         yield CheckResult.warning(POLICY, f"{words}; no page says how it was made", f"write {card}")
 
@@ -571,13 +571,13 @@ def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
 def languages_check(study: StudyConfig) -> Iterator[CheckResult]:
     """The languages that a visitor can choose, with their sentences and sheets."""
     plans = ", ".join(f"{plan.language} ({len(plan.catalogue.messages)} messages)" for plan in study.plans)
-    yield CheckResult.good(LANGUAGES, plans)
+    yield CheckResult.ok(LANGUAGES, plans)
 
 
 def pin_check(experimenter: ExperimenterConfig) -> Iterator[CheckResult]:
     """Whether the kiosk is closed, or open for trials alone."""
     if experimenter.pin_hash:
-        yield CheckResult.good(PIN, "set")
+        yield CheckResult.ok(PIN, "set")
     else:
         remedy = "put what 'recollect study set-pin' prints into the study file, under [experimenter]"
         words = "none: every session is a trial, which is not exported, and 'recollect run --supervise' does not start"
@@ -591,4 +591,4 @@ def shortcuts_check(shortcuts: Keys) -> Iterator[CheckResult]:
         remedy = f"give shortcuts.{without[0]} a shortcut, such as 'Ctrl+Shift+P'"
         yield CheckResult.warning(KEYS, f"there is none for {' and '.join(without)}", remedy)
     else:
-        yield CheckResult.good(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.quit} leaves the kiosk")
+        yield CheckResult.ok(KEYS, f"{shortcuts.panel} opens the panel, {shortcuts.quit} leaves the kiosk")

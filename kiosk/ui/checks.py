@@ -45,11 +45,11 @@ def screens_check(number: int) -> Iterator[CheckResult]:
 
     found = obstacle()
     if found is not None:
-        yield CheckResult.bad(DISPLAY, found.words, _PLUG_IN if found.of_the_screen else found.remedy)
+        yield CheckResult.error(DISPLAY, found.words, _PLUG_IN if found.of_the_screen else found.remedy)
         return
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     yield covered_screen_check(numbered_screens(), number)
-    yield CheckResult.good(DESKTOP, f"{QGuiApplication.platformName()}, {_window_manager()}")
+    yield CheckResult.ok(DESKTOP, f"{QGuiApplication.platformName()}, {_window_manager()}")
     yield _lit()
     del application
 
@@ -64,7 +64,7 @@ def covered_screen_check(there: list[QScreen], number: int) -> CheckResult:
     if min(size.width(), size.height()) < LEAST_HIGH or max(size.width(), size.height()) < LEAST_WIDE:
         remedy = f"use one of at least {LEAST_WIDE} x {LEAST_HIGH}: texts may not fit on it"
         return CheckResult.warning(DISPLAY, words, remedy)
-    return CheckResult.good(DISPLAY, words)
+    return CheckResult.ok(DISPLAY, words)
 
 
 def _window_manager() -> str:
@@ -93,7 +93,7 @@ def _lit() -> CheckResult:
     health = awake.health
     awake.release()
     if health.is_ok:
-        return CheckResult.good(LIT, health.message)
+        return CheckResult.ok(LIT, health.message)
     return CheckResult.warning(LIT, health.message, "switch screen saver and sleep off in the system's settings")
 
 
@@ -114,7 +114,7 @@ def frame_check(study: StudyConfig) -> Iterator[CheckResult]:
 
     found = obstacle()
     if found is not None and not found.of_the_screen:
-        yield CheckResult.bad(WHAT, found.words, found.remedy)
+        yield CheckResult.error(WHAT, found.words, found.remedy)
         return
     window = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     try:
@@ -133,7 +133,7 @@ def frame_result(usual_ms: float) -> CheckResult:
     words = f"a whole frame of {WIDTH} x {HEIGHT} takes {usual_ms:.0f} ms without a graphics card"
     if usual_ms > SLOW_MS:
         return CheckResult.warning(WHAT, words, "end other programs, or set screen.motion to false")
-    return CheckResult.good(WHAT, words)
+    return CheckResult.ok(WHAT, words)
 
 
 def _drawn_ms(window: Window, opacity: float) -> float:
@@ -279,12 +279,12 @@ def run_check_process(what: str, command: Sequence[str], within_s: float, remedy
             command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=within_s, check=False
         )
     except subprocess.TimeoutExpired:
-        yield CheckResult.bad(what, f"no answer within {within_s:g} s", remedy)
+        yield CheckResult.error(what, f"no answer within {within_s:g} s", remedy)
         return
     if done.returncode == 0:
         yield from from_json(done.stdout)
         return
-    yield CheckResult.bad(what, _said(done.stderr) or f"it ended with {done.returncode}", remedy)
+    yield CheckResult.error(what, _said(done.stderr) or f"it ended with {done.returncode}", remedy)
 
 
 def _said(stderr: str) -> str:
@@ -295,11 +295,11 @@ def _said(stderr: str) -> str:
     return lines[-1] if lines[0].startswith("Traceback ") else lines[0]
 
 
-def to_json(findings: Iterable[CheckResult]) -> str:
-    """Findings as the process prints them."""
-    return json.dumps([asdict(each) | {"state": each.state.value} for each in findings])
+def to_json(results: Iterable[CheckResult]) -> str:
+    """Return results as the process prints them."""
+    return json.dumps([asdict(each) | {"severity": each.severity.value} for each in results])
 
 
 def from_json(text: str) -> Iterator[CheckResult]:
-    """What ``to_json`` wrote."""
-    return (CheckResult(**each | {"state": Severity(each["state"])}) for each in json.loads(text))
+    """Read what ``to_json`` wrote."""
+    return (CheckResult(**each | {"severity": Severity(each["severity"])}) for each in json.loads(text))

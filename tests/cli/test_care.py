@@ -98,7 +98,7 @@ def test_what_is_sound_ends_with_0(day: Path) -> None:
     result = run("verify", "--data", day)
     assert result.exit_code == 0
     assert "every event can be read" in result.output
-    assert said("verify", "--data", day) == {"data": str(day), "sound": True, "findings": []}
+    assert said("verify", "--data", day) == {"data": str(day), "sound": True, "results": []}
 
 
 def test_what_is_wrong_is_told_and_ends_with_1(day: Path) -> None:
@@ -109,7 +109,7 @@ def test_what_is_wrong_is_told_and_ends_with_1(day: Path) -> None:
     assert result.exit_code == 1
     told = json.loads(result.stdout)
     assert not told["sound"]
-    assert [finding["check"] for finding in told["findings"]] == ["schema", "time"]
+    assert [result["check"] for result in told["results"]] == ["schema", "time"]
     result = run("verify", "--data", day)
     assert result.exit_code == 1
     assert "is at -5 ms" in result.output

@@ -152,7 +152,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
     assert done.stdout.strip()
     match command:
         case "robot":
-            assert (done.returncode, done.stdout.startswith("NO  is it there")) == (1, True)
+            assert (done.returncode, done.stdout.startswith("FAIL is it there")) == (1, True)
         case "check":
             # It depends on the machine that the tests run on.
             assert done.returncode in {0, 1}

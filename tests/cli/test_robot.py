@@ -46,7 +46,7 @@ def test_it_is_told_for_people_as_well() -> None:
     with FurhatFake() as fake:
         result = CliRunner().invoke(recollect, ["robot", "--host", "127.0.0.1", "--port", str(fake.port)])
     assert result.exit_code == 0
-    assert "yes looks confused" in result.stdout
+    assert "OK   looks confused" in result.stdout
 
 
 def test_a_robot_that_is_not_there_is_asked_nothing_further() -> None:

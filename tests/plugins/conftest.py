@@ -145,7 +145,7 @@ def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
 def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[str, str]]:
     """What `recollect check` says of everything that it lists: how it is, and in which words."""
     checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
-    findings = json.loads(checked.stdout)["findings"]
+    results = json.loads(checked.stdout)["results"]
     return {finding["what"]: (finding["state"], finding["words"]) for finding in findings}
 
 

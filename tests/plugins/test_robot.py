@@ -81,8 +81,8 @@ def test_a_study_with_a_broken_one_is_refused_without_a_traceback(
 
 def test_the_check_fails_for_a_broken_one_even_where_no_study_uses_it(beside: Beside, register: Register) -> None:
     beside(register("a-lab", "recollect.robots", {"printing": "a_lab:PrintingRobot"}, a_lab="1 / 0\n"))
-    (found,) = (each for each in extensions_check() if each.what == "robot printing")
-    assert found.state is Severity.BAD
+    (found,) = (each for each in extensions_check() if each.name == "robot printing")
+    assert found.severity is Severity.ERROR
     assert "pip uninstall a-lab" in found.remedy
 
 

@@ -32,11 +32,11 @@ def saying(*events: Mapping[str, object], code: int = 0) -> tuple[str, ...]:
     )
 
 
-def alone(findings: object) -> CheckResult:
+def alone(results: object) -> CheckResult:
     """The one thing that was found."""
-    (found,) = list(findings)  # type: ignore[call-overload]
+    (found,) = list(results)  # type: ignore[call-overload]
     assert isinstance(found, CheckResult)
-    assert found.well == (found.remedy == "")
+    assert found.is_ok == (found.remedy == "")
     return found
 
 
@@ -45,13 +45,13 @@ def alone(findings: object) -> CheckResult:
 
 def test_a_device_that_plays_silence_is_well() -> None:
     found = alone(sound_check(saying({"event": "probed", "device": "Loudspeaker", "why": ""}), busy=False))
-    assert found == CheckResult("sound", Severity.GOOD, "Loudspeaker plays")
+    assert found == CheckResult("sound", Severity.OK, "Loudspeaker plays")
 
 
 @pytest.mark.skipif(not audio.HAS_STREAM, reason="miniaudio has no build for this machine")
 def test_the_voices_own_process_tries_the_device_of_the_study() -> None:
     settings = VoiceConfig(device=audio.NOWHERE)
-    assert alone(sound_check(voice_program(settings, "en", probe=True), busy=False)).words == f"{audio.NOWHERE} plays"
+    assert alone(sound_check(voice_program(settings, "en", probe=True), busy=False)).message == f"{audio.NOWHERE} plays"
 
 
 @pytest.mark.parametrize(
@@ -65,14 +65,14 @@ def test_the_voices_own_process_tries_the_device_of_the_study() -> None:
 )
 def test_a_sound_device_that_fails_is_told_of_with_a_remedy(command: tuple[str, ...], words: str) -> None:
     found = alone(sound_check(command, busy=False))
-    assert found.state is Severity.WARNING
-    assert words in found.words
+    assert found.severity is Severity.WARNING
+    assert words in found.message
     assert "loudspeaker" in found.remedy
 
 
 def test_the_sound_card_of_a_kiosk_at_work_is_left_alone(tmp_path: Path) -> None:
     found = alone(sound_check(python(f"open({str(tmp_path / 'played')!r}, 'w')"), busy=True))
-    assert found.state is Severity.GOOD
+    assert found.severity is Severity.OK
     assert list(tmp_path.iterdir()) == []
 
 
@@ -82,7 +82,7 @@ def test_the_sound_card_of_a_kiosk_at_work_is_left_alone(tmp_path: Path) -> None
 def test_a_voice_that_renders_in_time_is_well() -> None:
     ready, rendered = {"event": "ready", "voice": "gmw/en"}, {"event": "rendered", "took_ms": 20, "duration_ms": 900}
     found = alone(voice_check(saying(ready, rendered), "en", "Hello."))
-    assert found == CheckResult("voice: en", Severity.GOOD, "gmw/en has a sentence ready in 20 ms")
+    assert found == CheckResult("voice: en", Severity.OK, "gmw/en has a sentence ready in 20 ms")
 
 
 @pytest.mark.parametrize(
@@ -101,8 +101,8 @@ def test_a_voice_that_fails_is_told_of_and_keeps_nobody_from_playing(
     events: list[Mapping[str, object]], words: str
 ) -> None:
     found = alone(voice_check(saying(*events, code=3), "en", "Hello."))
-    assert found.state is Severity.WARNING
-    assert words in found.words
+    assert found.severity is Severity.WARNING
+    assert words in found.message
 
 
 def test_a_voice_that_hangs_is_ended_and_what_it_left_goes_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -110,13 +110,13 @@ def test_a_voice_that_hangs_is_ended_and_what_it_left_goes_too(tmp_path: Path, m
     noted = tmp_path / "noted"
     program = f"import tempfile, time; open({str(noted)!r}, 'w').write(tempfile.mkdtemp()); time.sleep(60)"
     found = alone(voice_check(python(program), "en", "Hello."))
-    assert (found.state, "hangs" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "hangs" in found.message) == (Severity.WARNING, True)
     assert not Path(noted.read_text()).exists()
 
 
 def test_a_voice_that_cannot_be_started_is_told_of() -> None:
     found = alone(voice_check(("/nowhere/python",), "en", "Hello."))
-    assert (found.state, "cannot be started" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "cannot be started" in found.message) == (Severity.WARNING, True)
 
 
 def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> None:
@@ -138,8 +138,8 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
         "s.run_tts_worker({'language': 'en', 'rate': 150, 'volume': 1.0})\n"
     )
     found = alone(voice_check(python(engine), "en", "Hello."))
-    assert found.state is Severity.GOOD
-    assert found.words.startswith("Fake (en) has a sentence ready in ")
+    assert found.severity is Severity.OK
+    assert found.message.startswith("Fake (en) has a sentence ready in ")
     assert not (tmp_path / "played").exists()
 
 
@@ -153,22 +153,22 @@ def of(fake: FurhatFake | RealtimeFake, kind: str = "furhat", **more: object) ->
 
 
 def test_a_study_without_a_robot_lacks_none() -> None:
-    assert alone(robot_check(RobotConfig(), LANGUAGES, busy=False)).state is Severity.GOOD
+    assert alone(robot_check(RobotConfig(), LANGUAGES, busy=False)).severity is Severity.OK
 
 
 def test_a_robot_that_is_well_has_a_voice_for_every_language_and_keeps_the_one_it_has() -> None:
     with FurhatFake() as fake:
         found = list(robot_check(of(fake), LANGUAGES, busy=True))
-        assert [each.words for each in found[1:]] == ["Matthew (en-US)", "Bianca (it-IT)"]
-        assert {each.state for each in found} == {Severity.GOOD}
+        assert [each.message for each in found[1:]] == ["Matthew (en-US)", "Bianca (it-IT)"]
+        assert {each.severity for each in found} == {Severity.OK}
         assert (fake.voice, fake.sentences, fake.refusals) == (None, [], [])
 
 
 def test_a_robot_without_a_language_is_told_of_that_one_alone() -> None:
     with FurhatFake() as fake:
         found = list(robot_check(of(fake), ("en", "de"), busy=False))
-    assert [(each.what, each.state) for each in found[1:]] == [
-        ("robot: en", Severity.GOOD),
+    assert [(each.name, each.severity) for each in found[1:]] == [
+        ("robot: en", Severity.OK),
         ("robot: de", Severity.WARNING),
     ]
 
@@ -178,19 +178,19 @@ def test_a_robot_that_fails_leaves_the_session_to_the_avatar(mode: Mode) -> None
     with FurhatFake() as fake:
         fake.mode = mode
         found = alone(robot_check(of(fake), LANGUAGES, busy=False))
-    assert (found.state, "avatar" in found.remedy) == (Severity.WARNING, True)
+    assert (found.severity, "avatar" in found.remedy) == (Severity.WARNING, True)
 
 
 def test_a_robot_of_the_other_interface_is_asked_and_let_go() -> None:
     with RealtimeFake() as fake:
-        assert alone(robot_check(of(fake, "furhat-realtime"), LANGUAGES, busy=False)).state is Severity.GOOD
+        assert alone(robot_check(of(fake, "furhat-realtime"), LANGUAGES, busy=False)).severity is Severity.OK
 
 
 def test_a_robot_that_would_have_to_be_changed_is_left_to_the_kiosk_that_has_it() -> None:
     with RealtimeFake() as fake:
         pass
     found = alone(robot_check(of(fake, "furhat-realtime"), LANGUAGES, busy=True))
-    assert (found.state, "panel" in found.words) == (Severity.GOOD, True)
+    assert (found.severity, "panel" in found.message) == (Severity.OK, True)
 
 
 def test_a_robot_has_as_long_as_its_own_deadlines_and_less_than_twenty_seconds() -> None:

@@ -245,7 +245,7 @@ def faults(folder: Path, written: dict[int, int], out: Path) -> Iterator[str]:
         "sessions": lambda: compare(folder, written),
         "glance": lambda: read_snapshot(folder, 0, simulated=True),
         "check": lambda: refuse_any(
-            [each for each in database_check(folder, busy=False) if each.state is Severity.BAD]
+            [each for each in database_check(folder, busy=False) if each.severity is Severity.ERROR]
         ),
         "backup": lambda: back_up(folder, out / "copies"),
         "export": lambda: export_dataset(folder, out / "data-set", PsychDs, frozenset(ExportOption)),

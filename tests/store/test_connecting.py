@@ -71,7 +71,7 @@ def check_readable(folder: Path, out: Path) -> None:
     assert verify(folder) == []
     with open_repository(folder) as stored:
         assert [len(stored.events(session.id)) for session in stored.sessions()] == [1]
-    assert Severity.BAD not in {found.state for found in probe(folder, busy=False)}
+    assert Severity.ERROR not in {found.severity for found in probe(folder, busy=False)}
     with closing(sqlite3.connect(back_up(folder, out / "copies"))) as copy:
         assert copy.execute("SELECT count(*) FROM event").fetchone() == (1,)
     assert export_dataset(folder, out / "data-set", PsychDs, frozenset(ExportOption)).participants == 1
@@ -286,7 +286,7 @@ def test_damage_that_sqlite_quotes_is_told_in_a_sentence(folder: Path, provenanc
         with pytest.raises(UserInputError, match="it is damaged: the text of its schema cannot be read"):
             look()
     (found,) = probe(folder, busy=False)
-    assert (found.state, "backups" in found.remedy) == (Severity.BAD, True)
+    assert (found.severity, "backups" in found.remedy) == (Severity.ERROR, True)
 
 
 def failing_with(code: int, words: str) -> Callable[..., connecting.Connection]:
@@ -318,7 +318,7 @@ def test_a_full_disk_is_called_one_whatever_sqlite_says(
     with pytest.raises(UserInputError, match=r"the database .* cannot be read: disk full"):
         verify(folder)
     (found,) = probe(folder, busy=False)
-    assert found.state is Severity.BAD
+    assert found.severity is Severity.ERROR
     assert found.remedy == "make room on the disk; what is stored is intact"
 
 
@@ -333,7 +333,7 @@ def test_no_remedy_advises_to_leave_a_folder_that_may_be_intact(
     a_day(folder, provenance)
     monkeypatch.setattr(database, "for_reading", failing_with(*what))
     (found,) = probe(folder, busy=False)
-    assert found.state is Severity.BAD
+    assert found.severity is Severity.ERROR
     assert not [words for words in ("--data", FOLDER, "copy", "another folder") if words in found.remedy]
 
 

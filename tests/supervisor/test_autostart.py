@@ -51,14 +51,14 @@ def test_nothing_else_is_taken_for_one(command: list[str]) -> None:
 @pytest.mark.usefixtures("bare")
 def test_a_kiosk_that_nobody_keeps_up_is_told_of() -> None:
     (found,) = autostart_check()
-    assert (found.state, "recollect run --supervise" in found.remedy) == (Severity.WARNING, True)
+    assert (found.severity, "recollect run --supervise" in found.remedy) == (Severity.WARNING, True)
 
 
 @pytest.mark.usefixtures("bare")
 def test_a_supervisor_that_runs_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looked, "supervisor_runs", lambda: True)
     (found,) = autostart_check()
-    assert (found.state, found.words) == (Severity.GOOD, "a supervisor runs")
+    assert (found.severity, found.message) == (Severity.OK, "a supervisor runs")
 
 
 def test_a_service_that_is_enabled_is_enough(bare: Path) -> None:

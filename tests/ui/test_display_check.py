@@ -50,9 +50,9 @@ def python(program: str) -> tuple[str, ...]:
     return (sys.executable, "-c", program)
 
 
-def alone(findings: Iterator[CheckResult]) -> CheckResult:
+def alone(results: Iterator[CheckResult]) -> CheckResult:
     """The one thing that was found."""
-    (found,) = findings
+    (found,) = results
     return found
 
 
@@ -62,9 +62,9 @@ def alone(findings: Iterator[CheckResult]) -> CheckResult:
 @pytest.mark.parametrize(
     ("there", "state"),
     [
-        ([FakeScreen(1920, 1080)], Severity.GOOD),
-        ([FakeScreen(1080, 1920)], Severity.GOOD),
-        ([FakeScreen(1280, 720, 2)], Severity.GOOD),
+        ([FakeScreen(1920, 1080)], Severity.OK),
+        ([FakeScreen(1080, 1920)], Severity.OK),
+        ([FakeScreen(1280, 720, 2)], Severity.OK),
         ([FakeScreen(1024, 768)], Severity.WARNING),
         ([FakeScreen(1366, 700)], Severity.WARNING),
     ],
@@ -73,20 +73,20 @@ def test_a_screen_is_told_with_its_size_and_missed_where_it_is_too_small(
     there: list[FakeScreen], state: Severity
 ) -> None:
     found = covered_screen_check(there, 0)  # type: ignore[arg-type]  # all that is asked of them
-    assert found.state is state
-    assert f"{there[0].wide} x {there[0].high}, {there[0].ratio:g}" in found.words
+    assert found.severity is state
+    assert f"{there[0].wide} x {there[0].high}, {there[0].ratio:g}" in found.message
 
 
 def test_a_screen_that_the_study_names_and_nobody_has_plugged_in_is_told_of() -> None:
     found = covered_screen_check([FakeScreen(1920, 1080)], 1)  # type: ignore[list-item]  # all that is asked of them
-    assert (found.state, "screen 1" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "screen 1" in found.message) == (Severity.WARNING, True)
 
 
 def test_where_there_is_no_screen_no_session_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
     found = alone(screens_check(0))
-    assert (found.what, found.state) == ("screen", Severity.BAD)
+    assert (found.name, found.severity) == ("screen", Severity.ERROR)
 
 
 def test_a_screen_that_is_there_is_looked_at_without_a_window(
@@ -97,7 +97,7 @@ def test_a_screen_that_is_there_is_looked_at_without_a_window(
         monkeypatch.delenv(name, raising=False)
     del qtbot
     found = list(screens_check(0))
-    assert [each.what for each in found] == ["screen", "desktop", "kept lit"]
+    assert [each.name for each in found] == ["screen", "desktop", "kept lit"]
     assert numbered_screens()[0].virtualSiblings()
     caplog.clear()
 
@@ -109,13 +109,13 @@ def test_the_kiosk_is_drawn_and_the_time_told(qtbot: QtBot, monkeypatch: pytest.
     del qtbot
     monkeypatch.setattr(ui_checks, "FRAMES", 2)
     found = alone(frame_check(read_study(Settings())))
-    assert (found.what, "1920 x 1080" in found.words) == ("drawing", True)
+    assert (found.name, "1920 x 1080" in found.message) == ("drawing", True)
 
 
 def test_drawing_that_would_be_seen_as_steps_is_told_of() -> None:
-    assert [frame_result(ms).state for ms in (5.0, SLOW_MS, SLOW_MS + 1)] == [
-        Severity.GOOD,
-        Severity.GOOD,
+    assert [frame_result(ms).severity for ms in (5.0, SLOW_MS, SLOW_MS + 1)] == [
+        Severity.OK,
+        Severity.OK,
         Severity.WARNING,
     ]
 
@@ -124,7 +124,7 @@ def test_drawing_that_would_be_seen_as_steps_is_told_of() -> None:
 
 
 def test_what_a_process_found_comes_back_as_it_was() -> None:
-    found = [CheckResult.good("a", "wörds"), CheckResult.warning("b", "c", "d"), CheckResult.bad("e", "f", "g")]
+    found = [CheckResult.ok("a", "wörds"), CheckResult.warning("b", "c", "d"), CheckResult.error("e", "f", "g")]
     assert list(from_json(to_json(found))) == found
     assert list(run_check_process("a", python(f"print({to_json(found)!r})"), 10, "r")) == found
 
@@ -142,12 +142,12 @@ def test_what_a_process_found_comes_back_as_it_was() -> None:
 )
 def test_a_process_that_qt_ends_is_told_in_its_own_words(program: str, words: str) -> None:
     found = alone(run_check_process("screen", python(program), 10, "plug one in"))
-    assert (found.what, found.state, words in found.words) == ("screen", Severity.BAD, True)
+    assert (found.name, found.severity, words in found.message) == ("screen", Severity.ERROR, True)
 
 
 def test_a_process_that_hangs_is_ended() -> None:
     before = set(psutil.Process().children())  # other tests of this worker may have left a process that is ending
     hangs = "import time; time.sleep(60)"
     found = alone(run_check_process("screen", python(hangs), 0.5, "plug one in"))
-    assert (found.state, "no answer" in found.words) == (Severity.BAD, True)
+    assert (found.severity, "no answer" in found.message) == (Severity.ERROR, True)
     assert set(psutil.Process().children()) <= before

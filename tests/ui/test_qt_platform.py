@@ -138,7 +138,7 @@ def test_a_check_says_what_to_install_and_does_not_praise_the_drawing(monkeypatc
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("DISPLAY", NOWHERE)
     for found in (*screens_check(0), *frame_check(read_study(Settings()))):
-        assert (found.state, "libxcb-cursor.so.0" in found.words) == (Severity.BAD, True)
+        assert (found.severity, "libxcb-cursor.so.0" in found.message) == (Severity.ERROR, True)
         assert found.remedy.endswith("sudo apt-get install libxcb-cursor0")
 
 

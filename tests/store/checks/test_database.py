@@ -33,7 +33,7 @@ def test_a_folder_without_a_database_is_well_and_gets_none(tmp_path: Path) -> No
         *backup_check(tmp_path, tmp_path / FOLDER, now),
         *allocation_check(tmp_path, "", DECLARED),
     ]
-    assert {each.state for each in found} == {Severity.GOOD}
+    assert {each.severity for each in found} == {Severity.OK}
     assert list(sessions_check(tmp_path, busy=False)) == []
     assert not in_use(tmp_path)
     assert list(tmp_path.iterdir()) == []
@@ -49,8 +49,8 @@ def test_a_day_is_counted_and_nothing_of_it_is_touched(folder: Path, provenance:
     before = files(folder)
     (whole,) = database_check(folder, busy=False)
     (stored,) = sessions_check(folder, busy=False)
-    assert whole.state is Severity.GOOD
-    assert stored.words == "3 of people, 0 of them cut off"
+    assert whole.severity is Severity.OK
+    assert stored.message == "3 of people, 0 of them cut off"
     assert files(folder) == before
 
 
@@ -61,7 +61,7 @@ def test_a_session_that_was_cut_off_is_told(folder: Path, provenance: Provenance
         seated(recorder, provenance, COMPLETED, simulated=False)
         seated(recorder, provenance, BEGUN, simulated=False)
     (stored,) = sessions_check(folder, busy=False)
-    assert stored.words == "3 of people, 2 of them cut off"
+    assert stored.message == "3 of people, 2 of them cut off"
 
 
 def test_a_kiosk_at_work_is_seen_and_goes_on(folder: Path, provenance: Provenance) -> None:
@@ -69,7 +69,7 @@ def test_a_kiosk_at_work_is_seen_and_goes_on(folder: Path, provenance: Provenanc
         recorder.begin(provenance, BEGUN)
         (found,) = database_check(folder, busy=in_use(folder))
         recorder.append(COMPLETED[1:])
-    assert (found.state, "is open" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "is open" in found.message) == (Severity.WARNING, True)
     assert not in_use(folder)
 
 
@@ -107,13 +107,13 @@ def test_a_database_that_cannot_be_gone_on_with_is_bad_and_left_as_it_is(
     words = spoil(folder / FILE)  # type: ignore[operator]
     before = files(folder)
     (found,) = database_check(folder, busy=False)
-    assert (found.state, words in found.words) == (Severity.BAD, True)
+    assert (found.severity, words in found.message) == (Severity.ERROR, True)
     rest = [
         *sessions_check(folder, busy=False),
         *allocation_check(folder, "", DECLARED),
         *clock_check(folder, datetime.now(UTC), None),
     ]
-    assert Severity.BAD not in {each.state for each in rest}
+    assert Severity.ERROR not in {each.severity for each in rest}
     assert files(folder) == before
 
 
@@ -123,7 +123,7 @@ def test_a_database_that_cannot_be_gone_on_with_is_bad_and_left_as_it_is(
 def test_people_without_a_copy_are_told_of(folder: Path, provenance: Provenance) -> None:
     a_day(folder, provenance)
     (found,) = backup_check(folder, folder / FOLDER, datetime.now(UTC))
-    assert (found.state, found.remedy) == (Severity.WARNING, "recollect backup")
+    assert (found.severity, found.remedy) == (Severity.WARNING, "recollect backup")
 
 
 def test_a_copy_of_today_is_well_and_an_old_one_only_if_nothing_came_since(
@@ -137,7 +137,7 @@ def test_a_copy_of_today_is_well_and_an_old_one_only_if_nothing_came_since(
     long_ago = (now - 2 * OLD).timestamp()
     os.utime(made, (long_ago, long_ago))
     (old,) = backup_check(folder, folder / FOLDER, now)
-    assert [each.state for each in (fresh, rested, old)] == [Severity.GOOD, Severity.GOOD, Severity.WARNING]
+    assert [each.severity for each in (fresh, rested, old)] == [Severity.OK, Severity.OK, Severity.WARNING]
 
 
 # Places
@@ -149,9 +149,9 @@ def test_the_list_tells_how_much_of_it_is_left(folder: Path, provenance: Provena
         first = seated(recorder, provenance, simulated=False)
     assert first is not None
     (found,) = allocation_check(folder, "", DECLARED)
-    assert f"{first.condition.value} 1 of 4" in found.words
+    assert f"{first.condition.value} 1 of 4" in found.message
     (elsewhere,) = allocation_check(folder, "ROME", DECLARED)
-    assert "fixed when the kiosk opens" in elsewhere.words
+    assert "fixed when the kiosk opens" in elsewhere.message
 
 
 def test_a_list_that_is_used_up_is_told_of(folder: Path, provenance: Provenance) -> None:
@@ -160,10 +160,10 @@ def test_a_list_that_is_used_up_is_told_of(folder: Path, provenance: Provenance)
         for _ in range(8):
             seated(recorder, provenance, simulated=False)
     (found,) = allocation_check(folder, "", DECLARED)
-    assert (found.state, found.words) == (Severity.WARNING, "used up: tom 4 of 4, notom 4 of 4")
+    assert (found.severity, found.message) == (Severity.WARNING, "used up: tom 4 of 4, notom 4 of 4")
     raised = Allocation(target_n={"tom": 8, "notom": 8}, block_size=4)
     (more,) = allocation_check(folder, "", raised)
-    assert (more.state, more.words) == (Severity.GOOD, "tom 4 of 8, notom 4 of 8")
+    assert (more.severity, more.message) == (Severity.OK, "tom 4 of 8, notom 4 of 8")
 
 
 @pytest.mark.parametrize(
@@ -180,12 +180,12 @@ def test_another_list_than_the_fixed_one_is_bad_before_the_kiosk_refuses_it(
 ) -> None:
     a_day(folder, provenance)
     (found,) = allocation_check(folder, "", DECLARED.model_copy(update=other))
-    assert (found.state, "another list" in found.words) == (Severity.BAD, True)
+    assert (found.severity, "another list" in found.message) == (Severity.ERROR, True)
 
 
 def test_a_study_without_quotas_has_no_list(folder: Path) -> None:
     (found,) = allocation_check(folder, "", Allocation(target_n={}))
-    assert found.state is Severity.GOOD
+    assert found.severity is Severity.OK
 
 
 # Clock
@@ -197,12 +197,12 @@ def test_a_clock_that_was_set_back_is_told_with_both_times(folder: Path, provena
     (right,) = clock_check(folder, now, now - timedelta(days=9))
     (a_little,) = clock_check(folder, now - SLACK / 2, None)
     (back,) = clock_check(folder, now - timedelta(hours=3), None)
-    assert [each.state for each in (right, a_little, back)] == [Severity.GOOD, Severity.GOOD, Severity.WARNING]
-    assert f"{now:%Y-%m-%d %H:%M}" in back.words
-    assert "UTC" in right.words
+    assert [each.severity for each in (right, a_little, back)] == [Severity.OK, Severity.OK, Severity.WARNING]
+    assert f"{now:%Y-%m-%d %H:%M}" in back.message
+    assert "UTC" in right.message
 
 
 def test_a_clock_from_before_the_program_was_made_is_told_of(tmp_path: Path) -> None:
     made = datetime(2026, 5, 1, tzinfo=UTC)
     (found,) = clock_check(tmp_path, datetime(1970, 1, 1, tzinfo=UTC), made)
-    assert (found.state, "2026-05-01" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "2026-05-01" in found.message) == (Severity.WARNING, True)

@@ -36,14 +36,14 @@ def failing(failure: Exception) -> Callable[[Path], Sequence[float]]:
 
 @pytest.mark.parametrize(
     ("free_mib", "state"),
-    [(WARN_MIB, Severity.GOOD), (WARN_MIB - 1, Severity.WARNING), (REFUSE_MIB - 1, Severity.BAD), (0, Severity.BAD)],
+    [(WARN_MIB, Severity.OK), (WARN_MIB - 1, Severity.WARNING), (REFUSE_MIB - 1, Severity.ERROR), (0, Severity.ERROR)],
 )
 def test_a_disk_is_warned_of_in_time_and_refused_before_it_is_full(
     free_mib: int, state: Severity, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(shutil, "disk_usage", lambda _: Usage(free_mib * MIB))
     (found,) = free_space_check(tmp_path / "data")
-    assert (found.state, str(free_mib) in found.words) == (state, True)
+    assert (found.severity, str(free_mib) in found.message) == (state, True)
 
 
 def test_a_disk_that_is_gone_is_bad(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -52,35 +52,35 @@ def test_a_disk_that_is_gone_is_bad(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(shutil, "disk_usage", gone)
     (found,) = free_space_check(tmp_path)
-    assert (found.state, "Input/output error" in found.words) == (Severity.BAD, True)
+    assert (found.severity, "Input/output error" in found.message) == (Severity.ERROR, True)
 
 
 def test_a_folder_that_others_can_look_into_is_told_of_with_the_command_that_closes_it(tmp_path: Path) -> None:
     tmp_path.chmod(0o755)
     (found,) = access_check(tmp_path)
-    assert (found.state, found.remedy) == (Severity.WARNING, f"chmod 700 {tmp_path}")
+    assert (found.severity, found.remedy) == (Severity.WARNING, f"chmod 700 {tmp_path}")
     tmp_path.chmod(0o700)
     (found,) = access_check(tmp_path)
-    assert found.state is Severity.GOOD
+    assert found.severity is Severity.OK
 
 
 def test_a_folder_that_is_not_there_yet_is_well_and_is_not_made(tmp_path: Path) -> None:
     (found,) = access_check(tmp_path / "new" / "data")
-    assert found.state is Severity.GOOD
+    assert found.severity is Severity.OK
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_folder_that_cannot_be_written_is_bad(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
     (found,) = access_check(tmp_path)
-    assert found.state is Severity.BAD
+    assert found.severity is Severity.ERROR
 
 
 @pytest.mark.parametrize(
     ("times", "state"),
     [
-        ([0.4] * 20, Severity.GOOD),
-        ([0.4] * 19 + [STALL_MS], Severity.GOOD),
+        ([0.4] * 20, Severity.OK),
+        ([0.4] * 19 + [STALL_MS], Severity.OK),
         ([0.4] * 19 + [STALL_MS + 1], Severity.WARNING),
         ([SLOW_MS + 0.1] * 20, Severity.WARNING),
     ],
@@ -89,8 +89,8 @@ def test_a_disk_that_would_be_felt_at_the_screen_is_told_of(
     times: list[float], state: Severity, tmp_path: Path
 ) -> None:
     (found,) = write_speed_check(tmp_path, lambda _: times)
-    assert found.state is state
-    assert f"at most {max(times):.0f} ms" in found.words
+    assert found.severity is state
+    assert f"at most {max(times):.0f} ms" in found.message
 
 
 @pytest.mark.parametrize(
@@ -102,8 +102,8 @@ def test_a_disk_that_would_be_felt_at_the_screen_is_told_of(
 )
 def test_a_disk_that_takes_no_record_is_bad(failure: Exception, words: str, tmp_path: Path) -> None:
     (found,) = write_speed_check(tmp_path, failing(failure))
-    assert found.state is Severity.BAD
-    assert words in found.words
+    assert found.severity is Severity.ERROR
+    assert words in found.message
 
 
 def test_records_are_tried_on_the_same_disk_and_nothing_is_left(tmp_path: Path) -> None:

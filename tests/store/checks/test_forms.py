@@ -29,27 +29,27 @@ def store_answers(folder: Path, *, simulated: bool = False) -> None:
 
 def test_a_study_that_is_as_it_was_is_well(tmp_path: Path) -> None:
     store_answers(tmp_path)
-    assert [finding.state for finding in forms(tmp_path, PLAN)] == [Severity.GOOD]
+    assert [result.severity for result in forms(tmp_path, PLAN)] == [Severity.OK]
 
 
 def test_a_form_that_changed_under_its_version_is_told(tmp_path: Path) -> None:
     store_answers(tmp_path)
-    (finding,) = forms(tmp_path, replace(PLAN, about_you=CHANGED))
-    assert finding.state is Severity.WARNING
+    (result,) = forms(tmp_path, replace(PLAN, about_you=CHANGED))
+    assert result.severity is Severity.WARNING
     assert (
-        "'about-you' is still version '1', but visitors were asked otherwise before: first, second, L" in finding.words
+        "'about-you' is still version '1', but visitors were asked otherwise before: first, second, L" in result.message
     )
     renewed = CHANGED.model_copy(update={"version": "2"})
-    assert [finding.state for finding in forms(tmp_path, replace(PLAN, about_you=renewed))] == [Severity.GOOD]
+    assert [result.severity for result in forms(tmp_path, replace(PLAN, about_you=renewed))] == [Severity.OK]
 
 
 def test_what_was_only_rehearsed_may_change(tmp_path: Path) -> None:
     store_answers(tmp_path, simulated=True)
-    assert [finding.state for finding in forms(tmp_path, replace(PLAN, about_you=CHANGED))] == [Severity.GOOD]
+    assert [result.severity for result in forms(tmp_path, replace(PLAN, about_you=CHANGED))] == [Severity.OK]
 
 
 def test_a_folder_without_a_database_or_with_a_spoilt_one_is_no_matter_of_it(tmp_path: Path) -> None:
-    assert [finding.state for finding in forms(tmp_path, PLAN)] == [Severity.GOOD]
+    assert [result.severity for result in forms(tmp_path, PLAN)] == [Severity.OK]
     assert list(tmp_path.iterdir()) == []
     (tmp_path / FILE).write_bytes(b"spoilt" * 1000)
-    assert [finding.state for finding in forms(tmp_path, PLAN)] == [Severity.GOOD]
+    assert [result.severity for result in forms(tmp_path, PLAN)] == [Severity.OK]

@@ -196,7 +196,7 @@ def test_an_unfinished_withdrawal_is_told_by_verify_and_by_check(cut_off: Path) 
     (flaw,) = verify(cut_off)
     assert (flaw.check, flaw.where) == (Verification.FINISHED, "session 2")
     (found,) = database_check(cut_off, busy=False)
-    assert (found.state, "a withdrawal was cut off" in found.words) == (Severity.WARNING, True)
+    assert (found.severity, "a withdrawal was cut off" in found.message) == (Severity.WARNING, True)
 
 
 def test_only_the_same_code_finishes_a_withdrawal_by_name(cut_off: Path, code: str) -> None:
