@@ -146,7 +146,7 @@ def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[
     """What `recollect check` says of everything that it lists: how it is, and in which words."""
     checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
     results = json.loads(checked.stdout)["results"]
-    return {finding["what"]: (finding["state"], finding["words"]) for finding in findings}
+    return {result["name"]: (result["severity"], result["message"]) for result in results}
 
 
 Beside = Callable[[Path], None]

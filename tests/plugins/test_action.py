@@ -51,7 +51,7 @@ def test_a_session_with_it_is_recorded_exported_and_explained(lab: Lab, day: Day
 
 
 def test_the_check_lists_it_with_its_package_and_version(added: dict[str, tuple[str, str]]) -> None:
-    assert added["action encourage"] == ("good", "recollect-encourage 1.0")
+    assert added["action encourage"] == ("ok", "recollect-encourage 1.0")
 
 
 def test_a_language_that_it_has_no_sentences_in_is_refused(

@@ -33,7 +33,7 @@ def test_a_session_asks_it_and_the_data_have_the_answer_and_its_score(day: Day) 
 
 
 def test_the_check_lists_it_with_its_package_and_version(added: dict[str, tuple[str, str]]) -> None:
-    assert added["kind of item ranking"] == ("good", "recollect-ranking 1.0")
+    assert added["kind of item ranking"] == ("ok", "recollect-ranking 1.0")
 
 
 def test_a_table_of_items_can_have_it_with_its_own_column(lab: Lab, tmp_path: Path) -> None:

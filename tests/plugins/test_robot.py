@@ -31,7 +31,7 @@ def test_a_session_is_held_with_it_and_the_data_name_it(day: Day) -> None:
 
 
 def test_the_check_lists_it_with_its_package_and_version(added: dict[str, tuple[str, str]]) -> None:
-    assert added["robot printing"] == ("good", "recollect-printing-robot 1.0")
+    assert added["robot printing"] == ("ok", "recollect-printing-robot 1.0")
 
 
 def test_it_is_tried_without_what_it_cannot_do(lab: Lab) -> None:
