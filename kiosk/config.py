@@ -122,7 +122,7 @@ class Timing(ConfigModel):
     mismatch_shown_ms: Annotated[Milliseconds, Field(description="How long two unmatched cards stay open.")] = 1200
     highlight_delay_ms: Annotated[
         Delay,
-        Field(description="From the start of a spoken hint to its mark; never later than its end."),
+        Field(description="From the start of a spoken hint to its mark, never later than its end; 0 marks at once."),
     ] = 3500
     highlight_delay_silent_ms: Annotated[
         Delay, Field(description="The same for a hint that is only shown as text.")
@@ -139,11 +139,23 @@ class Timing(ConfigModel):
         Delay,
         Field(description="The least time a hint holds the board; if no sentence is longer, all holds are equal."),
     ] = 0
+    taps_wait: Annotated[
+        bool, Field(description="Whether cards cannot be tapped until a hint has been said, or could be read.")
+    ] = True
+    tap_ends_sentence: Annotated[
+        bool, Field(description="If taps do not wait: whether one ends the sentence; else it is said to its end.")
+    ] = True
     mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
     finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
     thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay unless they are tapped away.")] = (
         12_000
     )
+
+    @model_validator(mode="after")
+    def _hold_only_what_waits(self) -> Self:
+        if self.hold_min_ms and not self.taps_wait:
+            raise ValueError("hold_min_ms must be 0 if taps_wait is false: hints do not hold the board then")
+        return self
 
     def reading_time(self, sentence: str) -> int:
         """How long a sentence is shown for reading, in ms."""
@@ -408,6 +420,9 @@ class Keys(ConfigModel):
     mute: Annotated[str, Field(description="Makes the voice and the sounds silent, or heard again.")] = "Ctrl+Shift+M"
     pause: Annotated[str, Field(description="Stops the session for a while, and lets it go on.")] = "Ctrl+Shift+Space"
     abort: Annotated[str, Field(description="Ends the session, with a reason.")] = "Ctrl+Shift+E"
+    volume: Annotated[str, Field(description="Makes voice and sounds louder, step by step, and soft again.")] = (
+        "Ctrl+Shift+V"
+    )
     next: Annotated[str, Field(description="Gets ready for the next visitor at once.")] = "Ctrl+Shift+N"
     quit: Annotated[str, Field(description="Leaves the kiosk.")] = "Ctrl+Shift+Q"
 

@@ -320,6 +320,7 @@ LEAST_WIDTH = 100
 @site_option
 @robot_host_option
 @robot_port_option
+@click.option("--say", is_flag=True, help="Say a test sentence in every language, so that you hear the voice.")
 @json_option
 @click.pass_context
 def check_command(
@@ -330,13 +331,19 @@ def check_command(
     robot_host: str | None,
     robot_port: int | None,
     *,
+    say: bool,
     as_json: bool,
 ) -> None:
-    """Try everything that a booth needs; exit code 1 if no session can be held. Nothing is heard, shown or kept."""
+    """Try everything that a booth needs; exit code 1 if no session can be held.
+
+    Nothing is shown or kept, and nothing is heard without --say.
+    """
     booth = _booth(data, checked_site(site), study, robot_host, robot_port)
     looks = tuple(all_checks(booth))
     with progress_bar("looking", len(looks), hidden=as_json) as tell:
         found = run_checks(looks, tell)
+    if say:
+        found = (*found, *_said(booth))
     ready = all(result.severity is not Severity.ERROR for result in found)
     if as_json:
         rows = [asdict(result) | {"severity": result.severity.value} for result in found]
@@ -348,6 +355,15 @@ def check_command(
     if booth.faults or broken:
         raise UserInputError(*dict.fromkeys((*booth.faults, *broken)))
     context.exit(0 if ready else NOT_READY)
+
+
+def _said(booth: CheckTargets) -> Iterator[CheckResult]:
+    """Say a sentence in every language, one after another, at the study's volume."""
+    if booth.settings is None or booth.study is None:
+        return
+    for plan in booth.study.plans:
+        command = voice_program(booth.settings.voice_from_here, plan.language)
+        yield robots_checks.say_check(command, plan.language, plan.catalogue.text(SENTENCE))
 
 
 def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int | None) -> CheckTargets:

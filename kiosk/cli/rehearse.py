@@ -11,6 +11,7 @@ from itertools import count, repeat
 from math import isfinite
 from pathlib import Path
 from random import Random
+from statistics import mean
 from time import monotonic
 from typing import Any
 
@@ -29,7 +30,7 @@ from kiosk.cli.options import (
 from kiosk.config import NO_ROBOT, STAGES
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, Stage
-from kiosk.experiment.projections import count_speech
+from kiosk.experiment.projections import count_speech, waiting_shares
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.robots.registry import check_robot
@@ -244,9 +245,17 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
 
     with open_repository(data) as there:
         played = there.sessions()[-stored:] if stored else []
-        changes = sum(len(SessionState.from_events(there.events(session.id)).body_changes) for session in played)
+        states = [SessionState.from_events(there.events(session.id)) for session in played]
     ends = Counter(session.status.value if session.status else "running" for session in played)
-    return {"ends": dict(ends), "body_changes": changes}
+    changes = sum(len(state.body_changes) for state in states)
+    waits = [shares for state in states if (shares := waiting_shares(state)) is not None]
+    return {
+        "ends": dict(ends),
+        "body_changes": changes,
+        "finished_games": len(waits),
+        "taps_wait_for_hint": round(mean(each.hint for each in waits), 3) if waits else None,
+        "taps_wait_turning_back": round(mean(each.turning_back for each in waits), 3) if waits else None,
+    }
 
 
 def _in_words(told: dict[str, Any]) -> str:
@@ -260,6 +269,12 @@ def _in_words(told: dict[str, Any]) -> str:
     lines += [
         f"{name:15}{begun[name]:12}{ended[name]:13}{slopes[name]:14}" for name in ProcessUsage.__dataclass_fields__
     ]
+    if told["finished_games"]:
+        hint, turning = told["taps_wait_for_hint"], told["taps_wait_turning_back"]
+        lines.append(
+            f"In {told['finished_games']} finished games taps waited {hint:.1%} of the time for a hint, "
+            f"and {turning:.1%} for cards to turn back."
+        )
     left = "Nothing is left over." if told["nothing_is_left"] else "Something is left over at the end of the day."
     return "\n".join((*lines, left))
 

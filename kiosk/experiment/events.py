@@ -492,6 +492,13 @@ class BoardUnlocked(SessionEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class SpeechCutShort(SessionEvent):
+    """The sentence of a hint was ended by the tap on the next card."""
+
+    utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class CardSelectionRejected(SessionEvent):
     """A card was tapped that could not be turned."""
 

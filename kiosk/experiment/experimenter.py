@@ -114,7 +114,7 @@ TABLE: Mapping[Action, Mapping[Stage, Permission]] = MappingProxyType(
         Action.NEXT: _rules(_REFUSED, _NOW_WITH_REASON, thanks=_NOW, over=_NOW),
         Action.RESUME: _rules(_REFUSED, _REFUSED, attract=_NOW_WITH_REASON),
         Action.LANGUAGE: _rules(_NOW_WITH_REASON, _LATER_WITH_REASON),
-        Action.VOLUME: _rules(_NOW, _LATER),
+        Action.VOLUME: _always(_NOW),
         Action.BACKUP: _rules(_NOW, _LATER),
         Action.QUIT: _rules(_NOW_WITH_PIN, _NOW_WITH_REASON),
     }

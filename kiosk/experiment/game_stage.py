@@ -1,7 +1,8 @@
 """One game with its help: what a tap, a finished sentence or the end of a wait leads to on the board.
 
 A hint holds the board from the moment it is given until it has been heard or could be read. Its mark never comes
-later than the board opens, so that no flip can be made in ignorance of it; the next flip clears it.
+later than the board opens, so that no flip can be made in ignorance of it; the next flip clears it. Where the study
+says that taps do not wait, the board is open all the time, and a flip ends the sentence or lets it be said to its end.
 """
 
 from __future__ import annotations
@@ -41,6 +42,9 @@ class _Given:
     sentence: str
     at_ms: int
     holds: bool = True
+    """Whether it is still being said, or read; cards can be tapped meanwhile if the study says so."""
+    is_read: bool = False
+    """Whether its voice failed, so that it is only to be read."""
     told: bool = False
     """Whether it has been heard, or could be read."""
     held_long_enough: bool = True
@@ -86,6 +90,8 @@ class GameStage(StageHandler):
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
+        self._trailing: int | None = None
+        """The sentence of an earlier flip's hint that is still being said."""
 
     @property
     def helped(self) -> bool:
@@ -106,13 +112,17 @@ class GameStage(StageHandler):
         match event:
             case happened.CardSelected(position=position):
                 self._select_card(position, outcome)
-            case happened.SpeechStarted(utterance=utterance) if self._holding(utterance):
+            case happened.SpeechStarted(utterance=utterance) if self._is_unmarked(utterance):
                 # The mark follows the voice.
                 outcome.effect(do.StartTimer(Timer.MARK, self._timing.highlight_delay_ms))
             case happened.TimerExpired(timer=Timer.MARK):
                 self._mark(outcome)
             case happened.SpeechFinished(utterance=utterance) if self._holding(utterance):
                 self._release_board(outcome)
+            case happened.SpeechFinished(utterance=utterance) | happened.SpeechFailed(utterance=utterance) if (
+                utterance == self._trailing
+            ):
+                self._end_trailing(outcome)
             case happened.SpeechFailed(utterance=utterance):
                 self._let_be_read(utterance, outcome)
             case happened.TimerExpired(timer=timer):
@@ -138,7 +148,7 @@ class GameStage(StageHandler):
 
     def _select_card(self, position: Position, outcome: OutcomeBuilder) -> None:
         """Flip the card if that is possible now; if not, say why and change nothing."""
-        if self._given is not None and self._given.holds:
+        if self._given is not None and self._given.holds and self._timing.taps_wait:
             outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=None))
             return
         try:
@@ -147,6 +157,8 @@ class GameStage(StageHandler):
             outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=refusal.refusal))
             return
         given, self._given = self._given, None
+        if given is not None and given.holds and not given.is_read and self._timing.tap_ends_sentence:
+            outcome.emit(happened.SpeechCutShort(at_ms=outcome.at_ms, utterance=given.utterance))
         outcome.emit(
             happened.CardFlipped(
                 at_ms=outcome.at_ms,
@@ -158,13 +170,29 @@ class GameStage(StageHandler):
             )
         )
         if given is not None:
-            # Only a sentence that is said again can still be under way.
-            outcome.effect(do.ClearHighlight(), do.StopSpeaking(), do.ClearBubble())
+            self._put_away(given, outcome)
         outcome.effect(do.RevealCard(flip.position, flip.card))
         if flip.matched is None:
             self._help_or_open(outcome)
         else:
             self._move_completed(flip, given, outcome)
+
+    def _put_away(self, given: _Given, outcome: OutcomeBuilder) -> None:
+        """Clear the hint of the flip that was just made; its sentence ends too, unless the study lets it be said."""
+        outcome.effect(do.ClearHighlight())
+        if given.holds:
+            outcome.effect(do.StopTimer(Timer.MARK), do.StopTimer(Timer.READING))
+            if not given.is_read and not self._timing.tap_ends_sentence:
+                self._trailing = given.utterance
+                return
+            outcome.effect(do.StopTimer(Timer.SPEECH_DEADLINE))
+        # Where taps wait, only a sentence that is said again can still be under way.
+        outcome.effect(do.StopSpeaking(), do.ClearBubble())
+
+    def _end_trailing(self, outcome: OutcomeBuilder) -> None:
+        if self._trailing is not None:
+            self._trailing = None
+            outcome.effect(do.StopTimer(Timer.SPEECH_DEADLINE), do.ClearBubble())
 
     def _go_on_after(self, timer: Timer, outcome: OutcomeBuilder) -> None:
         """Go on after a wait."""
@@ -181,6 +209,7 @@ class GameStage(StageHandler):
                     self._release_board(outcome)
             case Timer.SPEECH_DEADLINE:
                 outcome.effect(do.StopSpeaking())
+                self._end_trailing(outcome)
                 self._release_board(outcome)
             case Timer.MOOD:
                 outcome.effect(do.SetExpression(Mood.IDLE))
@@ -195,6 +224,7 @@ class GameStage(StageHandler):
         """The hint will not be heard: give what is left of the time to read it, counted from when it was shown."""
         given = self._holding(utterance)
         if given is not None:
+            given.is_read = True
             shown_ms = outcome.at_ms - given.at_ms
             outcome.effect(
                 do.StopTimer(Timer.SPEECH_DEADLINE),
@@ -235,7 +265,7 @@ class GameStage(StageHandler):
         sentence = sentences.remark(decision.action) if hint is None else sentences.sentence(hint)
         given = _Given(hint, decision.action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
-        self._given = given
+        self._given, self._trailing = given, None
         outcome.emit(
             given.hint_event(hint)
             if hint
@@ -248,8 +278,14 @@ class GameStage(StageHandler):
                 utterance=given.utterance,
             )
         )
+        if self._timing.taps_wait:
+            outcome.effect(do.LockBoard(BoardWait.SPEAKING))
+        else:
+            outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
+            outcome.effect(do.UnlockBoard())
+        if self._timing.highlight_delay_ms == 0:
+            self._mark(outcome)
         outcome.effect(
-            do.LockBoard(BoardWait.SPEAKING),
             do.Speak(given.utterance, sentence),
             do.StartTimer(Timer.SPEECH_DEADLINE, self._timing.speech_time(sentence)),
         )
@@ -277,6 +313,10 @@ class GameStage(StageHandler):
         given = self._given
         return given if given is not None and given.holds and given.utterance == utterance else None
 
+    def _is_unmarked(self, utterance: int) -> bool:
+        given = self._holding(utterance)
+        return given is not None and not given.marked
+
     def _release_board(self, outcome: OutcomeBuilder) -> None:
         """The hint has been taken in: see that it is marked, and open the board once it was held long enough."""
         if self._given is None or not self._given.holds:
@@ -287,8 +327,9 @@ class GameStage(StageHandler):
             return
         self._given.holds = False
         self._mark(outcome)
-        outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
-        outcome.effect(do.UnlockBoard())
+        if self._timing.taps_wait:
+            outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
+            outcome.effect(do.UnlockBoard())
         outcome.effect(*(do.StopTimer(timer) for timer in (Timer.MARK, Timer.READING, Timer.SPEECH_DEADLINE)))
 
     def _mark(self, outcome: OutcomeBuilder) -> None:

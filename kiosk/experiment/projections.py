@@ -132,6 +132,32 @@ def measure_game(state: SessionState) -> Measures:
     )
 
 
+@dataclass(frozen=True)
+class WaitingShares:
+    """The share, from 0 to 1, of a game in which taps on cards wait: for a hint's sentence, and for cards to turn back.
+
+    The game is from the moment its board was dealt to the last match, without pauses.
+    """
+
+    hint: float
+    turning_back: float
+
+
+def waiting_shares(state: SessionState) -> WaitingShares | None:
+    """Measure how long taps waited in a game that was finished; None for any other."""
+    game = state.game
+    if game is None or not state.game_completed:
+        return None
+    begin = game.event.at_ms
+    end = max(flip.event.at_ms for flip in game.flips.values() if flip.event.matched)
+    whole = elapsed_ms(begin, end, state.pauses)
+    held = [(hint.given.at_ms, hint.opened_ms) for hint in game.hints.values()]
+    held += [(remark.given.at_ms, remark.opened_ms) for remark in game.remarks.values()]
+    hints = sum(elapsed_ms(begun, end if opened is None else opened, state.pauses) for begun, opened in held)
+    missed = sum(flip.exposure_ms or 0 for flip in game.flips.values() if flip.event.matched is False)
+    return WaitingShares(hints / whole, missed / whole)
+
+
 def _share(part: float, whole: int) -> float | None:
     return part / whole if whole else None
 

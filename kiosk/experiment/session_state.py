@@ -35,6 +35,7 @@ from kiosk.experiment.events import (
     SentenceRequested,
     SessionEnded,
     SessionResumed,
+    SpeechCutShort,
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
@@ -166,6 +167,8 @@ class SpeechAttempt:
     started_ms: int | None = None
     finished_ms: int | None = None
     failed_ms: int | None = None
+    cut_ms: int | None = None
+    """When a tap ended it."""
     heard: SpeechStarted | None = None
     """What is told of the voice that said it."""
 
@@ -435,6 +438,8 @@ class _Speech:
         self._hinted_flip: int | None = None
         self._under_way: int | None = None
         self._broken_off: int | None = None
+        self._trails: int | None = None
+        """A sentence during which cards can be tapped already."""
 
     def take(self, event: Event, stage: Stage) -> None:
         self._request(event, stage)
@@ -442,7 +447,9 @@ class _Speech:
         match event:
             case StageEntered() | TimerExpired(timer=Timer.SPEECH_DEADLINE):
                 self._under_way = None
-            case CardFlipped(number=flip) if flip == self._hinted_flip:
+            case BoardUnlocked():
+                self._trails = self._under_way
+            case CardFlipped(number=flip) if flip == self._hinted_flip and self._under_way != self._trails:
                 self._under_way = None
             case RobotDisconnected(at_ms=at_ms) if self._under_way is not None:
                 self._broken_off = self._under_way
@@ -481,6 +488,9 @@ class _Speech:
                 self._stop(number)
             case SpeechFailed(utterance=number, at_ms=at_ms) if number in self.sentences:
                 self._fail(number, at_ms)
+            case SpeechCutShort(utterance=number, at_ms=at_ms) if number in self.sentences:
+                self._set_last(number, replace(self._last(number), cut_ms=at_ms))
+                self._stop(number)
 
     def _fail(self, number: int, at_ms: int) -> None:
         self._set_last(number, replace(self._last(number), failed_ms=at_ms))

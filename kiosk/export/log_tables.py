@@ -167,6 +167,16 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
         ),
         lambda row: row.what.failed_ms,
     ),
+    (
+        Variable(
+            "cut_ms",
+            "When a tap on the next card ended the sentence of a hint, from the session's first event.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="no tap ended it",
+        ),
+        lambda row: row.what.cut_ms,
+    ),
     *(
         (Variable(name, text, empty="the avatar's voice did not say it, or nothing was noted"), _by(field))
         for name, field, text in (

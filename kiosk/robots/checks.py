@@ -66,6 +66,23 @@ def voice_check(command: Sequence[str], language: str, sentence: str) -> Iterato
     yield _told(what, language, dict(_events(told)))
 
 
+def say_check(command: Sequence[str], language: str, sentence: str) -> CheckResult:
+    """Have the voice's process, started by this command, say a sentence on the sound device, to its end."""
+    what = f"said: {language}"
+    try:
+        events = dict(_events(_run(command, {"say": 1, "text": sentence}, {"finish": True})))
+    except subprocess.TimeoutExpired:
+        events = {"failed": {"why": "it was not said to its end in time"}}
+    except OSError as error:
+        events = {"failed": {"why": f"the voice cannot be started: {error.strerror}"}}
+    if "finished" in events:
+        by, seconds = events["started"]["by"], events["started"]["duration_ms"] / MS_PER_SECOND
+        words = f"{by['voice']} of {by['engine']} said a sentence of {seconds:.1f} s on {by['device']}"
+        return CheckResult.ok(what, words)
+    why = events.get("failed", events.get("unavailable", {})).get("why", "the voice's process died")
+    return CheckResult.warning(what, f"nothing was heard: {why}", "see what is said of the sound and the voice")
+
+
 def _run(command: Sequence[str], *lines: dict[str, object]) -> str:
     """What the process says to these commands; what it leaves when it has to be ended goes as well."""
     with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:

@@ -90,6 +90,8 @@ class TtsWorker:
         self._commands = commands
         self._saying: int | None = None
         self._told: dict[str, object] = {}
+        self._ends = False
+        """Whether the work ends with the sentence that is under way."""
         self._sounds: dict[str, Clip] = {}
 
     def run(self) -> None:
@@ -135,7 +137,7 @@ class TtsWorker:
 
     def _next_commands(self) -> Iterator[dict[str, Any]]:
         """Every command in turn; look after the sound device between them."""
-        while True:
+        while not self._ends or self._saying is not None:
             try:
                 command = self._commands.get(timeout=_TEND_S)
             except queue.Empty:
@@ -144,7 +146,10 @@ class TtsWorker:
             if command is None:
                 self._stop()
                 return
-            yield command
+            if "finish" in command:
+                self._ends = True
+            else:
+                yield command
             self._player.tend()
 
     def _hear(self, event: dict[str, Any]) -> None:
@@ -197,15 +202,20 @@ class WorkerReport:
 
 
 def _read_into(commands: Commands) -> None:
+    is_finishing = False
     try:
         for line in sys.stdin:
             command = json.loads(line)
             if "quit" in command:
                 return
             commands.put(command)
+            if "finish" in command:
+                is_finishing = True
+                return
     finally:
         # Whatever ends the input, a line that is no command too, ends the work: nobody is left to speak to.
-        commands.put(None)
+        if not is_finishing:
+            commands.put(None)
 
 
 def run_tts_worker(options: Mapping[str, Any]) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Timing
 from kiosk.experiment import events as happened
@@ -11,7 +13,7 @@ from tests.samples import always, plan
 
 
 def playing(
-    action: ActionSpec = ActionSpec.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: int
+    action: ActionSpec = ActionSpec.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: Any
 ) -> Driver:
     """A game that has just begun, in which the assistant always does the same."""
     driver = Driver(plan(policy=always(action), timing=Timing(**timing)), seed, voice)

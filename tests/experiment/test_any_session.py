@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from kiosk.assistance.policy import NO_GATE, Gate
-from kiosk.config import STAGES, Game, Practice
+from kiosk.config import STAGES, Game, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
@@ -96,13 +96,21 @@ class AnySession(RuleBasedStateMachine):
         gate=st.sampled_from([NO_GATE, Gate(2, 2, 4)]),
         shape=st.sampled_from([(2, 2), (3, 4)]),
         course=st.sampled_from(COURSES),
+        timing=st.builds(Timing, taps_wait=st.booleans(), tap_ends_sentence=st.booleans()),
         data=st.data(),
     )
     def prepare(  # noqa: PLR0913, PLR0917 - what differs between sessions
-        self, condition: Condition, seed: int, gate: Gate, shape: tuple[int, int], course: tuple[str, ...], data: Any
+        self,
+        condition: Condition,
+        seed: int,
+        gate: Gate,
+        shape: tuple[int, int],
+        course: tuple[str, ...],
+        timing: Timing,
+        data: Any,
     ) -> None:
         board, practice = Game(rows=shape[0], columns=shape[1]), Practice(rows=2, columns=2)
-        self.plan = plan(condition, mixed(seed, gate), course, game=board, practice=practice)
+        self.plan = plan(condition, mixed(seed, gate), course, game=board, practice=practice, timing=timing)
         self.session, self.twin = (Session(self.plan, seed) for _ in range(2))
         self.hurry_to(data.draw(st.sampled_from([Stage.ATTRACT, *self.plan.stage_order.stages])))
 

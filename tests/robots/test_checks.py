@@ -13,7 +13,7 @@ from kiosk.config import RobotConfig, VoiceConfig
 from kiosk.preflight import CheckResult, Severity
 from kiosk.robots import audio, voice_program
 from kiosk.robots import checks as robots_checks
-from kiosk.robots.checks import SLOW_MS, robot_check, sound_check, voice_check, within_s
+from kiosk.robots.checks import SLOW_MS, robot_check, say_check, sound_check, voice_check, within_s
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -196,3 +196,15 @@ def test_a_robot_that_would_have_to_be_changed_is_left_to_the_kiosk_that_has_it(
 def test_a_robot_has_as_long_as_its_own_deadlines_and_less_than_twenty_seconds() -> None:
     assert within_s(RobotConfig()) <= 15
     assert within_s(RobotConfig(answer_deadline_ms=3000)) > within_s(RobotConfig())
+
+
+def test_a_test_sentence_is_told_with_who_said_it_and_where_or_why_nothing_was_heard() -> None:
+    by = {"engine": "pico", "voice": "en-US", "device": "Loudspeaker"}
+    started = {"event": "started", "id": 1, "duration_ms": 2300, "by": by}
+    well = say_check(saying(started, {"event": "finished", "id": 1}), "en", "Hello")
+    assert well.is_ok
+    assert well.message == "en-US of pico said a sentence of 2.3 s on Loudspeaker"
+    ill = say_check(saying(started, {"event": "failed", "id": 1, "why": "the sound device is gone"}), "en", "Hello")
+    assert not ill.is_ok
+    assert ill.message == "nothing was heard: the sound device is gone"
+    assert say_check(python("pass"), "en", "Hello").message == "nothing was heard: the voice's process died"

@@ -136,6 +136,15 @@ def test_a_voice_that_is_told_to_quit_ends(process: Process) -> None:
     assert process.child.wait(timeout=10) == 0
 
 
+def test_a_voice_that_is_told_to_finish_ends_once_its_sentence_is_over(process: Process) -> None:
+    if process.hear()["event"] == "unavailable":
+        pytest.skip("there is no speech engine")
+    process.send({"say": 1, "text": "Hi."})
+    process.send({"finish": True})
+    assert [process.hear()["event"], process.hear()["event"]] == ["started", "finished"]
+    assert process.child.wait(timeout=10) == 0
+
+
 class Installed(NamedTuple):
     """A voice as the engine tells it."""
 

@@ -142,6 +142,7 @@ console-next-session = From the next session on
 console-condition = Condition of the next session
 console-embodiment = Who helps
 console-language = Language at rest
+console-volume-is = Volume { $percent } %
 console-volume = Volume
 console-now = Now
 console-repeat = Say it again

@@ -142,6 +142,7 @@ console-next-session = Desde la próxima sesión
 console-condition = Condición de la próxima sesión
 console-embodiment = Quién ayuda
 console-language = Idioma en reposo
+console-volume-is = Volumen { $percent } %
 console-volume = Volumen
 console-now = Ahora
 console-repeat = Repetir la frase

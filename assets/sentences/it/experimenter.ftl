@@ -142,6 +142,7 @@ console-next-session = Dalla prossima seduta
 console-condition = Condizione della prossima seduta
 console-embodiment = Chi aiuta
 console-language = Lingua a riposo
+console-volume-is = Volume { $percent } %
 console-volume = Volume
 console-now = Adesso
 console-repeat = Ripeti la frase

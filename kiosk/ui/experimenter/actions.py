@@ -57,6 +57,10 @@ class Services:
     leave: Callable[[], None]
 
 
+LOUDNESS = (0.2, 0.4, 0.6, 0.8, 1.0)
+"""The volumes to choose from."""
+
+
 class AuditLog:
     """Writes down what happens at the booth, and remembers in words what the disk did not take."""
 
@@ -298,11 +302,14 @@ class ActionController:
             self.tell("console-done")
 
     def _set_volume(self, choice: str, _reason: str) -> None:
-        volume = float(choice)
+        """Be so loud from now on; without a choice one step louder, and after the loudest the softest."""
+        louder = next((volume for volume in LOUDNESS if volume > self.volume), LOUDNESS[0])
+        volume = float(choice) if choice else louder
         if self._written(AuditEvent.VOLUME_CHANGED, {"volume": volume}):
             self.volume = volume
-            if self.resting:
-                self._booth.voice.set_volume(volume)
+            self._booth.voice.set_volume(volume)
+            if not choice:
+                self.tell("console-volume-is", percent=round(100 * volume))
 
     # What holds at once
 

@@ -20,7 +20,7 @@ from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, perm
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.snapshot import DashboardSnapshot, last_written_ms, read_interrupted_session, read_snapshot, wrong_pins
 from kiosk.ui.event_loop import Executor, TimerWait
-from kiosk.ui.experimenter.actions import AUTOMATIC, ActionController, AuditLog, Services
+from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, AuditLog, Services
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow, PinVerifier
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler, MaintenanceTasks
 from kiosk.ui.experimenter.status import (
@@ -103,9 +103,6 @@ RECORDS_EVERY = 10
 
 CLOSE_MS = 60_000
 """Without a hand on it for so long, the panel closes."""
-
-LOUDNESS = (0.2, 0.4, 0.6, 0.8, 1.0)
-"""The volumes to choose from."""
 
 
 class Panel:

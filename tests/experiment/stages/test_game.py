@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import pytest
+from pydantic import ValidationError
 
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.config import Timing
@@ -13,6 +15,8 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import BoardWait, Mood, Outcome
 from kiosk.experiment.events import Stage, Timer
+from kiosk.experiment.projections import WaitingShares, waiting_shares
+from kiosk.experiment.session_state import SessionState
 from kiosk.game import FlipRejection, Position
 from tests.experiment.driver import SPEECH_LAG, SPEECH_TIME, Driver, Voice, at_random, with_memory
 from tests.experiment.table import a_pair, another, miss, playing, seen
@@ -210,7 +214,7 @@ def test_the_mark_shows_no_more_than_the_hint_gives_away(action: ActionSpec, *, 
     assert driver.view.mark == (target.row if row else None, target.column if column else None)
 
 
-@pytest.mark.parametrize("delay", [0, 1000, 1900])
+@pytest.mark.parametrize("delay", [1, 1000, 1900])
 def test_the_mark_follows_the_voice_after_its_delay(delay: int) -> None:
     driver = playing(ActionSpec.SUG_CARD, highlight_delay_ms=delay)
     given_at = driver.now
@@ -402,3 +406,72 @@ def test_a_hint_for_the_first_card_alone_leaves_the_face_as_it_is() -> None:
     driver = playing(ActionSpec.SUG_CARD)
     driver.flip(Position(0, 0))
     assert driver.view.mood is Mood.IDLE
+
+
+# Taps that do not wait
+
+AT_ONCE: dict[str, Any] = {"highlight_delay_ms": 0, "taps_wait": False}
+
+
+def test_a_hint_marks_at_once_and_the_board_is_open_while_it_is_said() -> None:
+    driver = playing(ActionSpec.SUG_ROW, **AT_ONCE)
+    kinds = [type(event) for event in driver.events if event.at_ms == driver.now]
+    assert kinds[-3:] == [happened.HintGiven, happened.BoardUnlocked, happened.HintHighlighted]
+    assert driver.view.held is None
+    assert driver.view.mark is not None
+    driver.spend(SPEECH_TIME)
+    assert (len(driver.noted(happened.BoardUnlocked)), len(driver.noted(happened.HintHighlighted))) == (1, 1)
+    assert driver.running.keys() == {Timer.IDLE}
+
+
+def test_a_tap_ends_the_sentence_and_the_record_says_so() -> None:
+    driver = playing(ActionSpec.SUG_ROW, **AT_ONCE)
+    driver.spend(SPEECH_LAG)
+    outcome = driver.tap(driver.view.closed[0])
+    cut, flipped = outcome.events[:2]
+    assert cut == happened.SpeechCutShort(at_ms=driver.now, utterance=driver.noted(happened.HintGiven)[0].utterance)
+    assert isinstance(flipped, happened.CardFlipped)
+    assert {do.StopSpeaking(), do.ClearBubble(), do.StopTimer(Timer.SPEECH_DEADLINE)} <= set(outcome.effects)
+    said = {each.utterance: each for each in SessionState.from_events(driver.events).sentences}[cut.utterance]
+    assert (said.attempts[-1].cut_ms, said.attempts[-1].finished_ms) == (driver.now, None)
+
+
+def test_a_sentence_may_be_said_to_its_end_while_cards_are_turned() -> None:
+    driver = Driver(plan(policy=ONLY_SECOND, timing=Timing(tap_ends_sentence=False, **AT_ONCE)), 1, Voice.SPEAKS)
+    driver.to_the_game()
+    driver.tap(driver.view.closed[0])
+    driver.spend(SPEECH_LAG)
+    driver.tap(driver.view.closed[0])
+    assert driver.noted(happened.SpeechCutShort) == []
+    assert driver.view.mark is None
+    assert driver.view.bubble
+    driver.spend(SPEECH_TIME)
+    assert isinstance(driver.world[-1], happened.SpeechFinished)
+    assert not driver.view.bubble
+
+
+def test_a_hint_that_is_only_read_is_put_away_by_a_tap_without_a_voice_to_cut() -> None:
+    driver = playing(ActionSpec.SUG_ROW, Voice.FAILS, tap_ends_sentence=False, **AT_ONCE)
+    driver.spend(10)
+    outcome = driver.tap(driver.view.closed[0])
+    assert do.ClearBubble() in outcome.effects
+    assert driver.noted(happened.SpeechCutShort) == []
+
+
+def test_the_share_of_time_in_which_taps_wait_is_that_of_hints_and_of_cards_that_turn_back() -> None:
+    def shares(**timing: Any) -> WaitingShares:
+        driver = playing(ActionSpec.SUG_ROW, **timing)
+        driver.play(with_memory(1))
+        found = waiting_shares(SessionState.from_events(driver.events))
+        assert found is not None
+        return found
+
+    waits, open_at_once = shares(), shares(**AT_ONCE)
+    assert waits.hint > 0.4
+    assert open_at_once.hint == 0
+    assert 0 < waits.turning_back < open_at_once.turning_back < 1
+
+
+def test_a_least_time_of_a_hold_needs_taps_that_wait() -> None:
+    with pytest.raises(ValidationError, match="hold_min_ms must be 0 if taps_wait is false"):
+        Timing(hold_min_ms=10, taps_wait=False)

@@ -282,7 +282,7 @@ def test_a_session_that_was_cut_off_in_the_game_cannot_go_on(make_assigner: Make
     assert records(again)["resumable"] == []
 
 
-def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
+def test_the_volume_holds_at_once_and_the_language_at_rest_from_the_next_session_on(
     assigner: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     turned: list[float] = []
@@ -292,10 +292,10 @@ def test_the_language_at_rest_and_the_volume_wait_for_the_end_of_the_session(
     assigner.click("volume-0.4")
     assigner.click("language-it")
     assigner.type("1")
-    assert turned == []
+    assert turned == [0.4]
     assert assigner.app.screens.attract.property("title") == CATALOGUES["en"].text("attract-title")
     assigner.do(Action.ABORT)
-    assert turned == [0.4]
+    assert turned == [0.4, 0.4]
     assert assigner.app.screens.attract.property("title") == CATALOGUES["it"].text("attract-title")
     assert ("VolumeChanged", {"volume": 0.4}) in assigner.notes
 

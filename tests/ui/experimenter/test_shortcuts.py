@@ -48,6 +48,7 @@ def done(assigner: Desk, action: Action, witness: Witness) -> bool:
         Action.PAUSE: lambda: bool(app.screens.kiosk.property("paused")),
         Action.ABORT: lambda: assigner.stage is Stage.ATTRACT and witness.saw(happened.AbortRequested),
         Action.NEXT: lambda: assigner.stage is Stage.ATTRACT is not witness.stage,
+        Action.VOLUME: lambda: assigner.notes[-1][0] == "VolumeChanged",
         Action.QUIT: lambda: assigner.notes[-1][0] == "ApplicationQuit",
     }
     return seen[action]()
@@ -181,6 +182,21 @@ def test_a_shortcut_that_is_held_down_is_pressed_once(assigner: Desk) -> None:
         held = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_M, modifiers, "M", True)  # noqa: FBT003 - Qt's signature
         QGuiApplication.sendEvent(assigner.app.window, held)
     assert assigner.app.embodiments.is_muted
+
+
+def test_the_volume_goes_up_step_by_step_and_from_the_loudest_to_the_softest(assigner: Desk) -> None:
+    told = []
+    for _ in range(3):
+        assigner.shortcut(Action.VOLUME)
+        told.append(assigner.noted)
+    assert [words.replace("\u2068", "").replace("\u2069", "") for words in told] == [
+        "Volume 100 %",
+        "Volume 20 %",
+        "Volume 40 %",
+    ]
+    assert [body for kind, body in assigner.notes if kind == "VolumeChanged"] == [
+        {"volume": volume} for volume in (1.0, 0.2, 0.4)
+    ]
 
 
 def test_shortcuts_work_while_the_session_is_paused(assigner: Desk) -> None:
