@@ -199,7 +199,9 @@ def _table(table: Table, label: str) -> str:
         + "</tr>\n"
         for first, *rest in table.rows
     )
-    caption = f'<caption id="{table.id}-caption"><strong>{label}</strong>{html.escape(table.caption)}</caption>'
+    caption = (
+        f'<caption id="{table.id}-caption"><span><strong>{label}</strong>{html.escape(table.caption)}</span></caption>'
+    )
     note = f'<p class="note">{html.escape(table.note)}</p>' if table.note else ""
     short = " short" if len(table.rows) <= SHORT else ""
     return (
@@ -335,7 +337,7 @@ def boxes_svg(size: tuple[int, int], parts: Iterable[str]) -> str:
     """A drawing of boxes and lines of this width and height."""
     width, height = size
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" style="min-width:{min(width, 380)}px;'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" style="min-width:{round(0.85 * width)}px;'
         f'max-width:{width}px">{"".join(parts)}</svg>'
     )
 

@@ -10,14 +10,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from scipy import special, stats
 
 from kiosk.analysis.data import Floats
 from kiosk.analysis.page import Picture, arrow, box, boxes_svg, number, svg_of
 from kiosk.analysis.policy_figures import STYLE
 from kiosk.analysis.report import Report
-from kiosk.analysis.sample import Measure, Sample
+from kiosk.analysis.sample import NOT_COMPLETED, Measure, Sample
 from kiosk.analysis.statistics import ROBUSTNESS
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage
@@ -129,14 +129,14 @@ def _arm_boxes(report: Report, condition: str) -> list[list[str]]:
     sample = report.sample
     completion = next(each for each in report.completion if each.condition == condition)
     here = sum(name == condition for name in sample.exported.text("condition"))
-    own = [step for step in sample.steps if step.counts.get(condition)]
+    own = [step for step in sample.steps if step.counts.get(condition) and step.rule != NOT_COMPLETED]
     lines = [text for step in own for text in textwrap.wrap(f"{step.rule}: {step.counts[condition]}", 26)]
     left = [f"{stage.replace('_', ' ')}: {n}" for stage, n in completion.ended.items()]
     analysed = int(sample.rows(condition).sum())
     return [
         [condition.replace("_", " "), f"sessions: {here}", f"allotted by chance: {completion.allotted}"],
         [f"Game not completed: {completion.allotted - completion.completed}", *left],
-        [f"Excluded: {here - analysed}", *lines],
+        [f"Excluded: {sum(step.counts[condition] for step in own)}", *lines],
         [f"Analysed: {analysed}"],
     ]
 
@@ -210,8 +210,8 @@ def effects_figure(report: Report) -> Picture:
     rows = [each for each in report.comparisons if each.line("hedges_g").known][::-1]
     with mpl.rc_context(_STYLE):
         height = 0.7 + 0.3 * max(1, len(rows))
-        figure = Figure(figsize=(5.6, height))
-        axes = figure.add_axes((0.43, 0.5 / height, 0.55, 1 - 0.55 / height))
+        figure = Figure(figsize=(4.3, height))
+        axes = figure.add_axes((0.47, 0.5 / height, 0.51, 1 - 0.55 / height))
         bound = report.plan.smallest_effect
         axes.axvspan(-bound, bound, color="#f0f2f5", zorder=0)
         axes.axvline(0, color="#888888", linewidth=0.9)
@@ -240,8 +240,8 @@ def effects_figure(report: Report) -> Picture:
 def bayes_figure(report: Report) -> Picture:
     """The Bayes factor of each hypothesis over the prior's scale."""
     with mpl.rc_context(_STYLE):
-        figure = Figure(figsize=(5.6, 3.0))
-        axes = figure.add_axes((0.13, 0.16, 0.58, 0.8))
+        figure = Figure(figsize=(4.4, 2.8))
+        axes = figure.add_axes((0.15, 0.17, 0.5, 0.79))
         told = []
         for at, each in enumerate(report.hypotheses):
             lines = _bayes_lines(report, each.measure)
@@ -250,6 +250,7 @@ def bayes_figure(report: Report) -> Picture:
             axes.plot(ROBUSTNESS, lines, marker=MARKERS[at % len(MARKERS)], markersize=4, linewidth=1.2, label=each.id)
             told.append(f"{each.id} from {min(lines):.3g} to {max(lines):.3g}")
         axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 3), numticks=12))
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.axhline(1, color="#888888", linewidth=0.9)
@@ -275,8 +276,8 @@ def course_picture(report: Report) -> Picture:
     sample = report.sample
     courses = _courses(sample)
     with mpl.rc_context(_STYLE):
-        figure = Figure(figsize=(5.6, 3.2))
-        axes = figure.add_axes((0.1, 0.15, 0.88, 0.82))
+        figure = Figure(figsize=(4.4, 2.9))
+        axes = figure.add_axes((0.11, 0.16, 0.87, 0.81))
         told = []
         for name, found in courses.items():
             flips = np.arange(found.shape[1])
@@ -287,7 +288,7 @@ def course_picture(report: Report) -> Picture:
             half = int(np.argmax(mean >= mean[-1] / 2))
             told.append(f"{name}: half of the pairs after {half} flips")
         axes.set(xlabel="flips of the game", ylabel="pairs found (mean)")
-        axes.legend(frameon=False, loc="lower right")
+        axes.legend(frameon=False, loc="upper left", fontsize=8)
     caption = "How the game goes: pairs found so far, as the mean of each condition with its 95 % interval."
     return Picture("pairs-found", caption, svg_of(figure, "pairs-found"), f"Pairs over flips. {'; '.join(told)}.")
 

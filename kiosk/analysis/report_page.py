@@ -376,11 +376,11 @@ def _comparison_table(report: Report, name: str, caption: str, compared: Sequenc
     for each, p in compared:
         measure = _measure(report, each.measure)
         welch, g = each.line("welch"), each.line("hedges_g")
-        means = [number(value * measure.scale, measure.digits) for value in each.mean]
-        cells = [f"{each.groups[0]} {means[0]} (n = {each.n[0]})", f"{each.groups[1]} {means[1]} (n = {each.n[1]})"]
-        cells += [_statistic(welch), p_value(welch.p), *([p_value(p)] if corrected else [])]
+        means = " and ".join(number(value * measure.scale, measure.digits) for value in each.mean)
+        cells = [f"{each.groups[0]}, {each.groups[1]}", f"{each.n[0]} + {each.n[1]}", means, _statistic(welch)]
+        cells += [p_value(welch.p), *([p_value(p)] if corrected else [])]
         rows.append((measure.title, *cells, f"{number(g.estimate)} {interval(g.low, g.high)}"))
-    head = ("measure", "first", "second", "Welch", "p", *(["p, Holm"] if corrected else []), "g [95 %]")
+    head = ("measure", "conditions", "n", "M", "Welch", "p", *(["p, Holm"] if corrected else []), "g [95 %]")
     return Table(name, caption, head, tuple(rows), "Holm within each measure." if corrected else "")
 
 

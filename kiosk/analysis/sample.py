@@ -58,9 +58,9 @@ MEASURES = (
     Measure("per_match_ms", "Time per match", "s", 0.001, 2),
     Measure("hints", "Hints", digits=1),
     Measure("assistance_per_flip", "Assistance per flip", digits=3),
-    Measure("followed_rate", "Hints followed", "share", digits=2),
-    Measure("first_followed_rate", "First-card hints followed", "share", digits=2),
-    Measure("first_led_to_match_rate", "First-card hints that led to a match", "share", digits=2),
+    Measure("followed_rate", "Hints followed", digits=2),
+    Measure("first_followed_rate", "First-card hints followed", digits=2),
+    Measure("first_led_to_match_rate", "First-card hints that led to a match", digits=2),
 )
 """The measures of the game; each scale of the questionnaires adds its sum."""
 
@@ -106,7 +106,7 @@ class Sample:
     @cached_property
     def _all(self) -> tuple[Measure, ...]:
         scales = [name.removesuffix("_sum") for name in self.measured if name.endswith("_sum")]
-        own = (Measure(f"{name}_sum", SCALE_LABELS.get(name, name), "sum", digits=1) for name in scales)
+        own = (Measure(f"{name}_sum", SCALE_LABELS.get(name, name), digits=1) for name in scales)
         return (*MEASURES, *own)
 
     @cached_property

@@ -7,6 +7,7 @@ import json
 import math
 import re
 import shutil
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,7 @@ from kiosk.analysis.report_page import hypotheses_table
 from kiosk.analysis.sample import ExclusionStep, choose_sample, read_exclusions
 from kiosk.cli.main import recollect
 from kiosk.export.layouts import file_of
+from tests.analysis.chromium import opened_browser
 
 
 def run(*words: str) -> str:
@@ -197,3 +199,33 @@ def test_the_papers_numbers_are_those_of_its_means() -> None:
     assert (social.low, social.high) == pytest.approx((1.07, 1.10), abs=0.005)
     assert [row.measure for row in recompute() if row.holm < 0.05] == ["assistance per flip"]
     assert json.loads(run("report", "--paper", "--json"))["paper"][3]["printed"] == "t = 2.4"
+
+
+def test_a_browser_shows_the_page_without_an_error_a_request_or_a_cut(written: Path, tmp_path: Path) -> None:
+    with opened_browser(tmp_path / "profile") as browser:
+        for width in (1280, 390):
+            metrics = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 400}
+            browser.ask("Emulation.setDeviceMetricsOverride", **metrics)
+            browser.open(written / "report.html")
+            assert browser.value("document.documentElement.scrollWidth") == width
+            small = browser.value(
+                "[...document.querySelectorAll('main p, main td, main th, figcaption')]"
+                ".filter(e => parseFloat(getComputedStyle(e).fontSize) < 12).length"
+            )
+            assert small == 0
+        assert browser.named("Runtime.exceptionThrown") == []
+        assert browser.named("Runtime.consoleAPICalled") == []
+        assert browser.named("Log.entryAdded") == []
+        asked = {each["request"]["url"] for each in browser.named("Network.requestWillBeSent")}
+        assert asked <= {(written / "report.html").as_uri()}
+        seen = browser.accessible()
+        assert len(browser.ask("Page.printToPDF", printBackground=True)["data"]) > 100_000
+    roles = Counter(role for role, _ in seen)
+    page = (written / "report.html").read_text("utf-8")
+    assert roles["table"] == page.count("<table>")
+    assert roles["rowheader"] == page.count('<th scope="row">')
+    assert roles["columnheader"] == page.count('<th scope="col"')
+    # Each table, figure and part has a name, and the first table is named by its caption.
+    assert all(name for role, name in seen if role in {"table", "image", "region", "navigation"})
+    assert next(name for role, name in seen if role == "table").startswith("Table 1. The hypotheses")
+    assert roles["image"] == page.count("<svg ")
