@@ -199,9 +199,8 @@ def _table(table: Table, label: str) -> str:
         + "</tr>\n"
         for first, *rest in table.rows
     )
-    caption = (
-        f'<caption id="{table.id}-caption"><span><strong>{label}</strong>{html.escape(table.caption)}</span></caption>'
-    )
+    named = f"<strong>{label}</strong>{html.escape(table.caption)}"
+    caption = f'<caption id="{table.id}-caption"><span>{named}</span></caption>'
     note = f'<p class="note">{html.escape(table.note)}</p>' if table.note else ""
     short = " short" if len(table.rows) <= SHORT else ""
     return (
@@ -336,10 +335,9 @@ def svg_of(figure: Figure, name: str) -> str:
 def boxes_svg(size: tuple[int, int], parts: Iterable[str]) -> str:
     """A drawing of boxes and lines of this width and height."""
     width, height = size
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" style="min-width:{round(0.85 * width)}px;'
-        f'max-width:{width}px">{"".join(parts)}</svg>'
-    )
+    limits = f"min-width:{round(0.85 * width)}px;max-width:{width}px"
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" style="{limits}">'
+    return f"{head}{''.join(parts)}</svg>"
 
 
 def box(place: tuple[float, float, float], lines: Sequence[str], colour: str = "#444") -> tuple[str, float]:

@@ -376,7 +376,7 @@ def _comparison_table(report: Report, name: str, caption: str, compared: Sequenc
     for each, p in compared:
         measure = _measure(report, each.measure)
         welch, g = each.line("welch"), each.line("hedges_g")
-        means = " and ".join(number(value * measure.scale, measure.digits) for value in each.mean)
+        means = " / ".join(number(value * measure.scale, measure.digits) for value in each.mean)
         cells = [f"{each.groups[0]}, {each.groups[1]}", f"{each.n[0]} + {each.n[1]}", means, _statistic(welch)]
         cells += [p_value(welch.p), *([p_value(p)] if corrected else [])]
         rows.append((measure.title, *cells, f"{number(g.estimate)} {interval(g.low, g.high)}"))

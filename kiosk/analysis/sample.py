@@ -60,7 +60,7 @@ MEASURES = (
     Measure("assistance_per_flip", "Assistance per flip", digits=3),
     Measure("followed_rate", "Hints followed", digits=2),
     Measure("first_followed_rate", "First-card hints followed", digits=2),
-    Measure("first_led_to_match_rate", "First-card hints that led to a match", digits=2),
+    Measure("first_led_to_match_rate", "First-card hints that matched", digits=2),
 )
 """The measures of the game; each scale of the questionnaires adds its sum."""
 

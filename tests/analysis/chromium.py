@@ -49,8 +49,9 @@ class Browser:
 
     def open(self, page: Path) -> None:
         """Load a page, and wait until it is there."""
+        loaded = len(self.named("Page.loadEventFired"))
         self.ask("Page.navigate", url=page.as_uri())
-        while not any(each["method"] == "Page.loadEventFired" for each in self.events):
+        while len(self.named("Page.loadEventFired")) == loaded:
             self._hear()
 
     def value(self, expression: str) -> Any:

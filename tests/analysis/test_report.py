@@ -207,7 +207,7 @@ def test_a_browser_shows_the_page_without_an_error_a_request_or_a_cut(written: P
             metrics = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 400}
             browser.ask("Emulation.setDeviceMetricsOverride", **metrics)
             browser.open(written / "report.html")
-            assert browser.value("document.documentElement.scrollWidth") == width
+            assert browser.value("document.documentElement.scrollWidth <= innerWidth")
             small = browser.value(
                 "[...document.querySelectorAll('main p, main td, main th, figcaption')]"
                 ".filter(e => parseFloat(getComputedStyle(e).fontSize) < 12).length"
