@@ -195,7 +195,7 @@ def make_report(
         tuple(_scales(sample)),
         tuple(_design(sample)),
         tuple(_models(sample, plan.conditions)),
-        tuple(_looks(sample, plan)),
+        reached_looks(sample, plan),
         sensitivity(*(int(sample.rows(name).sum()) for name in plan.conditions)),
     )
 
@@ -481,28 +481,26 @@ def _second_cards(sample: Sample) -> _Trials:
 # Looks
 
 
-def _looks(sample: Sample, plan: StudyPlan) -> Iterator[LookResult]:
-    """The hypotheses at every look that was reached, from the first people of each arm."""
-    if plan.sequential is None:
-        return
-    levels = dict(plan.levels())
+def reached_looks(sample: Sample, plan: StudyPlan) -> tuple[LookResult, ...]:
+    """The hypotheses at every declared look that was reached, from the first people of each arm; two-sided."""
     reached = min(int(sample.rows(name).sum()) for name in plan.conditions)
-    for n in (look for look in plan.sequential.looks if look <= reached):
-        ps, factors = [], []
-        for hypothesis in plan.hypothesis:
-            x, y = kept_values(
-                [_first(sample, hypothesis.measure, name, n) for name in plan.conditions], plan.exclusions
-            )
-            work = TESTS[hypothesis.test][1]
-            ps.append(attempt("", "", partial(work, x, y)).p)
-            factors.append(attempt("", "", partial(_bayes, x, y)).estimate)
-        adjusted = adjust(ps, [each.family for each in plan.hypothesis], plan.correction)
-        bayes = plan.sequential.spending == "bayes"
-        bound = plan.sequential.bayes_bound
-        for hypothesis, p, factor in zip(plan.hypothesis, adjusted, factors, strict=True):
-            level = math.nan if bayes else levels[n]
-            crossed = (factor >= bound or factor <= 1 / bound) if bayes else p <= level
-            yield LookResult(n, hypothesis.id, p, level, factor, bool(crossed))
+    looks = plan.sequential.looks if plan.sequential is not None else ()
+    return tuple(result for n in looks if n <= reached for result in _look(sample, plan, n))
+
+
+def _look(sample: Sample, plan: StudyPlan, n: int) -> Iterator[LookResult]:
+    sequential = plan.sequential
+    ps, factors = [], []
+    for hypothesis in plan.hypothesis:
+        x, y = kept_values([_first(sample, hypothesis.measure, name, n) for name in plan.conditions], plan.exclusions)
+        ps.append(attempt("", "", partial(TESTS[hypothesis.test][1], x, y)).p)
+        factors.append(attempt("", "", partial(_bayes, x, y)).estimate)
+    adjusted = adjust(ps, [each.family for each in plan.hypothesis], plan.correction)
+    bound = sequential.bayes_bound if sequential is not None and sequential.spending == "bayes" else None
+    level = math.nan if bound is not None else dict(plan.levels())[n]
+    for hypothesis, p, factor in zip(plan.hypothesis, adjusted, factors, strict=True):
+        crossed = p <= level if bound is None else factor >= bound or factor <= 1 / bound
+        yield LookResult(n, hypothesis.id, p, level, factor, crossed)
 
 
 def _first(sample: Sample, measure: str, condition: str, n: int) -> Floats:
