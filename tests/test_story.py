@@ -8,7 +8,7 @@ from pathlib import Path
 from tests.golden import story
 from tests.golden.story import recollect
 
-RESULT = {"session", "status", "condition", "body", "flips", "moves", "pairs", "hints"}
+RESULT = {"session", "status", "condition", "embodiment", "flips", "moves", "pairs", "hints"}
 
 
 def test_the_golden_story_is_told_again_to_the_byte() -> None:

@@ -30,7 +30,16 @@ _TRUTHS = {"true": 1.0, "false": 0.0, "": np.nan}
 
 COLUMNS: Mapping[str, tuple[str, ...]] = {
     "participants": (
-        *("participant_id", "condition", "allotted", "status", "last_stage", "game_completed", "resumed", "pauses"),
+        *(
+            "participant_id",
+            "condition",
+            "allocation_source",
+            "status",
+            "last_stage",
+            "game_completed",
+            "resumed",
+            "pauses",
+        ),
         *("flips", "moves", "pairs", "hints", "completion_with_speech_ms", "completion_ms", "per_match_ms"),
         *("assistance_per_flip", "followed_rate", "first_followed_rate", "first_led_to_match_rate"),
     ),

@@ -83,7 +83,7 @@ class StudyPlan(ConfigModel):
     n_per_arm: int = Field(default=56, ge=3, le=100_000)
     alpha: float = Field(default=0.05, gt=0, lt=0.5)
     correction: Correction = "holm"
-    population: Literal["game-completed", "allotted"] = "game-completed"
+    population: Literal["game-completed", "allocated"] = "game-completed"
     exclusions: Exclusion = "technical"
     expected_exclusions: float = Field(default=0.05, ge=0, lt=0.9)
     smallest_effect: float = Field(default=0.5, gt=0)
@@ -137,7 +137,7 @@ conditions = ["tom", "notom"]        # hypotheses compare the first with the sec
 n_per_arm = 56                       # the paper analysed 28 + 28
 alpha = 0.05
 correction = "holm"                  # within each family; also "bh", "none"
-population = "game-completed"        # or "allotted"
+population = "game-completed"        # or "allocated"
 exclusions = "technical"             # declared faults only; also "2sd-pooled", "2sd-within"
 expected_exclusions = 0.05           # share of participants lost to them
 smallest_effect = 0.5                # Cohen's d, the smallest effect of interest
@@ -211,7 +211,7 @@ def preregistration(plan: StudyPlan, sha256: str) -> str:
         "",
         "## Conditions and design",
         "",
-        f"Two independent groups, `{first}` and `{second}`, allotted at random in permuted blocks by the kiosk.",
+        f"Two independent groups, `{first}` and `{second}`, allocated at random in permuted blocks by the kiosk.",
         "Participants do not know their condition; the screen of the experimenter does not show it during a session.",
         "",
         "## Sampling plan and sample size",

@@ -128,10 +128,10 @@ class LookResult:
 
 @dataclass(frozen=True)
 class Completion:
-    """How many of those who were allotted a condition completed the game, and where the others ended."""
+    """How many of those who were allocated a condition completed the game, and where the others ended."""
 
     condition: str
-    allotted: int
+    allocated: int
     completed: int
     share: Estimate
     ended: Mapping[str, int]
@@ -341,7 +341,7 @@ def _verdict(plan: StudyPlan, hypothesis: Hypothesis, line: Line, bayes: float, 
 
 
 def _completion(sample: Sample, pair: tuple[str, str]) -> tuple[tuple[Completion, ...], Line]:
-    """Who of the people that chance allotted completed the game, by condition, and whether the plan's two differ."""
+    """Who of the people that chance allocated completed the game, by condition, and whether the plan's two differ."""
     drawn = sample.drawn
     done, stages, conditions = drawn.truths("game_completed"), drawn.text("last_stage"), drawn.text("condition")
     order = [stage.value for stage in Stage]
@@ -353,15 +353,15 @@ def _completion(sample: Sample, pair: tuple[str, str]) -> tuple[tuple[Completion
         completed = int(done[rows].sum())
         found.append(Completion(name, len(rows), completed, wilson(completed, len(rows)), ended))
     cells = [each for each in found if each.condition in pair]
-    table = [(each.completed, each.allotted - each.completed) for each in cells]
+    table = [(each.completed, each.allocated - each.completed) for each in cells]
     return tuple(found), attempt("fisher", "", partial(fisher, table))
 
 
 def _any_hint(sample: Sample, plan: StudyPlan) -> Iterator[Comparison]:
     """What can be compared among all who saw a first hint, whether or not they completed the game."""
-    if plan.population == "allotted":
+    if plan.population == "allocated":
         return
-    everyone = choose_sample(sample.study, plan.model_copy(update={"population": "allotted"}))
+    everyone = choose_sample(sample.study, plan.model_copy(update={"population": "allocated"}))
     for measure in ("assistance_per_flip", "followed_rate", "first_led_to_match_rate"):
         yield _compared(everyone, measure, plan.conditions)
 

@@ -61,7 +61,7 @@ def spoken(condition: str) -> str:
 
 
 def flow_figure(report: Report) -> Picture:
-    """The flow of participants, after CONSORT: who came, who was allotted what, who left, who is analysed."""
+    """The flow of participants, after CONSORT: who came, who was allocated what, who left, who is analysed."""
     sample = report.sample
     arms = [each.condition for each in report.completion]
     width = 190 * len(arms) + 10 if len(arms) > 1 else 400
@@ -134,8 +134,8 @@ def _arm_boxes(report: Report, condition: str) -> list[list[str]]:
     left = [f"{stage.replace('_', ' ')}: {n}" for stage, n in completion.ended.items()]
     analysed = int(sample.rows(condition).sum())
     return [
-        [condition.replace("_", " "), f"sessions: {here}", f"allotted by chance: {completion.allotted}"],
-        [f"Game not completed: {completion.allotted - completion.completed}", *left],
+        [condition.replace("_", " "), f"sessions: {here}", f"allocated by chance: {completion.allocated}"],
+        [f"Game not completed: {completion.allocated - completion.completed}", *left],
         [f"Excluded: {sum(step.counts[condition] for step in own)}", *lines],
         [f"Analysed: {analysed}"],
     ]

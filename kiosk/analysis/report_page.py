@@ -208,10 +208,10 @@ def _participants(report: Report) -> Iterator[Block]:
     for each in report.completion:
         share = f"{number(100 * each.share.value, 0)} % {interval(100 * each.share.low, 100 * each.share.high, 0)}"
         counts = (str(each.ended.get(stage, 0)) for stage in stages)
-        rows.append((each.condition, str(each.allotted), str(each.completed), share, *counts))
+        rows.append((each.condition, str(each.allocated), str(each.completed), share, *counts))
     head = (
         "condition",
-        "allotted",
+        "allocated",
         "completed",
         "share [95 %]",
         *(f"left: {stage.replace('_', ' ')}" for stage in stages),

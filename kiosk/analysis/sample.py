@@ -148,7 +148,7 @@ def choose_sample(study: ExportedStudy, plan: StudyPlan, declared: Mapping[str, 
     steps: list[ExclusionStep] = []
     drawn = exported
     for source, reason in NOT_DRAWN.items():
-        drawn = _leave_out(drawn, [allotted == source for allotted in drawn.text("allotted")], reason, steps)
+        drawn = _leave_out(drawn, [each == source for each in drawn.text("allocation_source")], reason, steps)
     people = drawn
     for reason in dict.fromkeys(declared.values()):
         names = {name for name, why_out in declared.items() if why_out == reason}

@@ -194,7 +194,12 @@ def _tables(people: Sequence[SimulatedParticipant], policy: QTable) -> dict[str,
 
 
 def _participant(person: SimulatedParticipant, policy: QTable) -> dict[str, Any]:
-    fixed = {"condition": person.condition.value, "allotted": "list", "status": "completed", "last_stage": "thanks"}
+    fixed = {
+        "condition": person.condition.value,
+        "allocation_source": "list",
+        "status": "completed",
+        "last_stage": "thanks",
+    }
     fixed["simulated"] = "true"
     done = {"game_completed": True, "resumed": 0, "pauses": 0, "pairs": PAIRS, "policy_sha256": policy.sha256}
     return {"participant_id": person.name} | fixed | done | person.measures

@@ -31,7 +31,7 @@ from kiosk.config import NO_ROBOT, STAGES
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
-from kiosk.experiment.session_config import StudyConfig
+from kiosk.experiment.session_config import SessionKind, StudyConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.robots.registry import check_robot
 from kiosk.robots.simulated import FlakyRobot
@@ -146,7 +146,7 @@ def rehearse(
     language = language or prepared.languages[0]
     character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
     fixed = Condition.from_name(condition or prepared.settings.assistance.condition)
-    origin = RunContext(code_commit(), simulated=True, seed=lambda: seed, condition=fixed)
+    origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: seed, condition=fixed)
     with (
         guarded() as beat,
         _recorder(data, mode) as recorder,
@@ -215,7 +215,7 @@ def _rehearse_day(
 ) -> None:
     """Visitors of every kind, one after another, in one process."""
     seeds = count(seed)
-    origin = RunContext(code_commit(), simulated=True, seed=lambda: next(seeds))
+    origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: next(seeds))
     robot = None if _has_robot(study) else FlakyRobot(seed)
     begun = monotonic()
     with (
@@ -247,11 +247,11 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
         played = there.sessions()[-stored:] if stored else []
         states = [SessionState.from_events(there.events(session.id)) for session in played]
     ends = Counter(session.status.value if session.status else "running" for session in played)
-    changes = sum(len(state.body_changes) for state in states)
+    changes = sum(len(state.embodiment_changes) for state in states)
     waits = [shares for state in states if (shares := waiting_shares(state)) is not None]
     return {
         "ends": dict(ends),
-        "body_changes": changes,
+        "embodiment_changes": changes,
         "finished_games": len(waits),
         "taps_wait_for_hint": round(mean(each.hint for each in waits), 3) if waits else None,
         "taps_wait_turning_back": round(mean(each.turning_back for each in waits), 3) if waits else None,
@@ -261,7 +261,7 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
 def _in_words(told: dict[str, Any]) -> str:
     lines = [
         f"{told['sessions']} visitors in {told['seconds']} s, {told['stored']} sessions stored: {told['ends']}.",
-        f"The robot was lost {told['body_changes']} times.",
+        f"The robot was lost {told['embodiment_changes']} times.",
         f"Longest gap of the event loop {told['longest_gap_ms']} ms, median of a session's {told['median_gap_ms']} ms.",
         "              after warm-up   at the end   per session",
     ]
@@ -294,7 +294,7 @@ def _with_robot(events: list[Event], longest_gap_ms: float) -> dict[str, Any]:
     state = SessionState.from_events(events)
     return {
         "longest_gap_ms": round(longest_gap_ms, 1),
-        "body_changes": len(state.body_changes),
+        "embodiment_changes": len(state.embodiment_changes),
         "utterances": asdict(count_speech(state)),
     }
 

@@ -101,7 +101,7 @@ def _open(
     if unattended:
         check_pin(prepared.settings)
     chance = SystemRandom()
-    origin = RunContext(code_commit(), simulated=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
+    origin = RunContext(code_commit(), kind=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
     mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN)
     check_screen(mode.display)
     with Recorder(data, site) as recorder:

@@ -27,7 +27,7 @@ from kiosk.units import MS_PER_SECOND
 WIDTH = 150
 """Characters that a line of the list may need."""
 
-_WORDS = ("condition", "body", "status", "stage", "allotted")
+_WORDS = ("condition", "embodiment", "status", "stage", "allocation_source")
 _COUNTS = ("pairs", "moves", "flips", "hints")
 
 

@@ -148,7 +148,7 @@ class StopSpeaking:
 class SwitchEmbodiment:
     """Have this body help from now on; the other one is not to be used again in this session."""
 
-    body: EmbodimentName
+    embodiment: EmbodimentName
 
 
 @dataclass(frozen=True)

@@ -367,14 +367,14 @@ class NextParticipantRequested(WorldEvent):
 class MuteChanged(WorldEvent):
     """The experimenter made voice and sounds silent, or heard again; the text stays."""
 
-    quiet: bool
+    muted: bool
 
 
 @dataclass(frozen=True, kw_only=True)
 class SessionResumed(WorldEvent):
-    """A session that was cut off goes on, from the start of the stage it was in; ``body`` helps from here on."""
+    """A session that was cut off goes on, from the start of the stage it was in; ``embodiment`` helps from here on."""
 
-    body: EmbodimentName
+    embodiment: EmbodimentName
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -424,7 +424,7 @@ class SentenceRequested(SessionEvent):
 class EmbodimentChanged(SessionEvent):
     """Another body helps from here on; the one at the start stands with the session."""
 
-    body: EmbodimentName
+    embodiment: EmbodimentName
     why: str
 
 

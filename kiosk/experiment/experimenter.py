@@ -183,7 +183,7 @@ class AuditEvent(Enum):
     """The kinds of booth events."""
 
     CONDITION_CHOSEN = "ConditionChosen"
-    BODY_CHOSEN = "BodyChosen"
+    EMBODIMENT_CHOSEN = "EmbodimentChosen"
     LANGUAGE_CHOSEN = "LanguageChosen"
     VOLUME_CHANGED = "VolumeChanged"
     MUTE_CHANGED = "MuteChanged"
@@ -201,7 +201,7 @@ class AuditEvent(Enum):
 DEVIATIONS = frozenset(
     {
         AuditEvent.CONDITION_CHOSEN,
-        AuditEvent.BODY_CHOSEN,
+        AuditEvent.EMBODIMENT_CHOSEN,
         AuditEvent.LANGUAGE_CHOSEN,
         AuditEvent.VOLUME_CHANGED,
         AuditEvent.MUTE_CHANGED,

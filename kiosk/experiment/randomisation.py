@@ -1,6 +1,6 @@
 """Who gets which condition: permuted blocks, fixed as one list before the first visitor comes.
 
-A place of the list is consumed when the game is completed and given out again when it is not. No clock, no database.
+A slot of the list is consumed when the game is completed and given out again when it is not. No clock, no database.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ class AllocationSource(Enum):
     """How a session came to its condition."""
 
     LIST = "list"
-    """It took the first free place of the list."""
+    """It took the first free slot of the list."""
     OVERRIDE = "override"
-    """The experimenter chose; it takes no place."""
+    """The experimenter chose; it takes no slot."""
     BEYOND = "beyond"
     """The list is used up."""
 
 
 @dataclass(frozen=True)
 class AllocationSlot:
-    """One place of the list; ``number`` and ``block`` count from 1."""
+    """One slot of the list; ``number`` and ``block`` count from 1."""
 
     number: int
     block: int
@@ -41,9 +41,9 @@ def allocation_slots(
 ) -> tuple[AllocationSlot, ...]:
     """The list in which every condition comes up as often as its quota says, block by block in the quotas' ratio.
 
-    ``block`` is how many places a block has; the last one may be shorter, still in ratio. ``kept`` is an earlier list
+    ``block`` is how many slots a block has; the last one may be shorter, still in ratio. ``kept`` is an earlier list
     that this one goes on from, for quotas that were raised in the same ratio. A list that ends with a whole block is
-    kept by drawing anew with the same seed; one that ends with a shorter block only if it is handed in, as places
+    kept by drawing anew with the same seed; one that ends with a shorter block only if it is handed in, as slots
     that were given out do not change. Raises UserInputError for quotas or a block that cannot be kept to.
     """
     ratio = _ratio(quotas)
@@ -60,8 +60,8 @@ def allocation_slots(
 
 
 def next_slot(listed: tuple[AllocationSlot, ...], consumed: Collection[int]) -> AllocationSlot | None:
-    """The first place that is not consumed; None when the list is used up."""
-    return next((place for place in listed if place.number not in consumed), None)
+    """The first slot that is not consumed; None when the list is used up."""
+    return next((slot for slot in listed if slot.number not in consumed), None)
 
 
 def ratio_in_words(quotas: Mapping[Condition, int]) -> str:
@@ -72,7 +72,7 @@ def ratio_in_words(quotas: Mapping[Condition, int]) -> str:
 def _ratio(quotas: Mapping[Condition, int]) -> Counter[Condition]:
     """How often each condition comes up in the shortest stretch in ratio, in the conditions' own order."""
     if not quotas:
-        raise UserInputError("a list of places needs a quota for at least one condition")
+        raise UserInputError("a allocation list needs a quota for at least one condition")
     for condition, quota in quotas.items():
         if quota < 1:
             raise UserInputError(f"the quota of {condition.value} must be at least 1, not {quota}")
@@ -84,21 +84,21 @@ def _check_block(block: int, ratio: Counter[Condition]) -> None:
     shortest = ratio.total()
     if block < 1 or block % shortest:
         fits = f"{shortest}, {2 * shortest}, {3 * shortest} and so on"
-        raise UserInputError(f"a block of {block} places cannot hold {ratio_in_words(ratio)} in ratio; {fits} fit")
+        raise UserInputError(f"a block of {block} slots cannot hold {ratio_in_words(ratio)} in ratio; {fits} fit")
 
 
 def _rounds_left(quotas: Mapping[Condition, int], ratio: Counter[Condition], kept: tuple[AllocationSlot, ...]) -> int:
-    """How many times the ratio is still to be drawn after the places that are kept."""
+    """How many times the ratio is still to be drawn after the slots that are kept."""
     condition = next(iter(ratio))
-    taken = Counter(place.condition for place in kept)
+    taken = Counter(slot.condition for slot in kept)
     rounds = taken[condition] // ratio[condition]
     if taken != Counter({each: share * rounds for each, share in ratio.items()}):
         raise UserInputError(
-            f"the places that are already listed ({ratio_in_words(taken)}) are not in the quotas' ratio"
+            f"the slots that are already listed ({ratio_in_words(taken)}) are not in the quotas' ratio"
         )
     left = quotas[condition] // ratio[condition] - rounds
     if left < 0:
-        raise UserInputError(f"more places are already listed ({ratio_in_words(taken)}) than the quotas allow")
+        raise UserInputError(f"more slots are already listed ({ratio_in_words(taken)}) than the quotas allow")
     return left
 
 

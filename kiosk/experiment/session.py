@@ -150,7 +150,7 @@ class SpeechState:
     def _go_on_without_robot(self, why: str, outcome: OutcomeBuilder) -> None:
         """Have the avatar help; it says at once what the robot had not said to its end."""
         self._robot_lost = True
-        outcome.emit(happened.EmbodimentChanged(at_ms=outcome.at_ms, body=EmbodimentName.AVATAR, why=why))
+        outcome.emit(happened.EmbodimentChanged(at_ms=outcome.at_ms, embodiment=EmbodimentName.AVATAR, why=why))
         outcome.effect(do.SwitchEmbodiment(EmbodimentName.AVATAR))
         if self._unsaid is not None:
             outcome.effect(self._unsaid)

@@ -156,13 +156,13 @@ class SentencePurpose(Enum):
 
 @dataclass(frozen=True)
 class SpeechAttempt:
-    """One body's attempt to say a sentence, in ms; what did not happen is None.
+    """One embodiment's attempt to say a sentence, in ms; what did not happen is None.
 
-    ``body`` is None where it helped from the beginning and nothing says which one that was. An attempt that neither
+    ``embodiment`` is None where it helped from the start and nothing says which one it was. An attempt that neither
     finished nor failed was cut short: the visitor or a deadline went on, or the session ended.
     """
 
-    body: EmbodimentName | None
+    embodiment: EmbodimentName | None
     at_ms: int
     started_ms: int | None = None
     finished_ms: int | None = None
@@ -218,7 +218,7 @@ class SessionState:
     """What a session came to, from all its events.
 
     ``responses`` go by questionnaire and item, each since its stage began last; ``shown_items`` are the items of a
-    questionnaire in the order in which they came. ``body_changes`` are those within the session; which body helps
+    questionnaire in the order in which they came. ``embodiment_changes`` are those within the session; which body helps
     after a resumption stands in ``resumptions``. A pause ends with whatever ends its session or goes on with it.
     ``status`` is how it ended; None while it has not, also where it went on after an interruption.
     """
@@ -232,14 +232,14 @@ class SessionState:
     consent: ConsentGiven | None
     practice_end: PracticeEnd | None
     game_completed: bool
-    body_changes: tuple[EmbodimentChanged, ...]
+    embodiment_changes: tuple[EmbodimentChanged, ...]
     resumptions: tuple[SessionResumed, ...]
     status: Status | None
 
     @classmethod
-    def from_events(cls, events: Iterable[Event], body: EmbodimentName | None = None) -> SessionState:
-        """Read the events in their order; ``body`` is the one that helped when the session began."""
-        course, board, asked, speech = _Course(), _Boards(), _Responses(), _Speech(body)
+    def from_events(cls, events: Iterable[Event], embodiment: EmbodimentName | None = None) -> SessionState:
+        """Read the events in their order; ``embodiment`` is the one that helped when the session began."""
+        course, board, asked, speech = _Course(), _Boards(), _Responses(), _Speech(embodiment)
         for stage, event in with_stages(events):
             course.take(event)
             board.take(event, stage, course.pauses)
@@ -255,7 +255,7 @@ class SessionState:
             consent=course.consent,
             practice_end=course.practice_end,
             game_completed=course.game_completed,
-            body_changes=tuple(course.body_changes),
+            embodiment_changes=tuple(course.embodiment_changes),
             resumptions=tuple(course.resumptions),
             status=course.status,
         )
@@ -301,7 +301,7 @@ class _Course:
     def __init__(self) -> None:
         self.stages: list[StageVisit] = []
         self.pauses: list[Interval] = []
-        self.body_changes: list[EmbodimentChanged] = []
+        self.embodiment_changes: list[EmbodimentChanged] = []
         self.resumptions: list[SessionResumed] = []
         self.consent: ConsentGiven | None = None
         self.practice_end: PracticeEnd | None = None
@@ -321,7 +321,7 @@ class _Course:
             case GameFinished():
                 self.game_completed = True
             case EmbodimentChanged():
-                self.body_changes.append(event)
+                self.embodiment_changes.append(event)
             case SessionResumed():
                 self.resumptions.append(event)
 
@@ -432,9 +432,9 @@ class _Responses:
 class _Speech:
     """The sentences, and which of them is being said by which body."""
 
-    def __init__(self, body: EmbodimentName | None) -> None:
+    def __init__(self, embodiment: EmbodimentName | None) -> None:
         self.sentences: dict[int, SpokenSentence] = {}
-        self._body = body
+        self._embodiment = embodiment
         self._hinted_flip: int | None = None
         self._under_way: int | None = None
         self._broken_off: int | None = None
@@ -454,11 +454,11 @@ class _Speech:
             case RobotDisconnected(at_ms=at_ms) if self._under_way is not None:
                 self._broken_off = self._under_way
                 self._fail(self._under_way, at_ms)
-            case EmbodimentChanged(body=body, at_ms=at_ms):
-                self._body = body
+            case EmbodimentChanged(embodiment=embodiment, at_ms=at_ms):
+                self._embodiment = embodiment
                 self._say_again(at_ms)
-            case SessionResumed(body=body):
-                self._body = body
+            case SessionResumed(embodiment=embodiment):
+                self._embodiment = embodiment
 
     def _request(self, event: Event, stage: Stage) -> None:
         match event:
@@ -475,7 +475,7 @@ class _Speech:
                 self._begin(number, SentencePurpose.REPEAT, stage, sentence, event.at_ms)
 
     def _begin(self, number: int, purpose: SentencePurpose, stage: Stage, sentence: str, at_ms: int) -> None:
-        attempts = (SpeechAttempt(self._body, at_ms),)
+        attempts = (SpeechAttempt(self._embodiment, at_ms),)
         self.sentences[number] = SpokenSentence(number, purpose, stage, sentence, attempts)
         self._under_way = number
 
@@ -512,5 +512,5 @@ class _Speech:
         number, self._broken_off = self._broken_off, None
         if number is not None:
             said = self.sentences[number]
-            self.sentences[number] = replace(said, attempts=(*said.attempts, SpeechAttempt(self._body, at_ms)))
+            self.sentences[number] = replace(said, attempts=(*said.attempts, SpeechAttempt(self._embodiment, at_ms)))
             self._under_way = number

@@ -359,8 +359,8 @@ FOLLOWED = Variable(
 )
 SENTENCE = Variable("sentence", "What was said and shown, in the session's language; a sentence of the program.")
 UTTERANCE = Variable("utterance", "The number of the sentence in its session.", ColumnKind.WHOLE)
-BODY = Variable(
-    "body",
+EMBODIMENT = Variable(
+    "embodiment",
     "What helped with voice and face: when the session began; of a sentence, in this attempt to say it.",
     levels=enum_levels(EmbodimentKind),
 )

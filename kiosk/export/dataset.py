@@ -56,7 +56,7 @@ def export_dataset(
     with open_records(data, kinds) as stored, new_folder(out) as folder:
         study = StudyMaterials(stored.plans())
         contents = DatasetContents(study, all_tables(study, extras), extras, frozen_plans(data))
-        flows = {kind: ParticipantFlow(kind, stored.archive.counts(simulated=kind)) for kind in sorted(kinds)}
+        flows = {kind: ParticipantFlow(kind, stored.archive.counts(kind=kind)) for kind in sorted(kinds)}
         with closing(layout(folder, contents)) as writing:
             wanted = len(stored)
             for done, kept in enumerate(stored, 1):

@@ -9,7 +9,7 @@ from typing import Any
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
     AT,
-    BODY,
+    EMBODIMENT,
     PARTICIPANT,
     ROBOT,
     SENTENCE,
@@ -133,8 +133,8 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
         lambda row: row.said.purpose.value,
     ),
     (SENTENCE, lambda row: row.said.sentence),
-    (BODY, lambda row: row.what.body.kind.value if row.what.body else None),
-    (ROBOT, lambda row: row.what.body.driver or None if row.what.body else None),
+    (EMBODIMENT, lambda row: row.what.embodiment.kind.value if row.what.embodiment else None),
+    (ROBOT, lambda row: row.what.embodiment.driver or None if row.what.embodiment else None),
     (AT, lambda row: row.what.at_ms),
     (
         Variable(

@@ -26,8 +26,8 @@ from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from kiosk.export.columns import (
-    BODY,
     CONDITION,
+    EMBODIMENT,
     PARTICIPANT,
     ROBOT,
     Cell,
@@ -69,13 +69,13 @@ class FlowQuantity(Enum):
 MEANINGS = {
     FlowQuantity.NOT_STORED: "people who played without being stored, by reason",
     FlowQuantity.QUOTA: "how many completed games were wanted, by condition",
-    FlowQuantity.CONSUMED: "sessions that took a place of the list and completed the game, by condition",
-    FlowQuantity.DROPPED_OUT: "sessions that had a place and did not complete the game, so that it was given out "
+    FlowQuantity.CONSUMED: "sessions that took a slot of the allocation list and completed the game, by condition",
+    FlowQuantity.DROPPED_OUT: "sessions that had a slot and did not complete the game, so that it was given out "
     "again, by condition",
-    FlowQuantity.UNDER_WAY: "sessions with a place that were going on when this was exported, by condition",
+    FlowQuantity.UNDER_WAY: "sessions with a slot that were going on when this was exported, by condition",
     FlowQuantity.OVERRIDDEN: "sessions whose condition the experimenter chose, by condition",
     FlowQuantity.BEYOND: "sessions that began when the list was used up, by condition",
-    FlowQuantity.UNLISTED: "sessions without a list of places, by condition",
+    FlowQuantity.UNLISTED: "sessions without a allocation list, by condition",
     FlowQuantity.WITHDRAWN: "sessions that were deleted because their visitor withdrew, by condition; each is counted "
     "in one of the rows before as well",
     FlowQuantity.NOT_SHARED: "sessions left out here because their visitor did not agree to publishing, by condition",
@@ -171,9 +171,9 @@ class Person:
     kept: SessionRecord
 
     @property
-    def body(self) -> EmbodimentName:
+    def embodiment(self) -> EmbodimentName:
         """What helped when the session began."""
-        return EmbodimentName.from_text(self.kept.row["body"])
+        return EmbodimentName.from_text(self.kept.row["embodiment"])
 
     @property
     def state(self) -> SessionState:
@@ -513,36 +513,36 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
     (CONDITION, lambda row: row.kept.row["condition"]),
     (
         Variable(
-            "allotted",
+            "allocation_source",
             "How the session came to its condition.",
             levels=enum_levels(
                 AllocationSource,
-                list="by the first free place of a list that was fixed before the first visitor",
+                list="by the first free slot of a list that was fixed before the first visitor",
                 override="by the experimenter",
                 beyond="the list was used up, and nothing was drawn: by the study file, the same for all of them",
             ),
-            empty="there was no list of places",
+            empty="there was no allocation list",
         ),
-        lambda row: row.kept.row["allotted"],
+        lambda row: row.kept.row["allocation_source"],
     ),
     (
         Variable(
-            "list_place",
-            "The place that the session took in that list, from 1.",
+            "allocation_slot",
+            "The slot that the session took in that list, from 1.",
             ColumnKind.WHOLE,
             empty="it took none",
         ),
-        lambda row: row.kept.row["place"],
+        lambda row: row.kept.row["allocation_slot"],
     ),
-    (BODY, lambda row: row.body.kind.value),
-    (ROBOT, lambda row: row.body.driver or None),
+    (EMBODIMENT, lambda row: row.embodiment.kind.value),
+    (ROBOT, lambda row: row.embodiment.driver or None),
     (
         Variable(
-            "body_changes",
+            "embodiment_changes",
             "How often another body had to take over; who went on after a cut is in the events.",
             ColumnKind.WHOLE,
         ),
-        lambda row: len(row.state.body_changes),
+        lambda row: len(row.state.embodiment_changes),
     ),
     (
         Variable(
@@ -566,7 +566,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
     (
         Variable(
             "game_completed",
-            "Whether every pair of the game was found and the last one looked at; with that its place is consumed.",
+            "Whether every pair of the game was found and the last one looked at; with that its slot is consumed.",
             ColumnKind.TRUTH,
         ),
         lambda row: row.state.game_completed,

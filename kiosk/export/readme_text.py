@@ -79,7 +79,7 @@ from statistics import fmean, stdev
 
 data = Path(__file__).parent.parent / "data"
 with (data / "task-concentration_description-participants_data.csv").open(encoding="utf-8", newline="") as file:
-    drawn = [person for person in csv.DictReader(file) if person["allotted"] in ("list", "")]
+    drawn = [person for person in csv.DictReader(file) if person["allocation_source"] in ("list", "")]
 people = [person for person in drawn if person["game_completed"] == "true"]
 for condition in sorted({person["condition"] for person in people}):
     moves = [int(person["moves"]) for person in people if person["condition"] == condition]

@@ -47,7 +47,7 @@ class _Answer:
     kept: SessionRecord
     questionnaire: Questionnaire
     item: Item
-    place: int | None
+    position: int | None
     answered: ItemResponse
 
     @property
@@ -66,11 +66,13 @@ def _answers(kept: SessionRecord) -> Iterator[_Answer]:
         for answer in item_responses(kept.state, session_questionnaires(kept))
     }
     for questionnaire in session_questionnaires(kept):
-        places = {item: place for place, item in enumerate(kept.state.shown_items.get(questionnaire.id, ()), 1)}
+        positions = {
+            item: position for position, item in enumerate(kept.state.shown_items.get(questionnaire.id, ()), 1)
+        }
         for item in questionnaire.items:
             key = (questionnaire.id, item.id)
             if key in given:
-                yield _Answer(kept, questionnaire, item, places.get(item.id), given[key])
+                yield _Answer(kept, questionnaire, item, positions.get(item.id), given[key])
 
 
 def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
@@ -88,12 +90,12 @@ def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answ
         (Variable("item", "The item, by its name in the questionnaire."), lambda row: row.item.id),
         (
             Variable(
-                "place",
-                "At which place the item came in its questionnaire, from 1.",
+                "item_position",
+                "The position at which the item came in its questionnaire, from 1.",
                 ColumnKind.WHOLE,
                 empty="it did not",
             ),
-            lambda row: row.place,
+            lambda row: row.position,
         ),
         (
             Variable("kind", "What kind of item it is.", levels=_ANSWERED_KINDS),

@@ -63,7 +63,7 @@ def newest_write(folder: Path) -> datetime | None:
     return datetime.fromtimestamp(written_ms / MS_PER_SECOND, UTC) if written_ms else None
 
 
-DATABASE, SESSIONS, COPY, LIST = "database", "sessions", "backup", "places"
+DATABASE, SESSIONS, COPY, LIST = "database", "sessions", "backup", "allocation_list"
 
 OLD = timedelta(days=1)
 """A copy that is older than a day's sessions leaves a day to be lost."""
@@ -121,10 +121,10 @@ def sessions_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
     def look(connection: sqlite3.Connection) -> Iterator[CheckResult]:
         stored, cut_off = connection.execute(
             """
-            SELECT count(*), coalesce(sum(last.type <> 'SessionEnded' OR last.body LIKE '%"interrupted"%'), 0)
+            SELECT count(*), coalesce(sum(last.type <> 'SessionEnded' OR last.payload LIKE '%"interrupted"%'), 0)
             FROM session JOIN event AS last ON last.session = session.id
             AND last.seq = (SELECT max(seq) FROM event WHERE event.session = session.id)
-            WHERE NOT session.simulated
+            WHERE session.kind = 0
             """
         ).fetchone()
         less = "cut off or under way" if busy else "cut off"
@@ -164,7 +164,7 @@ def allocation_check(
     quotas = {Condition.from_name(name): quota for name, quota in declared.target_n.items()}
 
     def look(connection: sqlite3.Connection) -> Iterator[CheckResult]:
-        lists = AllocationLists(connection, checked_site(site), simulated=kind)
+        lists = AllocationLists(connection, checked_site(site), kind=kind)
         try:
             lists.check(quotas, declared.block_size, declared.seed)
         except UserInputError as refusal:
@@ -183,12 +183,12 @@ def allocation_check(
 
 
 def _left(stored: AllocationList | None, consumed: set[int], quotas: Mapping[Condition, int]) -> CheckResult:
-    places = () if stored is None else stored.slots
-    taken = Counter(place.condition for place in places if place.number in consumed)
+    slots = () if stored is None else stored.slots
+    taken = Counter(slot.condition for slot in slots if slot.number in consumed)
     done = ", ".join(f"{condition.value} {taken[condition]} of {quota}" for condition, quota in quotas.items())
     if len(consumed) >= sum(quotas.values()):
         return CheckResult.warning(LIST, f"used up: {done}", "raise the quotas in their ratio, or end the study")
-    return CheckResult.ok(LIST, done if places else f"{done}; fixed when the kiosk opens")
+    return CheckResult.ok(LIST, done if slots else f"{done}; fixed when the kiosk opens")
 
 
 _Look = Callable[[sqlite3.Connection], Iterator[CheckResult]]
@@ -308,8 +308,8 @@ _FORMS_REMEDY = "give it a new version; then the data set tells both apart"
 
 _STORED = """
     SELECT content FROM source WHERE sha256 IN (
-        SELECT about_you_source FROM session WHERE NOT simulated
-        UNION SELECT questionnaire_source FROM session WHERE NOT simulated
+        SELECT about_you_source FROM session WHERE kind = 0
+        UNION SELECT questionnaire_source FROM session WHERE kind = 0
     ) ORDER BY sha256
 """
 

@@ -56,14 +56,14 @@ _TABLES = (
     """,
     # The slots of a list are fixed before its first visitor; a later list of a site continues its earlier one.
     """
-    CREATE TABLE allocation (
+    CREATE TABLE allocation_list (
         id INTEGER PRIMARY KEY AUTOINCREMENT,
         site TEXT NOT NULL,
-        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         seed INTEGER NOT NULL,
-        block INTEGER NOT NULL,
+        block_size INTEGER NOT NULL,
         quotas TEXT NOT NULL CHECK (json_valid(quotas)),
-        places TEXT NOT NULL CHECK (json_valid(places)),
+        slots TEXT NOT NULL CHECK (json_valid(slots)),
         fixed_at TEXT NOT NULL
     ) STRICT
     """,
@@ -73,9 +73,9 @@ _TABLES = (
         started_at TEXT NOT NULL,
         seed INTEGER NOT NULL,
         condition TEXT NOT NULL,
-        body TEXT NOT NULL,
+        embodiment TEXT NOT NULL,
         language TEXT NOT NULL,
-        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         version TEXT NOT NULL,
         code_commit TEXT NOT NULL,
         deck TEXT NOT NULL,
@@ -85,13 +85,15 @@ _TABLES = (
         questionnaire_source TEXT NOT NULL REFERENCES source (sha256),
         sentences_source TEXT NOT NULL REFERENCES source (sha256),
         site TEXT NOT NULL DEFAULT '',
-        list INTEGER REFERENCES allocation (id),
-        place INTEGER CHECK ((place IS NULL) = (list IS NULL)),
-        allotted TEXT
-            CHECK (allotted IN ('list', 'override', 'beyond') AND (allotted IS 'list') = (place IS NOT NULL)),
-        information_source TEXT REFERENCES source (sha256),
-        about_you_source TEXT REFERENCES source (sha256),
-        practice_deck TEXT,
+        allocation_list INTEGER REFERENCES allocation_list (id),
+        allocation_slot INTEGER CHECK ((allocation_slot IS NULL) = (allocation_list IS NULL)),
+        allocation_source TEXT CHECK (
+            allocation_source IN ('list', 'override', 'beyond')
+            AND (allocation_source IS 'list') = (allocation_slot IS NOT NULL)
+        ),
+        information_source TEXT NOT NULL REFERENCES source (sha256),
+        about_you_source TEXT NOT NULL REFERENCES source (sha256),
+        practice_deck TEXT NOT NULL,
         translations TEXT NOT NULL DEFAULT '{}' CHECK (json_valid(translations))
     ) STRICT
     """,
@@ -103,7 +105,7 @@ _TABLES = (
         at_ms INTEGER NOT NULL,
         origin TEXT NOT NULL CHECK (origin IN ('world', 'session', 'recovery')),
         type TEXT NOT NULL,
-        body TEXT NOT NULL CHECK (json_valid(body)),
+        payload TEXT NOT NULL CHECK (json_valid(payload)),
         wall_ms INTEGER,
         PRIMARY KEY (session, seq)
     ) STRICT, WITHOUT ROWID
@@ -115,10 +117,10 @@ _TABLES = (
     CREATE TABLE participant (
         session INTEGER PRIMARY KEY REFERENCES session (id),
         site TEXT NOT NULL,
-        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         number INTEGER NOT NULL,
         code TEXT NOT NULL UNIQUE,
-        UNIQUE (site, simulated, number)
+        UNIQUE (site, kind, number)
     ) STRICT
     """,
     # Visitors who are not stored are only counted: a time would tell them apart.
@@ -126,7 +128,7 @@ _TABLES = (
     CREATE TABLE visit (
         id INTEGER PRIMARY KEY AUTOINCREMENT,
         why TEXT NOT NULL CHECK (why IN ('declined', 'under_age', 'left')),
-        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2))
+        kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2))
     ) STRICT
     """,
     # What stays of a session that was withdrawn, so that counts still add up.
@@ -135,24 +137,24 @@ _TABLES = (
         session INTEGER PRIMARY KEY,
         site TEXT NOT NULL,
         number INTEGER NOT NULL,
-        simulated INTEGER NOT NULL CHECK (simulated IN (0, 1, 2)),
+        kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         condition TEXT NOT NULL,
-        list INTEGER REFERENCES allocation (id),
-        place INTEGER,
-        allotted TEXT,
+        allocation_list INTEGER REFERENCES allocation_list (id),
+        allocation_slot INTEGER,
+        allocation_source TEXT,
         status TEXT NOT NULL,
         game_completed INTEGER NOT NULL CHECK (game_completed IN (0, 1)),
         withdrawn_at TEXT NOT NULL,
-        UNIQUE (site, simulated, number)
+        UNIQUE (site, kind, number)
     ) STRICT
     """,
     # What experimenters did outside sessions.
     """
-    CREATE TABLE booth_event (
+    CREATE TABLE audit_event (
         id INTEGER PRIMARY KEY AUTOINCREMENT,
         wall_ms INTEGER NOT NULL,
         type TEXT NOT NULL,
-        body TEXT NOT NULL CHECK (json_valid(body))
+        payload TEXT NOT NULL CHECK (json_valid(payload))
     ) STRICT
     """,
     # A row comes with its tombstone and goes once no file of the folder holds the participant's data. Its hash checks a
@@ -168,10 +170,10 @@ _TABLES = (
 _NEVER_CHANGED = {
     "source": ("update", "delete"),
     "migration": ("update", "delete"),
-    "allocation": ("update", "delete"),
+    "allocation_list": ("update", "delete"),
     "visit": ("update", "delete"),
     "tombstone": ("update", "delete"),
-    "booth_event": ("update", "delete"),
+    "audit_event": ("update", "delete"),
     "session": ("update",),
     "event": ("update",),
     "participant": ("update",),
@@ -183,12 +185,12 @@ _IN_ITS_WAY = {
     "session": "id = NEW.id",
     "source": "sha256 = NEW.sha256 AND content IS NOT NEW.content",
     "migration": "number = NEW.number",
-    "allocation": "id = NEW.id",
+    "allocation_list": "id = NEW.id",
     "visit": "id = NEW.id",
-    "booth_event": "id = NEW.id",
+    "audit_event": "id = NEW.id",
     "participant": "session = NEW.session OR code = NEW.code"
-    " OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
-    "tombstone": "session = NEW.session OR (site = NEW.site AND simulated = NEW.simulated AND number = NEW.number)",
+    " OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
+    "tombstone": "session = NEW.session OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
 }
 """Which row a new one would replace: INSERT OR REPLACE deletes it without asking the triggers on delete."""
 

@@ -59,7 +59,7 @@ def merge(
 
 _Shared = TypeVar("_Shared", bound=Hashable)
 _Who = tuple[str, int, int]
-"""A person of all folders: the site, whether they are simulated, and their number."""
+"""A person of all folders: the site, whether they are kind, and their number."""
 
 
 @dataclass
@@ -86,14 +86,14 @@ class _Part:
     @property
     def sites(self) -> set[str]:
         """The sites that its rows had when they were written."""
-        tables = ("session", "participant", "tombstone", "allocation")
+        tables = ("session", "participant", "tombstone", "allocation_list")
         query = " UNION ".join(f"SELECT site FROM {table}" for table in tables)  # noqa: S608 - the names are ours
         return {site for (site,) in self.connection.execute(query)}
 
     def people(self) -> Iterator[tuple[_Who, str]]:
         """Everybody who has a number here, with their code; it is empty for those who withdrew."""
         for row in (*self.rows("participant"), *self.rows("tombstone")):
-            yield (row["site"], row["simulated"], row["number"]), row.get("code", "")
+            yield (row["site"], row["kind"], row["number"]), row.get("code", "")
 
 
 def _check_folders(folders: Sequence[Path], out: Path) -> None:
@@ -184,7 +184,7 @@ def _check_no_older_copies(parts: Sequence[_Part]) -> None:
     """Refuse a copy from before a withdrawal, which a site of its own would bring back as another person."""
     for part, other in permutations(parts, 2):
         gone, there = (
-            set(each.connection.execute(f"SELECT site, simulated, number FROM {table}"))  # noqa: S608 - ours
+            set(each.connection.execute(f"SELECT site, kind, number FROM {table}"))  # noqa: S608 - ours
             for each, table in ((part, "tombstone"), (other, "participant"))
         )
         # All people of an older copy stand in the original too, unless they withdrew there.
@@ -234,31 +234,33 @@ def _copy(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) ->
             target.execute("INSERT INTO source VALUES (?, ?) ON CONFLICT DO NOTHING", tuple(row.values()))
     _copy_lists(parts, target)
     _copy_tombstones(parts, target)
-    for table, keys in (("visit", ("why", "simulated")), ("booth_event", ("wall_ms", "type", "body"))):
+    for table, keys in (("visit", ("why", "kind")), ("audit_event", ("wall_ms", "type", "payload"))):
         for _, row in _ordered(parts, table, *keys):
             insert(target, table, {name: value for name, value in row.items() if name != "id"})
     return _copy_sessions(parts, target, tell)
 
 
 def _copy_lists(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
-    for part, row in _ordered(parts, "allocation", "fixed_at", "site", "simulated", "id"):
-        part.lists[row["id"]] = insert(target, "allocation", {n: value for n, value in row.items() if n != "id"})
+    for part, row in _ordered(parts, "allocation_list", "fixed_at", "site", "kind", "id"):
+        part.lists[row["id"]] = insert(target, "allocation_list", {n: value for n, value in row.items() if n != "id"})
 
 
 def _copy_tombstones(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
     """They stand before the sessions, so that no session that is yet to come takes their numbers."""
-    ordered = _ordered(parts, "tombstone", "site", "simulated", "number")
+    ordered = _ordered(parts, "tombstone", "site", "kind", "number")
     for number, (part, row) in enumerate(ordered, 1):
-        insert(target, "tombstone", row | {"session": number, "list": part.lists.get(row["list"])})
+        insert(
+            target, "tombstone", row | {"session": number, "allocation_list": part.lists.get(row["allocation_list"])}
+        )
     target.execute("INSERT INTO sqlite_sequence VALUES ('session', ?)", (len(ordered),))
 
 
 def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) -> int:
-    ordered = _ordered(parts, "session", "started_at", "site", "simulated", "seed", "id")
+    ordered = _ordered(parts, "session", "started_at", "site", "kind", "seed", "id")
     for done, (part, row) in enumerate(ordered):
         tell(done, len(ordered))
         old = row.pop("id")
-        new = insert(target, "session", row | {"list": part.lists.get(row["list"])})
+        new = insert(target, "session", row | {"allocation_list": part.lists.get(row["allocation_list"])})
         for table in ("event", "participant"):
             for own in part.rows(table, "WHERE session = ?", old):
                 insert(target, table, own | {"session": new})

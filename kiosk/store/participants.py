@@ -1,4 +1,4 @@
-"""Participants, their numbers and codes, the list of places, and the counts of each cell."""
+"""Participants, their numbers and codes, allocation lists, and the counts of each cell."""
 
 from __future__ import annotations
 
@@ -87,13 +87,11 @@ def checked_code(text: str) -> str:
 
 def enrol(connection: sqlite3.Connection, session: int) -> Participant:
     """Give a session's person the next number of the site, and a code, within the transaction that is open."""
-    site, simulated, seed = connection.execute(
-        "SELECT site, simulated, seed FROM session WHERE id = ?", (session,)
-    ).fetchone()
-    participant = Participant(session, site, _next_number(connection, site, simulated), _code(connection, site, seed))
+    site, kind, seed = connection.execute("SELECT site, kind, seed FROM session WHERE id = ?", (session,)).fetchone()
+    participant = Participant(session, site, _next_number(connection, site, kind), _code(connection, site, seed))
     connection.execute(
-        "INSERT INTO participant (session, site, simulated, number, code) VALUES (?, ?, ?, ?, ?)",
-        (session, site, simulated, participant.number, participant.code),
+        "INSERT INTO participant (session, site, kind, number, code) VALUES (?, ?, ?, ?, ?)",
+        (session, site, kind, participant.number, participant.code),
     )
     return participant
 
@@ -122,15 +120,15 @@ def _taken(connection: sqlite3.Connection, code: str) -> bool:
     return connection.execute("SELECT 1 FROM participant WHERE code = ?", (code,)).fetchone() is not None
 
 
-def _next_number(connection: sqlite3.Connection, site: str, simulated: int) -> int:
+def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
     """One more than the highest ever given, whether or not its session was withdrawn."""
     number: int = connection.execute(
         """
         SELECT 1 + coalesce(max(number), 0) FROM (
-            SELECT site, simulated, number FROM participant UNION ALL SELECT site, simulated, number FROM tombstone
-        ) WHERE site = ? AND simulated = ?
+            SELECT site, kind, number FROM participant UNION ALL SELECT site, kind, number FROM tombstone
+        ) WHERE site = ? AND kind = ?
         """,
-        (site, simulated),
+        (site, kind),
     ).fetchone()[0]
     return number
 
@@ -145,7 +143,7 @@ def _check(characters: str) -> str:
 
 
 SEED_BITS = 63
-"""Who has seen many places of a list shall not find the rest by trying seeds."""
+"""Who has seen many slots of a list cannot find the rest by trying seeds."""
 
 
 @dataclass(frozen=True)
@@ -162,17 +160,17 @@ class AllocationList:
 class AllocationLists:
     """The lists of one site, of one kind of sessions; the last one goes on from those before and is followed."""
 
-    def __init__(self, connection: sqlite3.Connection, site: str, *, simulated: bool | SessionKind) -> None:
+    def __init__(self, connection: sqlite3.Connection, site: str, *, kind: SessionKind) -> None:
         """Whoever calls ``fix`` has a transaction open."""
         self._connection = connection
-        self._whose = {"site": site, "simulated": int(simulated)}
+        self._whose = {"site": site, "kind": int(kind)}
 
     def latest(self) -> AllocationList | None:
         """The list that is followed now; None if none is fixed."""
         row = self._connection.execute(
             """
-            SELECT id, seed, block, quotas, places FROM allocation
-            WHERE site = :site AND simulated = :simulated ORDER BY id DESC LIMIT 1
+            SELECT id, seed, block_size, quotas, slots FROM allocation_list
+            WHERE site = :site AND kind = :kind ORDER BY id DESC LIMIT 1
             """,
             self._whose,
         ).fetchone()
@@ -182,29 +180,29 @@ class AllocationLists:
         return AllocationList(number, seed, block, quotas_from_json(quotas), slots_from_json(listed))
 
     def consumed(self) -> set[int]:
-        """The numbers of the places whose game was completed, those of people who withdrew among them."""
+        """The numbers of the slots whose game was completed, those of people who withdrew among them."""
         rows = self._connection.execute(
             """
-            SELECT place FROM session WHERE site = :site AND simulated = :simulated AND allotted = 'list'
+            SELECT allocation_slot FROM session WHERE site = :site AND kind = :kind AND allocation_source = 'list'
             AND id IN (SELECT session FROM event WHERE type = 'GameFinished')
             UNION
-            SELECT place FROM tombstone WHERE site = :site AND simulated = :simulated AND allotted = 'list'
+            SELECT allocation_slot FROM tombstone WHERE site = :site AND kind = :kind AND allocation_source = 'list'
             AND game_completed
             """,
             self._whose,
         )
-        return {place for (place,) in rows}
+        return {slot for (slot,) in rows}
 
     def next_slot(self) -> AllocationSlot | None:
-        """The first place that is not consumed; None if all are, or if no list is fixed."""
+        """The first slot that is not consumed; None if all are, or if no list is fixed."""
         stored = self.latest()
         return next_slot(stored.slots, self.consumed()) if stored else None
 
-    def list_with(self, place: AllocationSlot) -> int:
-        """The row of the list in which this place is free; raises ValueError if it is not."""
+    def list_with(self, slot: AllocationSlot) -> int:
+        """The row of the list in which this slot is free; raises ValueError if it is not."""
         stored = self.latest()
-        if stored is None or place not in stored.slots or place.number in self.consumed():
-            raise ValueError(f"there is no free {place} in the list that is fixed")
+        if stored is None or slot not in stored.slots or slot.number in self.consumed():
+            raise ValueError(f"there is no free {slot} in the list that is fixed")
         return stored.id
 
     def create(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[AllocationSlot, ...]:
@@ -230,28 +228,28 @@ class AllocationLists:
     ) -> tuple[AllocationSlot, ...]:
         self._connection.execute(
             """
-            INSERT INTO allocation (site, simulated, seed, block, quotas, places, fixed_at)
-            VALUES (:site, :simulated, :seed, :block, :quotas, :places, :fixed_at)
+            INSERT INTO allocation_list (site, kind, seed, block_size, quotas, slots, fixed_at)
+            VALUES (:site, :kind, :seed, :block_size, :quotas, :slots, :fixed_at)
             """,
             self._whose
-            | {"seed": seed, "block": block, "quotas": quotas_to_json(quotas), "places": slots_to_json(listed)}
+            | {"seed": seed, "block_size": block, "quotas": quotas_to_json(quotas), "slots": slots_to_json(listed)}
             | {"fixed_at": datetime.now(UTC).isoformat(timespec="milliseconds")},
         )
         return listed
 
 
 def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> None:
-    """Raise UserInputError if another completed game took the place of a session that was cut off."""
-    site, simulated, place, finished = connection.execute(
+    """Raise UserInputError if another completed game took the slot of a session that was cut off."""
+    site, kind, slot, finished = connection.execute(
         """
-        SELECT site, simulated, place, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
+        SELECT site, kind, allocation_slot, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
         FROM session WHERE id = ?1
         """,
         (session,),
     ).fetchone()
-    lists = AllocationLists(connection, site, simulated=SessionKind(simulated))
-    if place is not None and not finished and place in lists.consumed():
-        raise UserInputError(f"the place of session {session} was given out again, so it cannot be gone on with")
+    lists = AllocationLists(connection, site, kind=SessionKind(kind))
+    if slot is not None and not finished and slot in lists.consumed():
+        raise UserInputError(f"the slot of session {session} was given out again, so it cannot be gone on with")
 
 
 def quotas_to_json(quotas: Mapping[Condition, int]) -> str:
@@ -270,7 +268,7 @@ def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
 
 
 def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
-    """What ``places_to_json`` wrote."""
+    """What ``slots_to_json`` wrote."""
     named = ((block, name) for block, names in enumerate(json.loads(text), 1) for name in names)
     return tuple(AllocationSlot(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
 
@@ -289,24 +287,24 @@ def _continued(
 
 def _another(stored: AllocationList) -> UserInputError:
     return UserInputError(
-        f"another list of places is already fixed in this data folder ({ratio_in_words(stored.quotas)}, in blocks of "
+        f"another allocation list is already fixed in this data folder ({ratio_in_words(stored.quotas)}, in blocks of "
         f"{stored.block}): use another data folder, or these quotas, or raise them in their ratio"
     )
 
 
 class Disposition(Enum):
-    """What became of a session, as far as the list of places goes; every session has exactly one."""
+    """What became of a session, as far as the allocation list goes; every session has exactly one."""
 
     CONSUMED = "consumed"
-    """Its game was completed, so its place is consumed."""
+    """Its game was completed, so its slot is consumed."""
     DROPPED_OUT = "dropped_out"
-    """It had a place, which was given out again."""
+    """It had a slot, which was given out again."""
     UNDER_WAY = "under_way"
-    """It has a place, and its game may still be completed."""
+    """It has a slot, and its game may still be completed."""
     OVERRIDDEN = "overridden"
     BEYOND = "beyond"
     UNLISTED = "unlisted"
-    """No list was followed."""
+    """No allocation list was followed."""
 
 
 @dataclass(frozen=True)
@@ -336,18 +334,18 @@ class EnrolmentCounts:
     visits: Mapping[NotRecordedReason, int]
 
 
-def count_enrolment(connection: sqlite3.Connection, *, simulated: bool | SessionKind, in_use: bool) -> EnrolmentCounts:
+def count_enrolment(connection: sqlite3.Connection, *, kind: SessionKind, in_use: bool) -> EnrolmentCounts:
     """Count people, rehearsals or trials.
 
     With ``in_use`` the folder is being written, so that a session without an end is under way.
     """
     fates: Counter[tuple[Condition, Disposition]] = Counter()
     withdrawn: Counter[Condition] = Counter()
-    for name, allotted, finished, ended, gone in connection.execute(_SESSIONS, {"simulated": int(simulated)}):
+    for name, allocation_source, finished, ended, gone in connection.execute(_SESSIONS, {"kind": int(kind)}):
         condition = Condition(name)
-        fates[condition, _fate(allotted, finished=bool(finished), ended=bool(ended) or not in_use)] += 1
+        fates[condition, _fate(allocation_source, finished=bool(finished), ended=bool(ended) or not in_use)] += 1
         withdrawn[condition] += gone
-    quotas = _quotas(connection, simulated=simulated)
+    quotas = _quotas(connection, kind=kind)
     there = {condition for condition, _ in fates} | set(quotas)
     return EnrolmentCounts(
         {
@@ -357,23 +355,23 @@ def count_enrolment(connection: sqlite3.Connection, *, simulated: bool | Session
             for condition in Condition
             if condition in there
         },
-        _visits(connection, simulated=simulated),
+        _visits(connection, kind=kind),
     )
 
 
 _SESSIONS = """
-    SELECT condition, allotted,
+    SELECT condition, allocation_source,
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
         'SessionEnded' = (SELECT type FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
         0
-    FROM session WHERE simulated = :simulated
+    FROM session WHERE kind = :kind
     UNION ALL
-    SELECT condition, allotted, game_completed, 1, 1 FROM tombstone WHERE simulated = :simulated
+    SELECT condition, allocation_source, game_completed, 1, 1 FROM tombstone WHERE kind = :kind
 """
 
 
-def _fate(allotted: str | None, *, finished: bool, ended: bool) -> Disposition:
-    match allotted and AllocationSource(allotted):
+def _fate(source: str | None, *, finished: bool, ended: bool) -> Disposition:
+    match source and AllocationSource(source):
         case AllocationSource.LIST if finished:
             return Disposition.CONSUMED
         case AllocationSource.LIST:
@@ -386,19 +384,19 @@ def _fate(allotted: str | None, *, finished: bool, ended: bool) -> Disposition:
             return Disposition.UNLISTED
 
 
-def _quotas(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Counter[Condition]:
+def _quotas(connection: sqlite3.Connection, *, kind: SessionKind) -> Counter[Condition]:
     """What the lists that are followed ask for, of all sites together."""
     asked: Counter[Condition] = Counter()
-    latest = "SELECT max(id) FROM allocation GROUP BY site, simulated"
+    latest = "SELECT max(id) FROM allocation_list GROUP BY site, kind"
     for (quotas,) in connection.execute(
-        f"SELECT quotas FROM allocation WHERE simulated = ? AND id IN ({latest})",  # noqa: S608 - it stands here
-        (int(simulated),),
+        f"SELECT quotas FROM allocation_list WHERE kind = ? AND id IN ({latest})",  # noqa: S608 - it stands here
+        (int(kind),),
     ):
         asked.update(quotas_from_json(quotas))
     return asked
 
 
-def _visits(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> dict[NotRecordedReason, int]:
-    rows = connection.execute("SELECT why, count(*) FROM visit WHERE simulated = ? GROUP BY why", (int(simulated),))
+def _visits(connection: sqlite3.Connection, *, kind: SessionKind) -> dict[NotRecordedReason, int]:
+    rows = connection.execute("SELECT why, count(*) FROM visit WHERE kind = ? GROUP BY why", (int(kind),))
     counted = dict(rows.fetchall())
     return {why: counted.get(why.value, 0) for why in NotRecordedReason}

@@ -40,19 +40,21 @@ def frozen_plans(folder: Path) -> tuple[FrozenPlan, ...]:
     if not has_database(folder):
         return ()
     with closing(open_for_reading(folder)) as connection:
-        query = "SELECT wall_ms, body FROM booth_event WHERE type = ? ORDER BY id"
+        query = "SELECT wall_ms, payload FROM audit_event WHERE type = ? ORDER BY id"
         frozen = connection.execute(query, (PLAN_FROZEN,)).fetchall()
-        looks = [json.loads(body) for _, body in connection.execute(query, (LOOK_TAKEN,))]
+        looks = [json.loads(payload) for _, payload in connection.execute(query, (LOOK_TAKEN,))]
         first = connection.execute(
-            "SELECT min(started_at) FROM session WHERE simulated = ?", (int(SessionKind.STUDY),)
+            "SELECT min(started_at) FROM session WHERE kind = ?", (int(SessionKind.STUDY),)
         ).fetchone()[0]
     began = datetime.fromisoformat(first) if first is not None else None
-    return tuple(_frozen(datetime.fromtimestamp(ms / MS_PER_SECOND, UTC), body, looks, began) for ms, body in frozen)
+    return tuple(
+        _frozen(datetime.fromtimestamp(ms / MS_PER_SECOND, UTC), payload, looks, began) for ms, payload in frozen
+    )
 
 
-def _frozen(at: datetime, body: str, looks: Sequence[dict[str, Any]], began: datetime | None) -> FrozenPlan:
+def _frozen(at: datetime, payload: str, looks: Sequence[dict[str, Any]], began: datetime | None) -> FrozenPlan:
     """One row of the audit log, with the looks that were taken under it."""
-    told = json.loads(body)
+    told = json.loads(payload)
     own = tuple(look["per_arm"] for look in looks if look["sha256"] == told["sha256"])
     return FrozenPlan(told["sha256"], at.isoformat(), told["plan"], began is None or at <= began, own)
 
@@ -79,7 +81,7 @@ def games_per_condition(folder: Path, conditions: Sequence[str], *, finished: bo
     counts = dict.fromkeys(conditions, 0)
     if not has_database(folder):
         return counts
-    query = "SELECT condition, count(*) FROM session WHERE simulated = ?"
+    query = "SELECT condition, count(*) FROM session WHERE kind = ?"
     if finished:
         query += " AND EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished')"
     with closing(open_for_reading(folder)) as connection:

@@ -50,14 +50,14 @@ LARGEST = 2**63 - 1
 class StoredSession:
     """A stored session at a glance; ``status`` is None while it is under way.
 
-    ``participant`` and ``code`` are None in sessions from before people were numbered, and ``allotted`` where no list
-    of places was followed. ``stage`` is where it ended, or is; None if it got nowhere.
+    ``participant`` and ``code`` are None in sessions from before people were numbered, ``allocation_source`` where no
+    allocation list was followed. ``stage`` is where it ended, or is; None if it got nowhere.
     """
 
     id: int
     started_at: str
     condition: str
-    body: str
+    embodiment: str
     status: Status | None
     kind: SessionKind
     measures: Measures
@@ -73,9 +73,9 @@ class StoredSession:
             "participant": self.participant,
             "status": self.status.value if self.status else "running",
             "stage": self.stage.value if self.stage else None,
-            "allotted": self.allocation_source.value if self.allocation_source else None,
+            "allocation_source": self.allocation_source.value if self.allocation_source else None,
             "condition": self.condition,
-            "body": self.body,
+            "embodiment": self.embodiment,
             "flips": self.measures.flips,
             "moves": self.measures.moves,
             "pairs": self.measures.pairs,
@@ -101,15 +101,17 @@ class SessionRepository:
         """One session; raises UserInputError if there is none of this number."""
         return self._session(self._row(number))
 
-    def counts(self, *, simulated: bool | SessionKind) -> EnrolmentCounts:
+    def counts(self, *, kind: SessionKind) -> EnrolmentCounts:
         """How many came, by condition and by what became of them: people, rehearsals or trials."""
-        return count_enrolment(self._database.conn, simulated=simulated, in_use=self._unended is None)
+        return count_enrolment(self._database.conn, kind=kind, in_use=self._unended is None)
 
     def records(self, number: int) -> list[dict[str, Any]]:
         """Every event of a session as JSON values: seq, at_ms, type, origin, and its own fields."""
         self._row(number)
         rows = self._database["event"].rows_where("session = ?", [number], order_by="seq")
-        return [{key: row[key] for key in ("seq", "at_ms", "type", "origin")} | json.loads(row["body"]) for row in rows]
+        return [
+            {key: row[key] for key in ("seq", "at_ms", "type", "origin")} | json.loads(row["payload"]) for row in rows
+        ]
 
     def events(self, number: int) -> list[Event]:
         """Every event of a session."""
@@ -122,10 +124,6 @@ class SessionRepository:
     def plan(self, number: int) -> SessionConfig:
         """Return what a session followed, from its stored sources; raise UserInputError if they cannot be read."""
         row = self._row(number)
-        if row["information_source"] is None:
-            raise UserInputError(
-                f"session {number} is from before sessions had all their stages, and cannot be played again"
-            )
         try:
             return SessionConfig(
                 settings=Settings.model_validate_json(self.source(row["settings_sha256"])),
@@ -179,28 +177,28 @@ class SessionRepository:
             f"session = ? AND type IN ({wanted})", [row["id"], *_SUMMARISED], order_by="seq"
         )
         state = SessionState.from_events(
-            _event({"at_ms": row["at_ms"], "type": row["type"]} | json.loads(row["body"])) for row in rows
+            _event({"at_ms": row["at_ms"], "type": row["type"]} | json.loads(row["payload"])) for row in rows
         )
         participant = participant_of(self._database.conn, row["id"])
         return StoredSession(
             row["id"],
             row["started_at"],
             row["condition"],
-            row["body"],
+            row["embodiment"],
             self._status(row["id"]),
-            SessionKind(row["simulated"]),
+            SessionKind(row["kind"]),
             measure_game(state),
             participant.name if participant else None,
             participant.code if participant else None,
             state.last_stage,
-            AllocationSource(row["allotted"]) if row["allotted"] else None,
+            AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
         )
 
     def _status(self, number: int) -> Status | None:
         """How a session ended: only its very last event says so, as one that was cut off may have been gone on with."""
         for row in self._database["event"].rows_where("session = ?", [number], order_by="seq DESC", limit=1):
             if row["type"] == SessionEnded.__name__:
-                return Status(json.loads(row["body"])["status"])
+                return Status(json.loads(row["payload"])["status"])
         return self._unended
 
 

@@ -49,7 +49,7 @@ def event_rows(session: int, first_seq: int, events: Sequence[Event]) -> list[tu
     """Return the rows of a session's next events, in the order of the table's columns."""
     written_ms = now_ms()
     return [
-        (session, seq, event.at_ms, _origin(event), *_type_and_body(event), written_ms)
+        (session, seq, event.at_ms, _origin(event), *_type_and_payload(event), written_ms)
         for seq, event in enumerate(events, first_seq)
     ]
 
@@ -65,19 +65,19 @@ def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
     ).fetchall()
     for session, seq, at_ms in open_sessions:
         end = SessionEnded(at_ms=at_ms, status=Status.INTERRUPTED)
-        connection.execute(_INSERT_EVENT, (session, seq + 1, at_ms, "recovery", *_type_and_body(end), now_ms()))
+        connection.execute(_INSERT_EVENT, (session, seq + 1, at_ms, "recovery", *_type_and_payload(end), now_ms()))
     return tuple(session for session, *_ in open_sessions)
 
 
 def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
     """The seq of the end of a session that was interrupted; raises UserInputError if it was not."""
     last = connection.execute(
-        "SELECT seq, type, body FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
+        "SELECT seq, type, payload FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
     ).fetchone()
     if last is None:
         raise UserInputError(f"there is no session {session}")
-    seq, kind, body = last
-    if kind != SessionEnded.__name__ or json.loads(body)["status"] != Status.INTERRUPTED.value:
+    seq, kind, payload = last
+    if kind != SessionEnded.__name__ or json.loads(payload)["status"] != Status.INTERRUPTED.value:
         raise UserInputError(f"session {session} was not interrupted, so it cannot be gone on with")
     return int(seq)
 
@@ -94,14 +94,14 @@ def now_ms() -> int:
     return time.time_ns() // 1_000_000
 
 
-_INSERT_EVENT = "INSERT INTO event (session, seq, at_ms, origin, type, body, wall_ms) VALUES (?, ?, ?, ?, ?, ?, ?)"
+_INSERT_EVENT = "INSERT INTO event (session, seq, at_ms, origin, type, payload, wall_ms) VALUES (?, ?, ?, ?, ?, ?, ?)"
 
 
 def _origin(event: Event) -> str:
     return "world" if isinstance(event, WorldEvent) else "session"
 
 
-def _type_and_body(event: Event) -> tuple[str, str]:
+def _type_and_payload(event: Event) -> tuple[str, str]:
     """An event's class, and its own fields as JSON; the time and the class have columns of their own."""
     record = to_record(event)
     kind = str(record.pop("type"))
@@ -122,11 +122,11 @@ class Provenance:
 
     plan: SessionConfig
     seed: int
-    body: str
+    embodiment: str
     code_commit: str
-    simulated: bool | SessionKind
+    kind: SessionKind
     slot: AllocationSlot | None = None
-    """The place that it takes in the list that the recorder fixed; given if, and only if, it was allotted by it."""
+    """The slot that it takes in the allocation list; given if, and only if, its condition came from the list."""
     allocation_source: AllocationSource | None = None
 
 
@@ -186,10 +186,10 @@ class Recorder:
         finally:
             self._set_wait(self.wait_ms)
 
-    # The list of places
+    # The allocation list
 
     def create_allocation_list(
-        self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, simulated: bool | SessionKind
+        self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, kind: SessionKind
     ) -> tuple[AllocationSlot, ...]:
         """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
 
@@ -197,15 +197,15 @@ class Recorder:
         StorageError if the disk does not take it. It waits for another program, as opening does.
         """
         with self.retrying(OPENING_WAIT_MS), self._transaction():
-            return self._lists(simulated=simulated).create(quotas, block, seed)
+            return self._lists(kind=kind).create(quotas, block, seed)
 
-    def next_slot(self, *, simulated: bool | SessionKind) -> AllocationSlot | None:
-        """The first place of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
+    def next_slot(self, *, kind: SessionKind) -> AllocationSlot | None:
+        """The first slot of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
 
         It is computed from what is stored and nothing else. It only reads, so a program that writes is no hindrance.
         """
         with self._transaction("DEFERRED"):
-            return self._lists(simulated=simulated).next_slot()
+            return self._lists(kind=kind).next_slot()
 
     # Sessions
 
@@ -261,23 +261,23 @@ class Recorder:
 
     # Outside sessions
 
-    def count_visit(self, why: NotRecordedReason, *, simulated: bool | SessionKind) -> None:
+    def count_visit(self, why: NotRecordedReason, *, kind: SessionKind) -> None:
         """Count somebody who played without being stored; nothing else of them is kept, not even when."""
         with self._transaction():
-            insert(self._connection, "visit", {"why": why.value, "simulated": int(simulated)})
+            insert(self._connection, "visit", {"why": why.value, "kind": int(kind)})
 
-    def add_audit_event(self, kind: str, body: Mapping[str, Any], wall_ms: int | None = None) -> None:
-        """Write down what an experimenter did outside a session; ``body`` holds JSON values.
+    def add_audit_event(self, kind: str, payload: Mapping[str, Any], wall_ms: int | None = None) -> None:
+        """Write down what an experimenter did outside a session; ``payload`` holds JSON values.
 
         ``wall_ms`` is when that was, in ms since 1970; by default now.
         """
         row: dict[str, str | int | None] = {
             "wall_ms": now_ms() if wall_ms is None else wall_ms,
             "type": kind,
-            "body": json_text(body),
+            "payload": json_text(payload),
         }
         with self._transaction():
-            insert(self._connection, "booth_event", row)
+            insert(self._connection, "audit_event", row)
 
     def _open(self) -> sqlite3.Connection:
         connection = open_for_writing(self.folder)
@@ -291,8 +291,8 @@ class Recorder:
             _log.error("%s", failed)
         return open_for_writing(self.folder)
 
-    def _lists(self, *, simulated: bool | SessionKind) -> AllocationLists:
-        return AllocationLists(self._connection, self._site, simulated=simulated)
+    def _lists(self, *, kind: SessionKind) -> AllocationLists:
+        return AllocationLists(self._connection, self._site, kind=kind)
 
     def _close(self) -> None:
         self._connection.close()
@@ -325,14 +325,14 @@ class Recorder:
                 "started_at": datetime.now(UTC).isoformat(timespec="milliseconds"),
                 "seed": provenance.seed,
                 "condition": plan.condition.value,
-                "body": provenance.body,
+                "embodiment": provenance.embodiment,
                 "language": plan.catalogue.language,
-                "simulated": int(provenance.simulated),
+                "kind": int(provenance.kind),
                 "version": __version__,
                 "code_commit": provenance.code_commit,
                 "site": self._site,
                 **self._sources(plan),
-                **self._allotment(provenance),
+                **self._allocation(provenance),
             },
         )
 
@@ -358,17 +358,21 @@ class Recorder:
             "information": self._keep_source(translation.information.model_dump_json()),
         }
 
-    def _allotment(self, provenance: Provenance) -> dict[str, str | int | None]:
+    def _allocation(self, provenance: Provenance) -> dict[str, str | int | None]:
         """How the session came to its condition, as columns."""
-        place, allotted = provenance.slot, provenance.allocation_source
-        if (place is not None) is not (allotted is AllocationSource.LIST):
-            raise ValueError(f"a session that was allotted by {allotted} cannot take {place}")
-        if place is None:
-            return {"allotted": allotted.value if allotted else None}
-        if place.condition is not provenance.plan.condition:
-            raise ValueError(f"{place} is not one for {provenance.plan.condition}")
-        list_id = self._lists(simulated=provenance.simulated).list_with(place)
-        return {"allotted": AllocationSource.LIST.value, "list": list_id, "place": place.number}
+        slot, source = provenance.slot, provenance.allocation_source
+        if (slot is not None) is not (source is AllocationSource.LIST):
+            raise ValueError(f"a session whose condition came from {source} cannot take {slot}")
+        if slot is None:
+            return {"allocation_source": source.value if source else None}
+        if slot.condition is not provenance.plan.condition:
+            raise ValueError(f"{slot} is not one for {provenance.plan.condition}")
+        list_id = self._lists(kind=provenance.kind).list_with(slot)
+        return {
+            "allocation_source": AllocationSource.LIST.value,
+            "allocation_list": list_id,
+            "allocation_slot": slot.number,
+        }
 
     def _keep_source(self, content: str) -> str:
         sha256 = hashlib.sha256(content.encode()).hexdigest()

@@ -60,7 +60,7 @@ class SessionRecord:
     @property
     def kind(self) -> SessionKind:
         """Who sat there."""
-        return SessionKind(self.row["simulated"])
+        return SessionKind(self.row["kind"])
 
     @cached_property
     def name(self) -> str:
@@ -81,7 +81,7 @@ class SessionRecord:
     @cached_property
     def state(self) -> SessionState:
         """What the session came to."""
-        return SessionState.from_events(self.events, EmbodimentName.from_text(self.row["body"]))
+        return SessionState.from_events(self.events, EmbodimentName.from_text(self.row["embodiment"]))
 
     @property
     def publishable(self) -> bool:
@@ -113,9 +113,7 @@ class RecordSource:
 
     def left_out(self, kind: SessionKind) -> int:
         """How many sessions of a kind there are that is not read."""
-        number: int = self.connection.execute(
-            "SELECT count(*) FROM session WHERE simulated = ?", (int(kind),)
-        ).fetchone()[0]
+        number: int = self.connection.execute("SELECT count(*) FROM session WHERE kind = ?", (int(kind),)).fetchone()[0]
         return 0 if kind in self.kinds else number
 
     def __iter__(self) -> Iterator[SessionRecord]:
@@ -141,7 +139,7 @@ class RecordSource:
 
     @property
     def _wanted(self) -> str:
-        return f"session.simulated IN ({', '.join(str(int(kind)) for kind in sorted(self.kinds))})"
+        return f"session.kind IN ({', '.join(str(int(kind)) for kind in sorted(self.kinds))})"
 
     def _plan(self, row: Mapping[str, Any]) -> SessionConfig | None:
         """What a session followed; sessions that followed the same share it."""

@@ -42,11 +42,11 @@ class SnapshotSession:
 
 @dataclass(frozen=True)
 class SnapshotAuditEvent:
-    """One booth event."""
+    """One audit event."""
 
     wall_ms: int
     kind: AuditEvent
-    body: dict[str, Any]
+    payload: dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -61,19 +61,19 @@ class DashboardSnapshot:
     """The language and the hash of every pack of clips that spoke in the newest sessions."""
 
 
-def read_snapshot(folder: Path, since_ms: int, *, simulated: bool | SessionKind) -> DashboardSnapshot:
+def read_snapshot(folder: Path, since_ms: int, *, kind: SessionKind) -> DashboardSnapshot:
     """Look at a data folder that is being written; deviations are those since ``since_ms``.
 
     Raises UserInputError if there is none that can be read.
     """
     with _looking_at(folder) as connection:
-        seen = tuple(_seen(connection, simulated=simulated))
+        seen = tuple(_seen(connection, kind=kind))
         return DashboardSnapshot(
-            count_enrolment(connection, simulated=simulated, in_use=True),
+            count_enrolment(connection, kind=kind, in_use=True),
             seen[:LAST],
             tuple(session for session in seen if session.resumable),
             tuple(_deviations(connection, since_ms)),
-            frozenset(connection.execute(_PACKS, {"simulated": int(simulated), "limit": LOOKED_BACK})),
+            frozenset(connection.execute(_PACKS, {"kind": int(kind), "limit": LOOKED_BACK})),
         )
 
 
@@ -88,8 +88,8 @@ def wrong_pins(folder: Path) -> WrongPins:
     with _looking_at(folder) as connection:
         times, last_ms = connection.execute(
             """
-            SELECT count(*), coalesce(max(wall_ms), 0) FROM booth_event WHERE type = ?
-            AND id > (SELECT coalesce(max(id), 0) FROM booth_event WHERE type = ?)
+            SELECT count(*), coalesce(max(wall_ms), 0) FROM audit_event WHERE type = ?
+            AND id > (SELECT coalesce(max(id), 0) FROM audit_event WHERE type = ?)
             """,
             (AuditEvent.PIN_REFUSED.value, AuditEvent.PIN_ACCEPTED.value),
         ).fetchone()
@@ -105,12 +105,12 @@ def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
             raise unreadable(error, folder) from error
 
 
-def _seen(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> Iterator[SnapshotSession]:
-    rows = connection.execute(_SESSIONS, {"simulated": int(simulated), "limit": LOOKED_BACK}).fetchall()
-    for number, started_at, condition, site, place, person, stage, ending, lost, finished in rows:
+def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[SnapshotSession]:
+    rows = connection.execute(_SESSIONS, {"kind": int(kind), "limit": LOOKED_BACK}).fetchall()
+    for number, started_at, condition, site, slot, person, stage, ending, lost, finished in rows:
         status = Status(ending) if ending else None
         reached = Stage(stage) if stage else None
-        lists = AllocationLists(connection, site, simulated=simulated)
+        lists = AllocationLists(connection, site, kind=kind)
         cut_short = status is Status.INTERRUPTED and bool(person) and reached not in (None, Stage.GAME)
         yield SnapshotSession(
             number,
@@ -120,39 +120,40 @@ def _seen(connection: sqlite3.Connection, *, simulated: bool | SessionKind) -> I
             reached,
             status,
             bool(lost),
-            # Whether the place is free is asked last: for the few that were cut short, not for all of every look.
-            resumable=cut_short and bool(place is None or finished or place not in lists.consumed()),
+            # Whether the slot is free is asked last: for the few that were cut short, not for all of every look.
+            resumable=cut_short and bool(slot is None or finished or slot not in lists.consumed()),
         )
 
 
 _SESSIONS = """
-    SELECT session.id, started_at, condition, session.site, place, participant.number,
-        (SELECT json_extract(body, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
-            AND json_extract(body, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1),
-        (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(body, '$.status') END
+    SELECT session.id, started_at, condition, session.site, allocation_slot, participant.number,
+        (SELECT json_extract(payload, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
+            AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1),
+        (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(payload, '$.status') END
             FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'RobotDisconnected'),
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished')
     FROM session LEFT JOIN participant ON participant.session = session.id
-    WHERE session.simulated = :simulated ORDER BY session.id DESC LIMIT :limit
+    WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit
 """
 
 
 _PACKS = """
-    SELECT DISTINCT language, json_extract(event.body, '$.pack') FROM event JOIN session ON session.id = event.session
-    WHERE type = 'SpeechStarted' AND json_extract(event.body, '$.pack') <> '' AND session.id IN
-        (SELECT id FROM session WHERE simulated = :simulated ORDER BY id DESC LIMIT :limit)
+    SELECT DISTINCT language, json_extract(event.payload, '$.pack')
+    FROM event JOIN session ON session.id = event.session
+    WHERE type = 'SpeechStarted' AND json_extract(event.payload, '$.pack') <> '' AND session.id IN
+        (SELECT id FROM session WHERE kind = :kind ORDER BY id DESC LIMIT :limit)
 """
 
 
 def _deviations(connection: sqlite3.Connection, since_ms: int) -> Iterator[SnapshotAuditEvent]:
     known = {note.value: note for note in DEVIATIONS}
     rows = connection.execute(
-        "SELECT wall_ms, type, body FROM booth_event WHERE wall_ms >= ? ORDER BY id DESC", (since_ms,)
+        "SELECT wall_ms, type, payload FROM audit_event WHERE wall_ms >= ? ORDER BY id DESC", (since_ms,)
     )
-    for wall_ms, kind, body in rows:
+    for wall_ms, kind, payload in rows:
         if kind in known:
-            yield SnapshotAuditEvent(wall_ms, known[kind], json.loads(body))
+            yield SnapshotAuditEvent(wall_ms, known[kind], json.loads(payload))
 
 
 def _last_ms(connection: sqlite3.Connection) -> int:
@@ -160,7 +161,7 @@ def _last_ms(connection: sqlite3.Connection) -> int:
     event, booth = connection.execute(
         """
         SELECT (SELECT max(wall_ms) FROM event WHERE session = (SELECT max(session) FROM event)),
-            (SELECT wall_ms FROM booth_event ORDER BY id DESC LIMIT 1)
+            (SELECT wall_ms FROM audit_event ORDER BY id DESC LIMIT 1)
         """
     ).fetchone()
     return max(event or 0, booth or 0)
@@ -190,7 +191,7 @@ def read_interrupted_session(folder: Path, number: int) -> InterruptedSession | 
         with open_repository(folder) as stored:
             seen = stored.session(number)
             story = stored.story(number)
-            session = Provenance(stored.plan(number), stored.seed(number), seen.body, "", simulated=seen.kind)
+            session = Provenance(stored.plan(number), stored.seed(number), seen.embodiment, "", kind=seen.kind)
     except UserInputError as failure:
         return UnreadableSession(str(failure))
     return InterruptedSession(number, session, tuple(event for event in story if isinstance(event, WorldEvent)))

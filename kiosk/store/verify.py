@@ -32,7 +32,7 @@ class Verification(Enum):
     TIME = "time never goes back within a session"
     READABLE = "every event can be read"
     PARTICIPANTS = "numbers and codes are sound, and no two alike"
-    PLACES = "lists meet their quotas, and sessions their places"
+    ALLOCATION = "lists meet their quotas, and sessions their slots"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
     VOICE = "one voice speaks each language of a study"
@@ -145,21 +145,23 @@ def _time(connection: sqlite3.Connection) -> _Found:
 
 
 def _readable(connection: sqlite3.Connection) -> _Found:
-    for session, seq, at_ms, kind, body in connection.execute("SELECT session, seq, at_ms, type, body FROM event"):
+    for session, seq, at_ms, kind, payload in connection.execute(
+        "SELECT session, seq, at_ms, type, payload FROM event"
+    ):
         try:
-            from_record({"at_ms": at_ms, "type": kind, **json.loads(body)})
+            from_record({"at_ms": at_ms, "type": kind, **json.loads(payload)})
         except (ValueError, TypeError) as error:
             yield f"session {session}, event {seq}", f"{kind} cannot be read: {error}"
 
 
 def _participants(connection: sqlite3.Connection) -> _Found:
     rows = connection.execute(
-        "SELECT session, participant.site, number, code, session.site, participant.simulated, session.simulated"
+        "SELECT session, participant.site, number, code, session.site, participant.kind, session.kind"
         " FROM participant JOIN session ON session.id = session"
     )
-    for session, site, number, code, site_there, simulated, simulated_there in rows:
+    for session, site, number, code, site_there, kind, simulated_there in rows:
         where = f"session {session}"
-        if (site, simulated) != (site_there, simulated_there):
+        if (site, kind) != (site_there, simulated_there):
             yield where, "is of another site, or another kind, than its participant"
         if number < 1:
             yield where, f"its participant has the number {number}"
@@ -175,8 +177,8 @@ def _alike(connection: sqlite3.Connection) -> _Found:
     for site, number, times in connection.execute(
         """
         SELECT site, number, count(*) FROM (
-            SELECT site, simulated, number FROM participant UNION ALL SELECT site, simulated, number FROM tombstone
-        ) GROUP BY site, simulated, number HAVING count(*) > 1
+            SELECT site, kind, number FROM participant UNION ALL SELECT site, kind, number FROM tombstone
+        ) GROUP BY site, kind, number HAVING count(*) > 1
         """
     ):
         yield f"participant {number} of site {site!r}", f"stands there {times} times"
@@ -188,17 +190,17 @@ def _alike(connection: sqlite3.Connection) -> _Found:
 
 def _places(connection: sqlite3.Connection) -> _Found:
     listed: dict[int, tuple[AllocationSlot, ...]] = {}
-    for number, quotas, places in connection.execute("SELECT id, quotas, places FROM allocation"):
-        listed[number] = slots_from_json(places)
-        conditions = [place.condition for place in listed[number]]
+    for number, quotas, slots in connection.execute("SELECT id, quotas, slots FROM allocation_list"):
+        listed[number] = slots_from_json(slots)
+        conditions = [slot.condition for slot in listed[number]]
         if {each: conditions.count(each) for each in conditions} != quotas_from_json(quotas):
             yield f"list {number}", "does not meet its quotas"
-    for session, condition, number, place in connection.execute(
-        "SELECT id, condition, list, place FROM session WHERE place IS NOT NULL"
+    for session, condition, number, slot in connection.execute(
+        "SELECT id, condition, allocation_list, allocation_slot FROM session WHERE allocation_slot IS NOT NULL"
     ):
-        there = next((each for each in listed.get(number, ()) if each.number == place), None)
+        there = next((each for each in listed.get(number, ()) if each.number == slot), None)
         if there is None or there.condition.value != condition:
-            yield f"session {session}", f"is {condition}, and place {place} of list {number} is not"
+            yield f"session {session}", f"is {condition}, and slot {slot} of list {number} is not"
 
 
 def _withdrawn(connection: sqlite3.Connection) -> _Found:
@@ -225,11 +227,11 @@ def _voice(connection: sqlite3.Connection) -> _Found:
     """
     rows = connection.execute(
         """
-        SELECT site, language, session.id, json_extract(event.body, '$.engine'),
-            json_extract(event.body, '$.engine_version'), json_extract(event.body, '$.voice'),
-            coalesce(json_extract(event.body, '$.pack'), '')
+        SELECT site, language, session.id, json_extract(event.payload, '$.engine'),
+            json_extract(event.payload, '$.engine_version'), json_extract(event.payload, '$.voice'),
+            coalesce(json_extract(event.payload, '$.pack'), '')
         FROM event JOIN session ON session.id = session
-        WHERE type = 'SpeechStarted' AND simulated = 0 ORDER BY session.id, seq
+        WHERE type = 'SpeechStarted' AND kind = 0 ORDER BY session.id, seq
         """
     )
     last: dict[tuple[str, str, bool], tuple[str, int]] = {}
@@ -258,7 +260,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.TIME: _time,
     Verification.READABLE: _readable,
     Verification.PARTICIPANTS: _participants,
-    Verification.PLACES: _places,
+    Verification.ALLOCATION: _places,
     Verification.WITHDRAWN: _withdrawn,
     Verification.FINISHED: _finished,
     Verification.VOICE: _voice,

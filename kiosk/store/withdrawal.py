@@ -157,9 +157,10 @@ def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
     connection.execute(
         """
         INSERT INTO tombstone
-        SELECT session.id, session.site, number, session.simulated, condition, list, place, allotted,
+        SELECT session.id, session.site, number, session.kind, condition,
+            allocation_list, allocation_slot, allocation_source,
             coalesce(
-                (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(body, '$.status') END
+                (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(payload, '$.status') END
                  FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
                 'interrupted'
             ),

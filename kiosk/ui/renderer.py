@@ -150,7 +150,7 @@ class Renderer:
                 case do.StopSpeaking():
                     if self._body is not None:
                         self._body.stop()
-                case do.SwitchEmbodiment(body=name):
+                case do.SwitchEmbodiment(embodiment=name):
                     if self.embodiments is not None:
                         self.embodiments.switch_to(name)
                 case do.ClearBubble():

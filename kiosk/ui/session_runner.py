@@ -40,11 +40,11 @@ class RunContext:
     """What all sessions of a run of the program have in common."""
 
     code_commit: str
-    simulated: bool | SessionKind
+    kind: SessionKind
     seed: Callable[[], int]
     """Gives every session a seed of its own."""
     condition: Condition | None = None
-    """Every session is in this one, whatever the list says, and takes no place in it."""
+    """Every session is in this one, whatever the list says, and takes no slot in it."""
 
 
 class ConditionAssigner:
@@ -65,12 +65,12 @@ class ConditionAssigner:
         quotas = {Condition.from_name(name): quota for name, quota in allocation.target_n.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
-            recorder.create_allocation_list(quotas, allocation.block_size, allocation.seed, simulated=origin.simulated)
+            recorder.create_allocation_list(quotas, allocation.block_size, allocation.seed, kind=origin.kind)
 
     @property
     def kind(self) -> SessionKind:
         """Who sits there."""
-        return SessionKind(self._origin.simulated)
+        return self._origin.kind
 
     @property
     def chosen(self) -> Condition | None:
@@ -91,16 +91,16 @@ class ConditionAssigner:
     def next_session(self, language: str) -> Provenance:
         """What the next session is to follow; raises StorageError."""
         self._followed = self._choice
-        place = self._next_place() if self._listed and self._choice is None else None
-        condition = self.chosen or (place.condition if place else self._origin.condition)
+        slot = self._next_slot() if self._listed and self._choice is None else None
+        condition = self.chosen or (slot.condition if slot else self._origin.condition)
         return Provenance(
             self.study.plan(language, condition),
             self._origin.seed(),
             str(EmbodimentName.AVATAR),
             self._origin.code_commit,
-            simulated=self._origin.simulated,
-            slot=place,
-            allocation_source=self._allotted(place),
+            kind=self._origin.kind,
+            slot=slot,
+            allocation_source=self._allocation_source(slot),
         )
 
     def confirm_recorded(self, provenance: Provenance) -> None:
@@ -108,15 +108,15 @@ class ConditionAssigner:
         if provenance.allocation_source is AllocationSource.OVERRIDE and self._choice is self._followed:
             self._choice = None
 
-    def _next_place(self) -> AllocationSlot | None:
-        return self._recorder.next_slot(simulated=self._origin.simulated)
+    def _next_slot(self) -> AllocationSlot | None:
+        return self._recorder.next_slot(kind=self._origin.kind)
 
-    def _allotted(self, place: AllocationSlot | None) -> AllocationSource | None:
+    def _allocation_source(self, slot: AllocationSlot | None) -> AllocationSource | None:
         if self._choice is not None:
             return AllocationSource.OVERRIDE
         if not self._listed:
             return None
-        return AllocationSource.BEYOND if place is None else AllocationSource.LIST
+        return AllocationSource.BEYOND if slot is None else AllocationSource.LIST
 
 
 class SessionRecording:
@@ -150,7 +150,7 @@ class SessionRecording:
             case do.StartRecording():
                 self._keep([*self._held, *events])
             case do.DiscardRecording(why=why):
-                self._recorder.count_visit(why, simulated=self._provenance.simulated)
+                self._recorder.count_visit(why, kind=self._provenance.kind)
                 self._keeping = RecordingState.FORGOTTEN
                 self._held.clear()
             case None if self._keeping is RecordingState.KEPT and self._is_deleted_by(outcome):
@@ -340,7 +340,7 @@ class SessionRunner:
         for event in past:
             session.handle(event)
         body = self._renderer.body_name
-        resumed = happened.SessionResumed(at_ms=past[-1].at_ms, body=body or happened.EmbodimentName.AVATAR)
+        resumed = happened.SessionResumed(at_ms=past[-1].at_ms, embodiment=body or happened.EmbodimentName.AVATAR)
         session.check(resumed)
         record = SessionRecording.resumed(self._recorder, provenance, number)
         if not noted():
@@ -436,7 +436,7 @@ class SessionRunner:
     def _with_body(self, provenance: Provenance) -> Provenance:
         """The session with the body that it begins with, whichever was meant."""
         body = self._renderer.body_name
-        return provenance if body is None else replace(provenance, body=str(body))
+        return provenance if body is None else replace(provenance, embodiment=str(body))
 
     def _rest(self, screen: str) -> None:
         """Get ready for the next visitor, with nothing left of the last one, and show the screen of this name."""

@@ -126,7 +126,7 @@ def test_declared_exclusions_are_counted_by_condition_with_their_reason(export: 
 
 def test_who_was_not_drawn_or_did_not_finish_is_left_out_and_counted(export: Path, tmp_path: Path) -> None:
     ends = {
-        "s0001": {"allotted": "override"},
+        "s0001": {"allocation_source": "override"},
         "s0002": {"game_completed": "false", "last_stage": "game"},
         "s0013": {"game_completed": "false", "last_stage": "practice"},
     }
@@ -137,7 +137,7 @@ def test_who_was_not_drawn_or_did_not_finish_is_left_out_and_counted(export: Pat
         ("the game was not completed", {"tom": 1, "notom": 1}),
     ]
     completion = {row["condition"]: row for row in found["completion"]}
-    assert (completion["tom"]["allotted"], completion["tom"]["ended"]) == (11, {"game": 1})
+    assert (completion["tom"]["allocated"], completion["tom"]["ended"]) == (11, {"game": 1})
     assert completion["notom"]["ended"] == {"practice": 1}
 
 

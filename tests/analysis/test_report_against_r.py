@@ -44,9 +44,9 @@ def test_the_same_people_are_analysed(report: Report) -> None:
     sample = report.sample
     assert {name: int(sample.rows(name).sum()) for name in sample.conditions} == R["analysed"]
     for found, expected in zip(report.completion, R["completion"], strict=True):
-        assert (found.condition, found.allotted, found.completed) == (
+        assert (found.condition, found.allocated, found.completed) == (
             expected["condition"],
-            expected["allotted"],
+            expected["allocated"],
             expected["completed"],
         )
         assert dict(found.ended) == (expected["ended"] or {})

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from kiosk.experiment.events import CardFlipped, CardSelected, SessionStarted
+from kiosk.experiment.session_config import SessionKind
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
 from tests.bench.percentiles import tell_percentiles
@@ -23,7 +24,7 @@ A_LINE = b'{"seq":1,"at_ms":1,"origin":"world","type":"CardSelected","position":
 def test_durable_event(benchmark: Any, tmp_path: Path) -> None:
     """A tap and the flip that follows from it, in one transaction."""
     with Recorder(tmp_path) as recorder:
-        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.SIMULATED), [SessionStarted(at_ms=0)])
         benchmark.pedantic(recorder.append, args=(A_TAP,), rounds=ROUNDS, warmup_rounds=20)
     tell_percentiles(benchmark)
 

@@ -49,7 +49,7 @@ KIOSK = """
     from kiosk.ui.window import RunMode, WindowMode
 
     study = read_study(read_settings(None))
-    origin = RunContext(code_commit(), simulated=True, seed=lambda: 1)
+    origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: 1)
     with Recorder(Path(sys.argv[1])) as recorder:
         with App(RunMode(WindowMode.NOWHERE), recorder, ConditionAssigner(study, recorder, origin)) as app:
             app.window.frameSwapped.connect(app.quit)

@@ -287,7 +287,7 @@ STUDIES: dict[str, Bad] = {
     "block that does not divide": Bad(
         "[randomisation]\nblock_size = 5",
         (
-            "{study}: randomisation.block_size: a block of 5 places cannot hold 1 tom, 1 notom in ratio; "
+            "{study}: randomisation.block_size: a block of 5 slots cannot hold 1 tom, 1 notom in ratio; "
             "2, 4, 6 and so on fit",
         ),
     ),

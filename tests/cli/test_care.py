@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.main import recollect
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store import withdrawal as withdrawing
 from kiosk.store.database import FILE
 from kiosk.store.maintenance import FOLDER, list_backups
@@ -20,7 +21,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 from tests.store.visitors import BEGUN, a_day, rows
 
-PEOPLE = Provenance(plan(), 1, "avatar", "abc123", simulated=False)
+PEOPLE = Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.STUDY)
 
 
 def run(*words: object, answer: str = "") -> Result:
@@ -44,22 +45,22 @@ def day(tmp_path: Path) -> Path:
 
 def code_of(folder: Path, number: int) -> str:
     """The code of somebody by their number."""
-    ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND NOT simulated")  # noqa: S608
+    ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
     return str(code)
 
 
 # sessions
 
 
-def test_the_list_says_who_it_was_where_it_ended_and_how_it_was_allotted(day: Path) -> None:
+def test_the_list_says_who_it_was_where_it_ended_and_how_it_was_allocated(day: Path) -> None:
     listed = run("sessions", "--data", day).output
     header, first, *_ = [line.split() for line in listed.splitlines()]
     assert header[:2] == ["session", "participant"]
-    assert {"stage", "allotted"} <= set(header)
+    assert {"stage", "allocation_source"} <= set(header)
     assert first[:2] == ["1", "MI-1"]
     assert "list" in first
     (one, *_) = said("sessions", "--data", day)
-    assert (one["participant"], one["allotted"], one["stage"]) == ("MI-1", "list", None)
+    assert (one["participant"], one["allocation_source"], one["stage"]) == ("MI-1", "list", None)
 
 
 def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:

@@ -16,6 +16,7 @@ from kiosk.cli.main import main
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, PolicyUpdated, Stage
 from kiosk.experiment.session import Session
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.queries import explain_stored_decision, open_repository
 from kiosk.store.recorder import Provenance, Recorder
@@ -32,7 +33,7 @@ def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) 
     driver.to_the_game()
     driver.play(at_random(SEED))
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
     return driver
 
 
@@ -127,7 +128,7 @@ def test_a_session_without_a_game_is_refused(tmp_path: Path) -> None:
     driver = Driver(followed, SEED)
     driver.start()
     with Recorder(tmp_path) as recorder:
-        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
     with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
         explain_stored_decision(sessions, 1, 1)
 
@@ -140,7 +141,7 @@ def test_a_practice_is_not_taken_for_the_game(tmp_path: Path, condition: Conditi
     driver.flip(driver.view.closed[0])
     driver.end()
     with Recorder(tmp_path) as recorder:
-        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", simulated=True), driver.events)
+        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
     with open_repository(tmp_path) as sessions, pytest.raises(UserInputError, match="in session 1 no game was dealt"):
         explain_stored_decision(sessions, 1, 1)
 
@@ -159,8 +160,8 @@ def test_a_record_that_does_not_follow_from_the_others_is_found_out(tmp_path: Pa
     flip = stored(tmp_path).noted(HintGiven)[0].flip
     tamper(
         tmp_path,
-        f"UPDATE event SET body = json_set(body, {change}) "  # noqa: S608 - a test's own words
-        f"WHERE type = 'AssistanceDecided' AND body ->> '$.flip' = {flip}",
+        f"UPDATE event SET payload = json_set(payload, {change}) "  # noqa: S608 - a test's own words
+        f"WHERE type = 'AssistanceDecided' AND payload ->> '$.flip' = {flip}",
     )
     with (
         open_repository(tmp_path) as sessions,
@@ -172,7 +173,7 @@ def test_a_record_that_does_not_follow_from_the_others_is_found_out(tmp_path: Pa
 @pytest.mark.parametrize("change", ["'$.seen', 9", "'$.sentence', 'Look there.'", "'$.reason', 'nothing-known'"])
 def test_a_hint_that_does_not_follow_from_the_flips_is_found_out(tmp_path: Path, change: str) -> None:
     flip = stored(tmp_path).noted(HintGiven)[0].flip
-    tamper(tmp_path, f"UPDATE event SET body = json_set(body, {change}) WHERE type = 'HintGiven'")  # noqa: S608
+    tamper(tmp_path, f"UPDATE event SET payload = json_set(payload, {change}) WHERE type = 'HintGiven'")  # noqa: S608
     with (
         open_repository(tmp_path) as sessions,
         pytest.raises(UserInputError, match=f"flip {flip} of session 1 comes out otherwise"),

@@ -40,7 +40,7 @@ def test_it_says_how_many_were_left_out(tmp_path: Path) -> None:
 
 def test_it_says_how_many_were_trials(tmp_path: Path) -> None:
     store(tmp_path / "data", [(visitor(1), 1)])
-    store(tmp_path / "data", [(visitor(2), 2), (visitor(3), 3)], simulated=SessionKind.TRIAL)
+    store(tmp_path / "data", [(visitor(2), 2), (visitor(3), 3)], kind=SessionKind.TRIAL)
     done = run("--data", tmp_path / "data", "--out", tmp_path / "out")
     assert done.output.splitlines() == [
         f"The data set in {tmp_path / 'out'} holds 1 sessions.",

@@ -12,6 +12,7 @@ import pytest
 
 from kiosk import DISK_FULL, program
 from kiosk.experiment.events import SessionStarted
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 
@@ -26,7 +27,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A session."""
     folder = tmp_path_factory.mktemp("data")
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.SIMULATED), [SessionStarted(at_ms=0)])
     return folder
 
 

@@ -18,6 +18,7 @@ from unittest.mock import patch
 import pytest
 
 from kiosk.experiment.events import SessionStarted
+from kiosk.experiment.session_config import SessionKind
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import WITH_PIN, plan
@@ -174,7 +175,9 @@ def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
         arguments = [*arguments, "--yes"]
     if "B" in arguments:
         with Recorder(Path(given["B"]), "B") as recorder:
-            recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=True), [SessionStarted(at_ms=0)])
+            recorder.begin(
+                Provenance(plan(), 2, "avatar", "a test", kind=SessionKind.SIMULATED), [SessionStarted(at_ms=0)]
+            )
     return [given.get(argument, argument) for argument in arguments]
 
 
@@ -203,6 +206,6 @@ def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
     assert "about the rehearsals" in newcomer.run(["sessions"]).stderr
     assert newcomer.run(["verify"]).stderr == ""
     with Recorder(newcomer.home / "share" / "recollect") as recorder:
-        recorder.begin(Provenance(plan(), 2, "avatar", "a test", simulated=False), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(plan(), 2, "avatar", "a test", kind=SessionKind.STUDY), [SessionStarted(at_ms=0)])
     done = newcomer.run(["sessions", "--json"])
     assert (done.stderr, done.stdout.count('"session": 1,')) == ("", 1)

@@ -92,7 +92,11 @@ def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(tmp_path: 
         robot = ["--robot-host", "127.0.0.1", "--robot-port", str(fake.port)]
         command = [sys.executable, "-m", "kiosk", "rehearse", "--headless", "--json", "--data", str(tmp_path), *robot]
         played = json.loads(subprocess.run(command, capture_output=True, check=True, timeout=60).stdout)
-    assert (played["status"], played["body"], played["body_changes"]) == ("completed", "robot:furhat", changes)
+    assert (played["status"], played["embodiment"], played["embodiment_changes"]) == (
+        "completed",
+        "robot:furhat",
+        changes,
+    )
     counted = played["utterances"]
     assert counted["requested"] == counted["finished"] + counted["shown_only"]
     assert counted["failed"] == changes

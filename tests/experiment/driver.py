@@ -275,7 +275,7 @@ class Driver:
             driver.send(event)
         driver._due.clear()
         driver.view = View()
-        driver.send(happened.SessionResumed(at_ms=driver.now, body=body))
+        driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=body))
         return driver
 
     # Timers and the body

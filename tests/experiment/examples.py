@@ -37,8 +37,8 @@ EXAMPLES: dict[type[WorldEvent], WorldEvent] = {
         happened.PauseEnded(at_ms=9),
         happened.AbortRequested(at_ms=9, reason="the fair is closing"),
         happened.NextParticipantRequested(at_ms=9),
-        happened.MuteChanged(at_ms=9, quiet=True),
-        happened.SessionResumed(at_ms=9, body=EmbodimentName.AVATAR),
+        happened.MuteChanged(at_ms=9, muted=True),
+        happened.SessionResumed(at_ms=9, embodiment=EmbodimentName.AVATAR),
         happened.ApplicationClosed(at_ms=9),
     )
 }

@@ -62,9 +62,11 @@ ANYTHING = st.one_of(
     st.builds(happened.PauseRequested, at_ms=TIMES),
     st.builds(happened.PauseEnded, at_ms=TIMES),
     st.builds(happened.NextParticipantRequested, at_ms=TIMES),
-    st.builds(happened.MuteChanged, at_ms=TIMES, quiet=st.booleans()),
+    st.builds(happened.MuteChanged, at_ms=TIMES, muted=st.booleans()),
     st.builds(
-        happened.SessionResumed, at_ms=TIMES, body=st.sampled_from([EmbodimentName.AVATAR, EmbodimentName.robot("any")])
+        happened.SessionResumed,
+        at_ms=TIMES,
+        embodiment=st.sampled_from([EmbodimentName.AVATAR, EmbodimentName.robot("any")]),
     ),
 )
 """Sense and nonsense, but not what ends a session, nor what decides against a record: that comes by its own rules."""
@@ -287,7 +289,7 @@ class AnySession(RuleBasedStateMachine):
     @rule(body=st.sampled_from([EmbodimentName.AVATAR, EmbodimentName.robot("any")]))
     def go_on_after_a_cut(self, body: EmbodimentName) -> None:
         before, stage = self.session.stage, self.closed_in or self.session.stage
-        self.send(happened.SessionResumed(at_ms=self.now, body=body))
+        self.send(happened.SessionResumed(at_ms=self.now, embodiment=body))
         assert self.session.stage is (before if stage is Stage.GAME else stage)
         if stage not in (Stage.GAME, Stage.OVER):
             assert (self.view.paused, self.view.still_there) == (False, False)

@@ -136,7 +136,7 @@ def test_what_a_visitor_chose_outlasts_a_cut() -> None:
     driver = driven_to(Stage.INTRODUCTION)
     speak_italian(driver)
     driver.send(happened.TextSizeSelected(at_ms=driver.now, size=TextSize.LARGE))
-    outcome = driver.send(happened.SessionResumed(at_ms=driver.now, body=happened.EmbodimentName.AVATAR))
+    outcome = driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=happened.EmbodimentName.AVATAR))
     assert {do.SetLanguage("it"), do.SetTextSize(TextSize.LARGE), do.OfferBack(offered=True)} <= {
         effect for effect in outcome.effects if isinstance(effect, do.SetLanguage | do.SetTextSize | do.OfferBack)
     }

@@ -124,7 +124,7 @@ def test_going_on_is_recorded_with_the_body_that_helps_then(stage: Stage) -> Non
     past = driven_to(stage, SMALL, SEED).world
     driver = Driver.resumed(SMALL, SEED, past, EmbodimentName.robot("furhat"))
     step = driver.steps[-1]
-    assert step.event == happened.SessionResumed(at_ms=past[-1].at_ms, body=EmbodimentName.robot("furhat"))
+    assert step.event == happened.SessionResumed(at_ms=past[-1].at_ms, embodiment=EmbodimentName.robot("furhat"))
     assert step.outcome.events[0] == happened.StageEntered(at_ms=driver.now, stage=stage)
 
 
@@ -236,7 +236,7 @@ def test_what_was_ended_or_left_does_not_go_on(stage: Stage) -> None:
 def test_elsewhere_it_cannot_go_on(stage: Stage) -> None:
     driver = driven_to(stage, SMALL, SEED)
     with pytest.raises(InvalidTransition):
-        driver.send(happened.SessionResumed(at_ms=driver.now, body=EmbodimentName.AVATAR))
+        driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=EmbodimentName.AVATAR))
 
 
 @pytest.mark.parametrize("stage", [Stage.INTRODUCTION, Stage.PRACTICE, Stage.RESULT, Stage.THANKS])
@@ -245,7 +245,7 @@ def test_what_was_forgotten_cannot_be_gone_on_with(stage: Stage) -> None:
     driver.decline()
     driver.to(stage)
     with pytest.raises(InvalidTransition):
-        driver.send(happened.SessionResumed(at_ms=driver.now, body=EmbodimentName.AVATAR))
+        driver.send(happened.SessionResumed(at_ms=driver.now, embodiment=EmbodimentName.AVATAR))
 
 
 def test_a_session_can_be_cut_off_more_than_once() -> None:

@@ -34,7 +34,7 @@ def test_the_avatar_says_at_once_what_the_robot_had_not_said() -> None:
     hint = driver.noted(happened.HintGiven)[-1]
     outcome = lose(driver)
     assert outcome == Outcome(
-        (happened.EmbodimentChanged(at_ms=driver.now, body=EmbodimentName.AVATAR, why="the plug"),),
+        (happened.EmbodimentChanged(at_ms=driver.now, embodiment=EmbodimentName.AVATAR, why="the plug"),),
         (do.SwitchEmbodiment(EmbodimentName.AVATAR), do.Speak(hint.utterance, hint.sentence)),
     )
 
@@ -68,7 +68,7 @@ def test_a_session_that_loses_its_robot_goes_on_to_its_end_and_can_be_replayed(l
     lose(driver)
     driver.to(Stage.OVER)
     assert driver.view.ended is Status.COMPLETED
-    assert len(SessionState.from_events(driver.events).body_changes) == 1
+    assert len(SessionState.from_events(driver.events).embodiment_changes) == 1
     assert replay(driver.plan, 3, driver.world) == [step.outcome for step in driver.steps]
 
 
@@ -104,7 +104,7 @@ def test_a_robot_that_is_lost_after_a_stage_was_left_says_nothing_of_that_stage_
 
 def test_silence_is_recorded_and_changes_nothing_of_what_is_said() -> None:
     quiet, heard = hinted(), hinted()
-    assert quiet.send(happened.MuteChanged(at_ms=quiet.now, quiet=True)) == Outcome((), ())
+    assert quiet.send(happened.MuteChanged(at_ms=quiet.now, muted=True)) == Outcome((), ())
     for driver in (quiet, heard):
         driver.play(with_memory(2))
     assert quiet.noted(happened.HintGiven) == heard.noted(happened.HintGiven)

@@ -1,4 +1,4 @@
-"""Two hundred simulated participants and their data set, made once for all tests of this folder."""
+"""Simulated participants and their data set, made once for all tests of this folder."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from tests.store.conftest import folder, played, provenance, writer
 
 __all__ = ["folder", "played", "provenance", "writer"]
 
-MANY = 200
-FEW = 12
+PARTICIPANTS = 24
 
 Read = Callable[[str], list[dict[str, str]]]
 
@@ -29,18 +28,18 @@ def rows_of(folder: Path, table: str) -> list[dict[str, str]]:
 
 
 @pytest.fixture(scope="session")
-def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of many participants."""
-    folder = tmp_path_factory.mktemp("many") / "data"
-    store(folder, visitors(MANY))
+def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The data folder of all of them."""
+    folder = tmp_path_factory.mktemp("stored") / "data"
+    store(folder, visitors(PARTICIPANTS))
     return folder
 
 
 @pytest.fixture(scope="session")
-def exported(many: Path) -> Path:
+def exported(stored: Path) -> Path:
     """Their data set; it is only to be read."""
-    out = many.parent / "data-set"
-    export_dataset(many, out, PsychDs)
+    out = stored.parent / "data-set"
+    export_dataset(stored, out, PsychDs)
     return out
 
 
@@ -51,24 +50,8 @@ def read(exported: Path) -> Read:
 
 
 @pytest.fixture(scope="session")
-def few(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of a few participants."""
-    folder = tmp_path_factory.mktemp("few") / "data"
-    store(folder, visitors(FEW))
-    return folder
-
-
-@pytest.fixture(scope="session")
-def small(few: Path) -> Path:
-    """Their data set; it is only to be read."""
-    out = few.parent / "data-set"
-    export_dataset(few, out, PsychDs)
-    return out
-
-
-@pytest.fixture(scope="session")
-def bids(few: Path) -> Path:
+def bids(stored: Path) -> Path:
     """Their data set with names like those of BIDS; it is only to be read."""
-    out = few.parent / "bids"
-    export_dataset(few, out, Bids)
+    out = stored.parent / "bids"
+    export_dataset(stored, out, Bids)
     return out

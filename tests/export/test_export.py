@@ -28,7 +28,7 @@ from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.session_records import SessionRecord
 from tests.experiment.driver import Voice, driven_to
-from tests.export.conftest import FEW, rows_of
+from tests.export.conftest import PARTICIPANTS, rows_of
 from tests.export.psych_ds import issues
 from tests.export.visitors import COMMIT, store, study_plan, unsharing, visitor
 
@@ -37,33 +37,33 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_the_same_data_give_the_same_data_set_byte_for_byte(few: Path, small: Path, tmp_path: Path) -> None:
-    export_dataset(few, tmp_path / "again", PsychDs)
-    assert contents(tmp_path / "again") == contents(small)
+def test_the_same_data_give_the_same_data_set_byte_for_byte(stored: Path, exported: Path, tmp_path: Path) -> None:
+    export_dataset(stored, tmp_path / "again", PsychDs)
+    assert contents(tmp_path / "again") == contents(exported)
 
 
-def test_an_empty_folder_is_written_into(few: Path, tmp_path: Path) -> None:
-    assert export_dataset(few, tmp_path, PsychDs) == Exported(FEW, not_shared=0, under_way=0)
+def test_an_empty_folder_is_written_into(stored: Path, tmp_path: Path) -> None:
+    assert export_dataset(stored, tmp_path, PsychDs) == Exported(PARTICIPANTS, not_shared=0, under_way=0)
 
 
-def test_a_folder_that_holds_something_is_refused_and_left_as_it_was(few: Path, tmp_path: Path) -> None:
+def test_a_folder_that_holds_something_is_refused_and_left_as_it_was(stored: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "mine.txt").write_text("mine", "utf-8")
     with pytest.raises(UserInputError, match="is not empty; a data set is written into a new one"):
-        export_dataset(few, tmp_path / "out", PsychDs)
+        export_dataset(stored, tmp_path / "out", PsychDs)
     assert contents(tmp_path) == {"out/mine.txt": b"mine"}
 
 
-def test_a_file_in_its_place_is_refused(few: Path, tmp_path: Path) -> None:
+def test_a_file_in_its_place_is_refused(stored: Path, tmp_path: Path) -> None:
     (tmp_path / "out").write_text("mine", "utf-8")
     with pytest.raises(UserInputError, match="is a file"):
-        export_dataset(few, tmp_path / "out", PsychDs)
+        export_dataset(stored, tmp_path / "out", PsychDs)
 
 
-def test_a_folder_that_cannot_be_made_is_refused(few: Path, tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_made_is_refused(stored: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine", "utf-8")
     with pytest.raises(UserInputError, match="cannot be used"):
-        export_dataset(few, tmp_path / "file" / "out", PsychDs)
+        export_dataset(stored, tmp_path / "file" / "out", PsychDs)
 
 
 class Failing(PsychDs):
@@ -73,13 +73,13 @@ class Failing(PsychDs):
         raise OSError(28, "No space left on device")
 
 
-def test_nothing_stays_of_a_data_set_that_could_not_be_finished(few: Path, tmp_path: Path) -> None:
+def test_nothing_stays_of_a_data_set_that_could_not_be_finished(stored: Path, tmp_path: Path) -> None:
     with pytest.raises(StorageError, match="disk full"):
-        export_dataset(few, tmp_path / "out", Failing)
+        export_dataset(stored, tmp_path / "out", Failing)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_one_session_is_in_memory_at_a_time(few: Path, tmp_path: Path) -> None:
+def test_one_session_is_in_memory_at_a_time(stored: Path, tmp_path: Path) -> None:
     alive: list[weakref.ref[SessionRecord]] = []
     most = 0
 
@@ -91,15 +91,15 @@ def test_one_session_is_in_memory_at_a_time(few: Path, tmp_path: Path) -> None:
             gc.collect()
             most = max(most, sum(ref() is not None for ref in alive))
 
-    export_dataset(few, tmp_path / "out", Watching)
-    assert len(alive) == FEW
+    export_dataset(stored, tmp_path / "out", Watching)
+    assert len(alive) == PARTICIPANTS
     assert most <= 2
 
 
-def test_how_far_it_is_is_told_session_by_session(few: Path, tmp_path: Path) -> None:
+def test_how_far_it_is_is_told_session_by_session(stored: Path, tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
-    export_dataset(few, tmp_path / "out", PsychDs, tell=lambda done, of: told.append((done, of)))
-    assert told == [(done, FEW) for done in range(1, FEW + 1)]
+    export_dataset(stored, tmp_path / "out", PsychDs, tell=lambda done, of: told.append((done, of)))
+    assert told == [(done, PARTICIPANTS) for done in range(1, PARTICIPANTS + 1)]
 
 
 def test_without_a_session_there_is_no_data_set(tmp_path: Path) -> None:
@@ -117,7 +117,7 @@ def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:
 
 def test_rehearsals_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
     data = tmp_path / "data"
-    store(data, [(visitor(1), 1)], simulated=True)
+    store(data, [(visitor(1), 1)], kind=SessionKind.SIMULATED)
     with pytest.raises(UserInputError, match="rehearsals are left out"):
         export_dataset(data, tmp_path / "out", PsychDs)
     store(data, [(visitor(2), 2)])
@@ -133,11 +133,11 @@ def test_rehearsals_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> No
 
 def test_trials_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
     data = tmp_path / "data"
-    store(data, [(visitor(1), 1)], simulated=SessionKind.TRIAL)
+    store(data, [(visitor(1), 1)], kind=SessionKind.TRIAL)
     with pytest.raises(UserInputError, match="it holds no participant; trials are left out without --with-trials"):
         export_dataset(data, tmp_path / "out", PsychDs)
     store(data, [(visitor(2), 2)])
-    store(data, [(visitor(3), 3)], simulated=True)
+    store(data, [(visitor(3), 3)], kind=SessionKind.SIMULATED)
     assert export_dataset(data, tmp_path / "people", PsychDs).trials == 1
     assert [row["participant_id"] for row in rows_of(tmp_path / "people", "participants")] == ["P0001"]
     assert {"trial", "simulated"}.isdisjoint(rows_of(tmp_path / "people", "participants")[0])
@@ -149,7 +149,7 @@ def test_trials_are_left_out_unless_they_are_asked_for(tmp_path: Path) -> None:
 
 
 def test_who_did_not_agree_to_publishing_in_a_trial_is_left_out_as_well(tmp_path: Path) -> None:
-    store(tmp_path / "data", [(unsharing(1), 1), (visitor(2), 2)], simulated=SessionKind.TRIAL)
+    store(tmp_path / "data", [(unsharing(1), 1), (visitor(2), 2)], kind=SessionKind.TRIAL)
     exported = export_dataset(tmp_path / "data", tmp_path / "out", PsychDs, frozenset({ExportOption.TRIALS}))
     assert (exported.participants, exported.not_shared) == (1, 1)
 
@@ -165,7 +165,7 @@ def test_a_session_that_is_going_on_is_left_out_and_counted(tmp_path: Path) -> N
     data = tmp_path / "data"
     store(data, [(visitor(1), 1)])
     with Recorder(data) as recorder:
-        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, simulated=False), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, kind=SessionKind.STUDY), [SessionStarted(at_ms=0)])
         assert export_dataset(data, tmp_path / "out", PsychDs) == Exported(1, not_shared=0, under_way=1)
     flow = {(row["quantity"], row["group"]): row["count"] for row in rows_of(tmp_path / "out", "flow")}
     assert flow["not_ended", "tom"] == "1"
@@ -174,7 +174,7 @@ def test_a_session_that_is_going_on_is_left_out_and_counted(tmp_path: Path) -> N
 def test_one_that_was_cut_off_is_told_as_interrupted(tmp_path: Path) -> None:
     data = tmp_path / "data"
     with Recorder(data) as recorder:
-        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, simulated=False), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(study_plan(), 2, "avatar", COMMIT, kind=SessionKind.STUDY), [SessionStarted(at_ms=0)])
     export_dataset(data, tmp_path / "out", PsychDs)
     (person,) = rows_of(tmp_path / "out", "participants")
     assert (person["status"], person["last_stage"], person["flips"]) == ("interrupted", "attract", "0")
@@ -184,9 +184,9 @@ def test_people_who_were_not_stored_are_counted_by_reason(tmp_path: Path) -> Non
     data = tmp_path / "data"
     store(data, [(visitor(1), 1)])
     with Recorder(data) as recorder:
-        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
-        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
-        recorder.count_visit(NotRecordedReason.UNDER_AGE, simulated=True)
+        recorder.count_visit(NotRecordedReason.DECLINED, kind=SessionKind.STUDY)
+        recorder.count_visit(NotRecordedReason.DECLINED, kind=SessionKind.STUDY)
+        recorder.count_visit(NotRecordedReason.UNDER_AGE, kind=SessionKind.SIMULATED)
     export_dataset(data, tmp_path / "out", PsychDs)
     counted = [
         (row["group"], row["count"]) for row in rows_of(tmp_path / "out", "flow") if row["quantity"] == "not_stored"
@@ -198,7 +198,7 @@ def test_of_an_event_that_cannot_be_read_no_field_is_told_unless_texts_are_asked
     store(tmp_path / "data", [(visitor(1), 1)])
     with closing(sqlite3.connect(tmp_path / "data" / FILE)) as connection, connection:
         row = "1, 0, 0, 'world', 'NameTyped', '{\"name\": \"Zaphod\"}'"
-        connection.execute(f"INSERT INTO event (session, seq, at_ms, origin, type, body) VALUES ({row})")  # noqa: S608
+        connection.execute(f"INSERT INTO event (session, seq, at_ms, origin, type, payload) VALUES ({row})")  # noqa: S608
     told = {}
     for extras in (frozenset[ExportOption](), frozenset({ExportOption.TEXTS})):
         export_dataset(tmp_path / "data", tmp_path / f"with-{len(extras)}", PsychDs, extras)
@@ -218,18 +218,18 @@ def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for
     driver.send(SpeechStarted(at_ms=driver.now, utterance=1))
     driver.to(Stage.OVER)
     with Recorder(tmp_path / "data") as recorder:
-        recorder.begin(Provenance(driver.plan, 5, "robot:furhat", COMMIT, simulated=False), driver.events)
+        recorder.begin(Provenance(driver.plan, 5, "robot:furhat", COMMIT, kind=SessionKind.STUDY), driver.events)
     export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
     robot, avatar, *_ = rows_of(tmp_path / "out", "sentences")
     assert robot["sentence"] == avatar["sentence"]
-    times = ("attempt", "body", "robot", "at_ms", "started_ms", "finished_ms", "failed_ms")
+    times = ("attempt", "embodiment", "robot", "at_ms", "started_ms", "finished_ms", "failed_ms")
     begun, lost, anew = (str(asked_ms + later) for later in (100, 700, 900))
     assert tuple(robot[name] for name in times) == ("1", "robot", "furhat", str(asked_ms), begun, "", lost)
     assert tuple(avatar[name] for name in times[:5]) == ("2", "avatar", "", lost, anew)
     assert avatar["failed_ms"] == ""
 
 
-def test_its_files_are_closed_whatever_goes_wrong(few: Path, tmp_path: Path) -> None:
+def test_its_files_are_closed_whatever_goes_wrong(stored: Path, tmp_path: Path) -> None:
     closed: list[Path] = []
 
     class Broken(PsychDs):
@@ -241,6 +241,6 @@ def test_its_files_are_closed_whatever_goes_wrong(few: Path, tmp_path: Path) -> 
             closed.append(self.root)
 
     with pytest.raises(RuntimeError, match="P0001"):
-        export_dataset(few, tmp_path / "out", Broken)
+        export_dataset(stored, tmp_path / "out", Broken)
     assert len(closed) == 1
     assert list(tmp_path.iterdir()) == []

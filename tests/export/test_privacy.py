@@ -93,9 +93,9 @@ def test_of_the_allocation_the_blocks_are_told_and_the_seed_is_not(tmp_path: Pat
 
 
 @pytest.mark.parametrize("layout", BOTH)
-def test_no_date_is_told_by_any_text_or_file(few: Path, tmp_path: Path, layout: type[Layout]) -> None:
+def test_no_date_is_told_by_any_text_or_file(stored: Path, tmp_path: Path, layout: type[Layout]) -> None:
     out = tmp_path / "out"
-    export_dataset(few, out, layout)
+    export_dataset(stored, out, layout)
     date = re.compile(rf"{datetime.now(UTC).year}-\d\d|\d\d:\d\d:\d\d|datePublished|dateCreated")
     assert [path for path, text in texts(out) if date.search(text)] == []
     dates = {datetime.fromtimestamp(path.stat().st_mtime, UTC).date() for path in (out, *out.rglob("*"))}
@@ -121,9 +121,9 @@ def test_an_answer_that_was_chosen_is_told_and_one_that_was_typed_is_not(told: P
     assert "job" not in rows_of(out, "participants")[0]
 
 
-def test_the_start_of_each_session_is_told_to_those_who_ask_for_it(few: Path, tmp_path: Path) -> None:
+def test_the_start_of_each_session_is_told_to_those_who_ask_for_it(stored: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    export_dataset(few, out, PsychDs, frozenset({ExportOption.DATES}))
+    export_dataset(stored, out, PsychDs, frozenset({ExportOption.DATES}))
     started = [datetime.fromisoformat(row["started_at"]) for row in rows_of(out, "participants")]
     assert all(when.tzinfo is not None for when in started)
     assert "started_at" not in rows_of(out, "flips")[0]

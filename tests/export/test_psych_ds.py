@@ -32,11 +32,11 @@ def test_the_description_lists_every_column_of_every_table_once(exported: Path) 
     assert set(names) == {name for head in heads for name in head}
 
 
-def test_the_validator_itself_finds_nothing(small: Path) -> None:
+def test_the_validator_itself_finds_nothing(exported: Path) -> None:
     node = shutil.which("node")
     if node is None or not VALIDATOR.is_file():
         pytest.skip("the Psych-DS validator is not installed in build/node_modules, or there is no node")
-    command = [node, str(VALIDATOR), "--json", "--showWarnings", str(small)]
+    command = [node, str(VALIDATOR), "--json", "--showWarnings", str(exported)]
     told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     assert told["valid"] is True, told["issues"]
     assert [issue["key"] for issue in told["issues"] if issue["severity"] != "ignore"] == []
@@ -107,33 +107,33 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("code", FAULTS)
-def test_each_fault_would_be_seen(code: str, small: Path, tmp_path: Path) -> None:
+def test_each_fault_would_be_seen(code: str, exported: Path, tmp_path: Path) -> None:
     root = tmp_path / "data-set"
-    shutil.copytree(small, root)
+    shutil.copytree(exported, root)
     FAULTS[code](root)
     assert code in {issue.split()[0] for issue in issues(root)}
 
 
-def test_the_example_of_the_data_set_runs(small: Path) -> None:
-    command = [sys.executable, str(small / "analysis" / "example.py")]
+def test_the_example_of_the_data_set_runs(exported: Path) -> None:
+    command = [sys.executable, str(exported / "analysis" / "example.py")]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     assert [line.split()[0] for line in lines] == sorted(condition.value for condition in Condition)
 
 
-def test_the_example_of_the_page_runs_and_says_the_same(small: Path, tmp_path: Path) -> None:
+def test_the_example_of_the_page_runs_and_says_the_same(exported: Path, tmp_path: Path) -> None:
     page = (Path(__file__).parents[2] / "docs" / "data-set.md").read_text("utf-8")
     example = page.split("<!-- example -->\n```python\n")[1].split("```\n<!-- /example -->")[0]
     assert len(example.replace("\n\n", "\n").splitlines()) <= 11
-    (tmp_path / "my-study").symlink_to(small)
+    (tmp_path / "my-study").symlink_to(exported)
     outputs = [
         subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-        for command in ([sys.executable, "-c", example], [sys.executable, str(small / "analysis" / "example.py")])
+        for command in ([sys.executable, "-c", example], [sys.executable, str(exported / "analysis" / "example.py")])
     ]
     assert outputs[0] == outputs[1] != ""
 
 
-def test_the_page_names_every_table_that_there_is(small: Path) -> None:
+def test_the_page_names_every_table_that_there_is(exported: Path) -> None:
     page = (Path(__file__).parents[2] / "docs" / "data-set.md").read_text("utf-8")
-    tables = {path.name.split("description-")[1].removesuffix("_data.csv") for path in small.glob("data/*.csv")}
+    tables = {path.name.split("description-")[1].removesuffix("_data.csv") for path in exported.glob("data/*.csv")}
     listed = page.split("## What is in it")[1].split("## ")[0]
     assert {line.split("`")[1] for line in listed.splitlines() if line.startswith("| `")} == tables

@@ -168,5 +168,5 @@ def test_a_sheet_that_changed_under_its_version_is_told(tmp_path: Path) -> None:
     assert caution.startswith("the information sheet in 'en' has 2 contents under the version '7'")
 
 
-def test_a_study_that_never_changed_has_nothing_to_be_told(few: Path, tmp_path: Path) -> None:
-    assert export_dataset(few, tmp_path / "out", PsychDs).cautions == ()
+def test_a_study_that_never_changed_has_nothing_to_be_told(stored: Path, tmp_path: Path) -> None:
+    assert export_dataset(stored, tmp_path / "out", PsychDs).cautions == ()

@@ -148,9 +148,9 @@ def unsharing(seed: int) -> Driver:
 
 
 def store(
-    folder: Path, drivers: Sequence[tuple[Driver, int]], *, simulated: bool | SessionKind = False, site: str = ""
+    folder: Path, drivers: Sequence[tuple[Driver, int]], *, kind: SessionKind = SessionKind.STUDY, site: str = ""
 ) -> None:
     """Write sessions that were played into a data folder, all at once each."""
     with Recorder(folder, site) as recorder:
         for driver, seed in drivers:
-            recorder.begin(Provenance(driver.plan, seed, "avatar", COMMIT, simulated=simulated), driver.events)
+            recorder.begin(Provenance(driver.plan, seed, "avatar", COMMIT, kind=kind), driver.events)

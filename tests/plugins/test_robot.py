@@ -24,10 +24,10 @@ def study(folder: Path, more: str = "") -> Path:
 
 def test_a_session_is_held_with_it_and_the_data_name_it(day: Day) -> None:
     played = day.played
-    assert (played["status"], played["body"], played["body_changes"]) == ("completed", "robot:printing", 0)
+    assert (played["status"], played["embodiment"], played["embodiment_changes"]) == ("completed", "robot:printing", 0)
     assert len(day.said) == played["utterances"]["finished"] == played["utterances"]["requested"] > 0
     (row,) = day.rows("participants")
-    assert (row["body"], row["robot"]) == ("robot", "printing")
+    assert (row["embodiment"], row["robot"]) == ("robot", "printing")
 
 
 def test_the_check_lists_it_with_its_package_and_version(added: dict[str, tuple[str, str]]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Provenance
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
@@ -25,7 +26,9 @@ def folder(tmp_path: Path) -> Path:
 @pytest.fixture
 def provenance() -> Provenance:
     """What a session follows."""
-    return Provenance(plan=plan(policy=mixed(4)), seed=4, body="avatar", code_commit="abc123", simulated=True)
+    return Provenance(
+        plan=plan(policy=mixed(4)), seed=4, embodiment="avatar", code_commit="abc123", kind=SessionKind.SIMULATED
+    )
 
 
 @pytest.fixture

@@ -32,6 +32,7 @@ from rich.progress import track
 
 from kiosk import DISK_FULL, StorageError, program
 from kiosk.experiment.events import Event, SessionStarted, SpeechFailed
+from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
@@ -85,7 +86,7 @@ def words(chance: Random) -> Event:
 
 def begin(recorder: Recorder, seed: int) -> int:
     """Begin a session and acknowledge it."""
-    session = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), BEGUN).session
+    session = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", kind=SessionKind.SIMULATED), BEGUN).session
     say("written", session=session, events=len(BEGUN))
     return session
 
@@ -243,7 +244,7 @@ def faults(folder: Path, written: dict[int, int], out: Path) -> Iterator[str]:
     looks: dict[str, Callable[[], object]] = {
         "verify": lambda: refuse_any(verify(folder)),
         "sessions": lambda: compare(folder, written),
-        "glance": lambda: read_snapshot(folder, 0, simulated=True),
+        "glance": lambda: read_snapshot(folder, 0, kind=SessionKind.SIMULATED),
         "check": lambda: refuse_any(
             [each for each in database_check(folder, busy=False) if each.severity is Severity.ERROR]
         ),
@@ -347,7 +348,9 @@ def full_disk(writers: Worker, disk: Path, seed: int, tally: Tally, *, commands:
     chance, folder, out = Random(seed), disk / "data", disk.with_name(f"out-{disk.name}")
     ballast = disk / "ballast"
     with Recorder(folder) as recorder:
-        participant = recorder.begin(Provenance(plan(), seed, "avatar", "abc123", simulated=True), COMPLETED)
+        participant = recorder.begin(
+            Provenance(plan(), seed, "avatar", "abc123", kind=SessionKind.SIMULATED), COMPLETED
+        )
     back_up(folder, folder / "backups")
     # What is removed later must leave room for a checkpoint of all that the writer has logged.
     ballast.write_bytes(bytes(chance.randrange(DISK_MIB << 19, (DISK_MIB + 1) << 19)))

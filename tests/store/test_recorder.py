@@ -21,6 +21,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, NotRecordedReason, Status
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
+from kiosk.experiment.session_config import SessionKind
 from kiosk.game import Position
 from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing
@@ -110,7 +111,7 @@ def test_an_event_s_row_can_be_read_without_the_program(folder: Path, provenance
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
         recorder.append([happened.CardSelected(at_ms=7, position=Position(1, 2)), ignored])
-    assert rows(folder, "SELECT session, seq, at_ms, origin, type, body FROM event ORDER BY seq") == [
+    assert rows(folder, "SELECT session, seq, at_ms, origin, type, payload FROM event ORDER BY seq") == [
         (1, 1, 0, "world", "SessionStarted", "{}"),
         (1, 2, 7, "world", "CardSelected", '{"position":{"row":1,"column":2}}'),
         (1, 3, 7, "session", "CardSelectionRejected", '{"position":{"row":1,"column":2},"why":null}'),
@@ -155,8 +156,14 @@ def test_a_session_s_row_says_what_it_followed(folder: Path, provenance: Provena
         connection.row_factory = sqlite3.Row
         row = dict(connection.execute("SELECT * FROM session").fetchone())
         kept = dict(connection.execute("SELECT sha256, content FROM source").fetchall())
-    assert (row["id"], row["seed"], row["condition"], row["body"], row["language"]) == (1, 4, "tom", "avatar", "en")
-    assert (row["simulated"], row["version"], row["code_commit"]) == (1, __version__, "abc123")
+    assert (row["id"], row["seed"], row["condition"], row["embodiment"], row["language"]) == (
+        1,
+        4,
+        "tom",
+        "avatar",
+        "en",
+    )
+    assert (row["kind"], row["version"], row["code_commit"]) == (1, __version__, "abc123")
     assert tuple(json.loads(row["deck"])) == plan.deck
     assert row["policy_sha256"] == plan.policy.sha256
     assert row["settings_sha256"] == plan.settings.sha256
@@ -193,13 +200,13 @@ def test_what_was_written_before_another_session_began_stays_with_its_own(folder
 
 @pytest.mark.parametrize(
     "table",
-    ["event", "session", "source", "migration", "participant", "allocation", "visit", "booth_event", "tombstone"],
+    ["event", "session", "source", "migration", "participant", "allocation_list", "visit", "audit_event", "tombstone"],
 )
 def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: Provenance, table: str) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
+        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, kind=SessionKind.SIMULATED)
         recorder.begin(provenance, [START])
-        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
+        recorder.count_visit(NotRecordedReason.LEFT, kind=SessionKind.SIMULATED)
         recorder.add_audit_event("deviation", {"why": "the robot fell over"})
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute(A_TOMBSTONE, (7,))
@@ -216,24 +223,25 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
 @pytest.mark.parametrize(
     "action",
     [
-        "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, body, 0 FROM event",
+        "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, payload, 0 FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
-        "REPLACE INTO participant SELECT session, site, simulated, number, 'forged' FROM participant",
-        "REPLACE INTO participant SELECT 9, site, simulated, number, 'forged' FROM participant",
-        "REPLACE INTO participant SELECT 9, site, simulated, 9, code FROM participant",
-        "REPLACE INTO allocation SELECT id, site, simulated, 99, block, quotas, places, fixed_at FROM allocation",
-        "REPLACE INTO visit SELECT id, 'declined', simulated FROM visit",
-        "REPLACE INTO booth_event SELECT id, 0, type, body FROM booth_event",
+        "REPLACE INTO participant SELECT session, site, kind, number, 'forged' FROM participant",
+        "REPLACE INTO participant SELECT 9, site, kind, number, 'forged' FROM participant",
+        "REPLACE INTO participant SELECT 9, site, kind, 9, code FROM participant",
+        "REPLACE INTO allocation_list "
+        "SELECT id, site, kind, 99, block_size, quotas, slots, fixed_at FROM allocation_list",
+        "REPLACE INTO visit SELECT id, 'declined', kind FROM visit",
+        "REPLACE INTO audit_event SELECT id, 0, type, payload FROM audit_event",
         "REPLACE INTO event VALUES (1, 1, 99, 'world', 'SessionStarted', '{}', 0)",
     ],
 )
 def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Provenance, action: str) -> None:
     """SQLite's REPLACE deletes the old row without a word to the triggers of DELETE."""
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, simulated=True)
+        recorder.create_allocation_list({Condition.TOM: 2, Condition.NOTOM: 2}, 2, None, kind=SessionKind.SIMULATED)
         recorder.begin(provenance, [START])
-        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
+        recorder.count_visit(NotRecordedReason.LEFT, kind=SessionKind.SIMULATED)
         recorder.add_audit_event("deviation", {"why": "the robot fell over"})
     with (
         closing(sqlite3.connect(folder / FILE)) as connection,
@@ -350,7 +358,7 @@ def test_a_session_that_was_cut_off_is_marked_where_its_last_event_left_it(
         recorder.append([happened.ContinuePressed(at_ms=70), happened.BoardUnlocked(at_ms=70)])
     with Recorder(folder) as recorder:
         assert recorder.recovered == (1,)
-    assert rows(folder, "SELECT session, seq, at_ms, origin, type, body FROM event WHERE seq > 3") == [
+    assert rows(folder, "SELECT session, seq, at_ms, origin, type, payload FROM event WHERE seq > 3") == [
         (1, 4, 70, "recovery", "SessionEnded", '{"status":"interrupted"}')
     ]
 
@@ -498,7 +506,7 @@ def test_a_recorder_never_waits_for_another_program_unless_it_is_told_to(tmp_pat
             recorder.add_audit_event("PanelOpened", {})
         other.execute("ROLLBACK")
         recorder.add_audit_event("PanelOpened", {}, wall_ms=5)
-    assert rows(tmp_path, "SELECT type, wall_ms FROM booth_event") == [("PanelOpened", 5)]
+    assert rows(tmp_path, "SELECT type, wall_ms FROM audit_event") == [("PanelOpened", 5)]
 
 
 def test_a_recorder_that_is_told_to_wait_writes_when_the_other_program_lets_go(
@@ -520,12 +528,14 @@ def test_a_recorder_that_is_told_to_wait_writes_when_the_other_program_lets_go(
         letting_go.start()
         recorder.add_audit_event("PanelOpened", {})
         letting_go.join()
-    assert rows(tmp_path, "SELECT type FROM booth_event") == [("PanelOpened",)]
+    assert rows(tmp_path, "SELECT type FROM audit_event") == [("PanelOpened",)]
 
 
 def test_the_next_place_is_read_while_another_program_writes(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
-        listed = recorder.create_allocation_list({Condition("tom"): 1, Condition("notom"): 1}, 2, 1, simulated=False)
+        listed = recorder.create_allocation_list(
+            {Condition("tom"): 1, Condition("notom"): 1}, 2, 1, kind=SessionKind.STUDY
+        )
         other.execute("BEGIN IMMEDIATE")
-        assert recorder.next_slot(simulated=False) == listed[0]
+        assert recorder.next_slot(kind=SessionKind.STUDY) == listed[0]
         other.execute("ROLLBACK")

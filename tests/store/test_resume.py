@@ -14,6 +14,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Status
 from kiosk.experiment.randomisation import AllocationSource
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
@@ -118,12 +119,14 @@ def test_one_that_ended_otherwise_is_left_alone(folder: Path, provenance: Proven
 
 def test_one_whose_place_was_given_out_again_is_left_alone(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list({Condition.TOM: 2}, 1, 1, simulated=True)
-        placed = replace(provenance, slot=recorder.next_slot(simulated=True), allocation_source=AllocationSource.LIST)
+        recorder.create_allocation_list({Condition.TOM: 2}, 1, 1, kind=SessionKind.SIMULATED)
+        placed = replace(
+            provenance, slot=recorder.next_slot(kind=SessionKind.SIMULATED), allocation_source=AllocationSource.LIST
+        )
         for _ in range(2):
             recorder.begin(placed, [START])
         recorder.resume(1)
         recorder.append([happened.GameFinished(at_ms=9)])
-        with pytest.raises(UserInputError, match="the place of session 2 was given out again"):
+        with pytest.raises(UserInputError, match="the slot of session 2 was given out again"):
             recorder.resume(2)
         assert recorder.resume(1).session == 1

@@ -10,6 +10,7 @@ from kiosk import UserInputError
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, Event, Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import LAST, last_written_ms, read_snapshot, wrong_pins
 from tests.samples import whole
@@ -24,14 +25,14 @@ def stages(*entered: Stage) -> list[Event]:
 
 def begin(recorder: Recorder, *events: Event) -> None:
     """Record a session with these events."""
-    recorder.begin(Provenance(whole(), 1, str(EmbodimentName.AVATAR), "a test", simulated=False), events)
+    recorder.begin(Provenance(whole(), 1, str(EmbodimentName.AVATAR), "a test", kind=SessionKind.STUDY), events)
 
 
 def test_the_last_sessions_come_first_with_where_and_how_they_ended(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(Stage.ABOUT_YOU, Stage.GAME, Stage.OVER), ENDED)
         begin(recorder, *stages(Stage.GAME), happened.RobotDisconnected(at_ms=2, why="gone"))
-        seen = read_snapshot(tmp_path, 0, simulated=False).sessions
+        seen = read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).sessions
     assert [(session.participant, session.stage, session.status, session.robot_lost) for session in seen] == [
         ("2", Stage.GAME, None, True),
         ("1", Stage.GAME, Status.ABANDONED, False),
@@ -44,15 +45,15 @@ def test_the_packs_that_spoke_lately_are_known_by_language(tmp_path: Path) -> No
             recorder, *(happened.SpeechStarted(at_ms=1, utterance=n, engine="x", pack=p) for n, p in enumerate("aab"))
         )
         begin(recorder, happened.SpeechStarted(at_ms=1, utterance=1), ENDED)
-        assert read_snapshot(tmp_path, 0, simulated=False).packs == {("en", "a"), ("en", "b")}
-        assert read_snapshot(tmp_path, 0, simulated=True).packs == frozenset()
+        assert read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).packs == {("en", "a"), ("en", "b")}
+        assert read_snapshot(tmp_path, 0, kind=SessionKind.SIMULATED).packs == frozenset()
 
 
 def test_only_so_many_sessions_are_shown(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         for _ in range(LAST + 2):
             begin(recorder, *stages(Stage.GAME), ENDED)
-        assert len(read_snapshot(tmp_path, 0, simulated=False).sessions) == LAST
+        assert len(read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).sessions) == LAST
 
 
 @pytest.mark.parametrize(
@@ -72,23 +73,23 @@ def test_what_was_cut_off_elsewhere_than_in_the_game_can_go_on(
 ) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(stage), happened.SessionEnded(at_ms=9, status=status))
-        assert bool(read_snapshot(tmp_path, 0, simulated=False).resumable) is resumable
+        assert bool(read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).resumable) is resumable
 
 
 def test_rehearsals_and_people_are_looked_at_apart(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(Stage.GAME), ENDED)
-        assert read_snapshot(tmp_path, 0, simulated=True).sessions == ()
+        assert read_snapshot(tmp_path, 0, kind=SessionKind.SIMULATED).sessions == ()
 
 
 def test_deviations_are_those_since_a_moment_without_routine(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         recorder.add_audit_event(AuditEvent.PANEL_OPENED.value, {})
-        recorder.add_audit_event(AuditEvent.BODY_CHOSEN.value, {"body": "avatar", "reason": "test run"})
+        recorder.add_audit_event(AuditEvent.EMBODIMENT_CHOSEN.value, {"embodiment": "avatar", "reason": "test run"})
         recorder.add_audit_event("SomethingOfALaterVersion", {})
-        (noted,) = read_snapshot(tmp_path, 0, simulated=False).deviations
-        assert (noted.kind, noted.body["body"]) == (AuditEvent.BODY_CHOSEN, "avatar")
-        assert read_snapshot(tmp_path, noted.wall_ms + 1, simulated=False).deviations == ()
+        (noted,) = read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).deviations
+        assert (noted.kind, noted.payload["embodiment"]) == (AuditEvent.EMBODIMENT_CHOSEN, "avatar")
+        assert read_snapshot(tmp_path, noted.wall_ms + 1, kind=SessionKind.STUDY).deviations == ()
         assert last_written_ms(tmp_path) >= noted.wall_ms
 
 
@@ -108,4 +109,4 @@ def test_wrong_pins_are_counted_since_the_last_right_one(tmp_path: Path) -> None
 
 def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UserInputError, match="there is no database"):
-        read_snapshot(tmp_path, 0, simulated=False)
+        read_snapshot(tmp_path, 0, kind=SessionKind.STUDY)

@@ -41,31 +41,36 @@ def seated(
     provenance: Provenance,
     events: Sequence[Event] = COMPLETED,
     *,
-    allotted: AllocationSource = AllocationSource.LIST,
-    simulated: bool | SessionKind = True,
+    allocation_source: AllocationSource = AllocationSource.LIST,
+    kind: SessionKind = SessionKind.SIMULATED,
 ) -> AllocationSlot | None:
     """Have somebody play in the next place, or without one, and say which place it was."""
-    place = recorder.next_slot(simulated=simulated) if allotted is AllocationSource.LIST else None
+    place = recorder.next_slot(kind=kind) if allocation_source is AllocationSource.LIST else None
     plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
-    recorder.begin(replace(provenance, plan=plan, slot=place, allocation_source=allotted, simulated=simulated), events)
+    recorder.begin(replace(provenance, plan=plan, slot=place, allocation_source=allocation_source, kind=kind), events)
     return place
 
 
 def a_day(folder: Path, provenance: Provenance, site: str = "", seed: int = 1) -> list[Participant]:
     """A day at a booth: three people, two rehearsals, two who were not stored, and a deviation."""
     with Recorder(folder, site) as recorder:
-        recorder.create_allocation_list(FOUR, 4, seed, simulated=False)
+        recorder.create_allocation_list(FOUR, 4, seed, kind=SessionKind.STUDY)
         people = []
-        for number, (events, simulated) in enumerate(
-            [(saying(f"{site} one"), False), (LEFT, False), (COMPLETED, True), (saying(f"{site} two"), False)]
+        for number, (events, kind) in enumerate(
+            [
+                (saying(f"{site} one"), SessionKind.STUDY),
+                (LEFT, SessionKind.STUDY),
+                (COMPLETED, SessionKind.SIMULATED),
+                (saying(f"{site} two"), SessionKind.STUDY),
+            ]
         ):
-            place = None if simulated else recorder.next_slot(simulated=False)
+            place = recorder.next_slot(kind=kind) if kind is SessionKind.STUDY else None
             plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
-            session = replace(provenance, plan=plan, seed=seed * 100 + number, simulated=simulated, slot=place)
+            session = replace(provenance, plan=plan, seed=seed * 100 + number, kind=kind, slot=place)
             people.append(
                 recorder.begin(replace(session, allocation_source=AllocationSource.LIST if place else None), events)
             )
-        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
-        recorder.count_visit(NotRecordedReason.UNDER_AGE, simulated=False)
+        recorder.count_visit(NotRecordedReason.DECLINED, kind=SessionKind.STUDY)
+        recorder.count_visit(NotRecordedReason.UNDER_AGE, kind=SessionKind.STUDY)
         recorder.add_audit_event("deviation", {"why": f"the robot of {site} fell over"})
     return people

@@ -12,6 +12,7 @@ from itertools import count
 from pathlib import Path
 
 from kiosk.experiment.events import CardSelected, CardSelectionRejected, SessionStarted
+from kiosk.experiment.session_config import SessionKind
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
@@ -33,7 +34,7 @@ def write(folder: Path) -> None:
     """Begin a session and write on and on."""
     say(os.getpid())
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", simulated=True), [SessionStarted(at_ms=0)])
+        recorder.begin(Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.SIMULATED), [SessionStarted(at_ms=0)])
         say(1)
         for number in count(1):
             position = Position(number, number)

@@ -82,7 +82,7 @@ def line(fault: Fault, at: int | Moment, result: Result) -> str:
     counted = result.utterances
     return (
         f"{fault.value:27} {at.value if isinstance(at, Moment) else f'click {at}':19} "
-        f"{result.session.status.value if result.session.status else 'running'}, body changes {result.body_changes}, "
+        f"{result.session.status.value if result.session.status else 'running'}, changes {result.embodiment_changes}, "
         f"requested {counted.requested:2}, finished {counted.finished:2}, failed {counted.failed}, "
         f"shown only {counted.shown_only}, longest gap {result.longest_gap_ms:5.1f} ms: {result.faults() or 'well'}"
     )

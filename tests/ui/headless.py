@@ -53,6 +53,6 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     """
     study = read_study(settings)
     fixed = Condition.from_name(condition) if condition else None
-    origin = RunContext("a test", simulated=kind, seed=lambda: seed, condition=fixed)
+    origin = RunContext("a test", kind=kind, seed=lambda: seed, condition=fixed)
     with opened(data) as recorder, App(mode, recorder, ConditionAssigner(study, recorder, origin), robot) as app:
         yield app

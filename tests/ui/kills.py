@@ -29,6 +29,7 @@ from rich.progress import track
 
 from kiosk.config import STAGES, Settings
 from kiosk.experiment.events import Event, to_record
+from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
@@ -64,7 +65,7 @@ def main() -> None:
 def play(folder: Path, seed: int) -> None:
     """Open the kiosk, say what it shows, and rehearse; every event that was written is reported afterwards."""
     with Recorder(folder) as recorder:
-        origin = RunContext("a test", simulated=True, seed=lambda: seed)
+        origin = RunContext("a test", kind=SessionKind.SIMULATED, seed=lambda: seed)
         app = App(
             RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL),
             recorder,
@@ -147,7 +148,7 @@ def wrong_with(folder: Path, killing: Killing) -> str:
             return ""
         rows = database.execute(
             """
-            SELECT seq, at_ms, type, body FROM event
+            SELECT seq, at_ms, type, payload FROM event
             WHERE session = (SELECT max(session) FROM event) AND origin != 'recovery' ORDER BY seq
             """
         ).fetchall()

@@ -86,9 +86,9 @@ class Result:
         return count_speech(SessionState.from_events(self.events))
 
     @property
-    def body_changes(self) -> int:
+    def embodiment_changes(self) -> int:
         """How often the body changed."""
-        return len(SessionState.from_events(self.events).body_changes)
+        return len(SessionState.from_events(self.events).embodiment_changes)
 
     def faults(self) -> list[str]:
         """Whatever must not be; nothing, if all is well."""
@@ -96,10 +96,10 @@ class Result:
         wrong = {
             "the session did not end": self.session.status is not Status.COMPLETED,
             "not all pairs were found": self.session.measures.pairs != 12,
-            "it began with another body": not self.session.body.startswith("robot:"),
+            "it began with another body": not self.session.embodiment.startswith("robot:"),
             "a sentence was neither heard nor shown": bool(self.unseen),
             "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,
-            "the body changed more than once": self.body_changes > 1,
+            "the body changed more than once": self.embodiment_changes > 1,
         }
         return [what for what, holds in wrong.items() if holds]
 

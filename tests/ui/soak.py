@@ -84,9 +84,11 @@ def main() -> int:
             ended = Counted.now()
         with open_repository(data) as stored:
             played = stored.sessions()[WARM_UP:]
-            changes = sum(len(SessionState.from_events(stored.events(session.id)).body_changes) for session in played)
+            changes = sum(
+                len(SessionState.from_events(stored.events(session.id)).embodiment_changes) for session in played
+            )
     robot.close()
-    embodiments = Counter(session.body for session in played)
+    embodiments = Counter(session.embodiment for session in played)
     completed = sum(session.status is Status.COMPLETED for session in played)
     click.echo(
         f"{completed} of {len(played)} sessions completed; they began with {dict(embodiments)}; {changes} body changes"

@@ -11,6 +11,7 @@ from kiosk import StorageError
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
@@ -22,7 +23,7 @@ LISTED = Settings.model_validate(
         "randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 2},
     }
 )
-ORIGIN = RunContext("a test", simulated=True, seed=lambda: 1)
+ORIGIN = RunContext("a test", kind=SessionKind.SIMULATED, seed=lambda: 1)
 
 
 @pytest.fixture

@@ -68,7 +68,7 @@ def wait_for(qtbot: QtBot, booth: Booth, holds: Callable[[], bool]) -> None:
 
 def test_a_robot_that_is_well_says_everything(booth: Booth, fake: FurhatFake) -> None:
     result = sabotaged(booth, fake, Mode.WELL, 1)
-    assert result.body_changes == 0
+    assert result.embodiment_changes == 0
     assert result.utterances.finished == result.utterances.requested
     assert fake.refusals == []
     assert len(fake.sentences) == result.utterances.requested
@@ -78,16 +78,16 @@ def test_a_robot_that_is_well_says_everything(booth: Booth, fake: FurhatFake) ->
 def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: FurhatFake, mode: Mode) -> None:
     at = Random(f"{mode.name}/1").randint(1, 50)
     result = sabotaged(booth, fake, mode, at)
-    assert result.body_changes == 1
+    assert result.embodiment_changes == 1
     changed = next(event for event in result.events if isinstance(event, happened.EmbodimentChanged))
-    assert changed.body == EmbodimentName.AVATAR
+    assert changed.embodiment == EmbodimentName.AVATAR
     assert changed.why.startswith("the robot ")
 
 
 @pytest.mark.parametrize("moment", Moment, ids=lambda moment: moment.name.lower())
 def test_a_fault_in_any_stage_costs_nobody_anything(booth: Booth, fake: FurhatFake, moment: Moment) -> None:
     result = sabotaged(booth, fake, Mode.RESET, moment)
-    assert result.body_changes == 1
+    assert result.embodiment_changes == 1
 
 
 @pytest.mark.parametrize("mode", BROKEN, ids=lambda mode: mode.name.lower())
@@ -107,7 +107,7 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
             result = result_of(stored, rehearsal)
         booth.app.embodiments.close()
     assert result.faults() == []
-    assert result.body_changes == 1
+    assert result.embodiment_changes == 1
     assert fake.refusals == []
 
 
@@ -129,7 +129,7 @@ def test_a_robot_that_comes_back_helps_the_next_visitor(qtbot: QtBot, booth: Boo
     fake.restart()
     wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.robot("furhat")))
     result = sabotaged(booth, fake, Mode.WELL, 1)
-    assert result.body_changes == 0
+    assert result.embodiment_changes == 0
     assert fake.voice == "Matthew"
 
 
@@ -141,5 +141,5 @@ def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     wait_for(qtbot, booth, lambda: helps(booth, EmbodimentName.AVATAR))
     booth.rehearse(seed=1)
     with open_repository(booth.data) as stored:
-        assert stored.sessions()[0].body == "avatar"
+        assert stored.sessions()[0].embodiment == "avatar"
         assert stored.sessions()[0].measures.pairs == 12

@@ -146,7 +146,7 @@ def test_an_action_of_the_panel_is_done_once(make_booth: MakeBooth, key: Qt.Key)
     open_panel(booth.app)
     wished: list[str] = []
     booth.app.screens.experimenter.parts[2].wished.connect(lambda action, _choice: wished.append(action))
-    booth.item("action-quiet").forceActiveFocus()
+    booth.item("action-mute").forceActiveFocus()
     hold(booth.app.window, key)
     assert wished == ["mute"]
 

@@ -232,9 +232,9 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
             "resumable": [{"number": "1", "label": MARKUP}],
         }
     )
-    chosen = dict.fromkeys(("condition", "body", "language", "volume"), "one")
+    chosen = dict.fromkeys(("condition", "embodiment", "language", "volume"), "one")
     lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes"), option)
-    flags = {"underWay": True, "canBeNext": True, "quiet": False, "staysPaused": False}
+    flags = {"underWay": True, "canBeNext": True, "muted": False, "staysPaused": False}
     panel.show_choices({**chosen, **lists, **flags, "session": MARKUP, "backup": MARKUP})
     panel.open(is_open=True)
     note.tell(MARKUP)

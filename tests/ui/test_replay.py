@@ -17,6 +17,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import RevealCard
 from kiosk.experiment.events import Stage
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.replay import Replay
@@ -41,7 +42,7 @@ def played() -> Driver:
 def folder(played: Driver, tmp_path: Path) -> Path:
     """The data folder in which it is stored."""
     with Recorder(tmp_path / "data") as recorder:
-        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", simulated=True), played.events)
+        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", kind=SessionKind.SIMULATED), played.events)
     return tmp_path / "data"
 
 
@@ -175,7 +176,7 @@ def test_the_end_that_was_put_to_a_session_after_a_crash_is_no_part_of_its_story
 ) -> None:
     cut = played.events[: len(played.events) // 2]
     with Recorder(tmp_path) as recorder:
-        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", simulated=True), cut)
+        recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", kind=SessionKind.SIMULATED), cut)
     with Recorder(tmp_path), open_repository(tmp_path) as stored:
         assert stored.story(1) == cut
         assert stored.events(1)[:-1] == cut

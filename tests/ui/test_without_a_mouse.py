@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import Settings
 from kiosk.experiment.events import ResponseGiven, Stage, Status
 from kiosk.experiment.experimenter import AuditEvent, DeviationReason
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.queries import open_repository
 from kiosk.store.snapshot import read_snapshot
 from kiosk.ui.app import App
@@ -124,7 +125,7 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     keyboard.click("condition-notom")
     keyboard.type("5in their own words")
     keyboard.press(Qt.Key.Key_Return)
-    for name in ("volume-0.2", "action-quiet"):
+    for name in ("volume-0.2", "action-mute"):
         keyboard.click(name)
     keyboard.click("action-end")
     keyboard.type("1")
@@ -133,9 +134,9 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
         keyboard.press(Qt.Key.Key_Escape)
     assert not booth.app.experimenter.panel.is_open
     noted = {
-        each.kind: each.body["reason"]
-        for each in read_snapshot(booth.data, 0, simulated=True).deviations
-        if each.body.get("reason")
+        each.kind: each.payload["reason"]
+        for each in read_snapshot(booth.data, 0, kind=SessionKind.SIMULATED).deviations
+        if each.payload.get("reason")
     }
     assert noted == {
         AuditEvent.CONDITION_CHOSEN: DeviationReason.OTHER.in_own_words("in their own words"),

@@ -73,16 +73,16 @@ class AuditLog:
         self._kept: deque[tuple[AuditEvent, Mapping[str, Any], int]] = deque()
         self._again: TimerWait | None = None
 
-    def __call__(self, note: AuditEvent, body: Mapping[str, Any]) -> bool:
+    def __call__(self, note: AuditEvent, payload: Mapping[str, Any]) -> bool:
         """Write it down before it is done; whether the disk took it. Raises StoreBusy, and can be called again."""
         while self._kept:
             self._write(*self._kept[0])
             self._kept.popleft()
-        return self._write(note, body, None)
+        return self._write(note, payload, None)
 
-    def record(self, note: AuditEvent, body: Mapping[str, Any]) -> None:
+    def record(self, note: AuditEvent, payload: Mapping[str, Any]) -> None:
         """Write down what has happened already: now, or as soon as another program lets go of the database."""
-        self._kept.append((note, body, time.time_ns() // NS_PER_MS))
+        self._kept.append((note, payload, time.time_ns() // NS_PER_MS))
         if self._again is None:
             self._write_kept()
 
@@ -107,9 +107,9 @@ class AuditLog:
                 return
             self._kept.popleft()
 
-    def _write(self, note: AuditEvent, body: Mapping[str, Any], wall_ms: int | None) -> bool:
+    def _write(self, note: AuditEvent, payload: Mapping[str, Any], wall_ms: int | None) -> bool:
         try:
-            self._recorder.add_audit_event(note.value, body, wall_ms)
+            self._recorder.add_audit_event(note.value, payload, wall_ms)
         except StoreBusy as busy:
             self.error = str(busy)
             raise
@@ -289,7 +289,7 @@ class ActionController:
         robot = next(name for name in embodiments.health if name != EmbodimentName.AVATAR)
         to_avatar = choice == str(EmbodimentName.AVATAR) if choice else not embodiments.prefers_avatar
         name = EmbodimentName.AVATAR if to_avatar else robot
-        if self._written(AuditEvent.BODY_CHOSEN, {"body": str(name), "reason": reason}):
+        if self._written(AuditEvent.EMBODIMENT_CHOSEN, {"embodiment": str(name), "reason": reason}):
             embodiments.prefer(name)
             self.tell("console-next-avatar" if to_avatar else "console-next-robot")
 
@@ -318,16 +318,16 @@ class ActionController:
 
     def _quiet(self, _choice: str, _reason: str) -> None:
         embodiments = self._booth.embodiments
-        quiet = not embodiments.is_muted
-        if not self._written(AuditEvent.MUTE_CHANGED, {"quiet": quiet}):
+        muted = not embodiments.is_muted
+        if not self._written(AuditEvent.MUTE_CHANGED, {"muted": muted}):
             return
         runner = self._booth.runner
-        runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), quiet=quiet))
-        if quiet:
+        runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), muted=muted))
+        if muted:
             embodiments.mute()
         else:
             embodiments.unmute()
-        self.tell("console-mute-on" if quiet else "console-mute-off")
+        self.tell("console-mute-on" if muted else "console-mute-off")
 
     def _pause(self, _choice: str, _reason: str) -> None:
         runner = self._booth.runner
@@ -424,7 +424,7 @@ class ActionController:
         """A session that begins in silence says so."""
         if self._booth.embodiments.is_muted:
             runner = self._booth.runner
-            runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), quiet=True))
+            runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), muted=True))
         self.changed()
 
     def _rested(self) -> None:
@@ -441,9 +441,9 @@ class ActionController:
         else:
             self.tell("console-not-now")
 
-    def _written(self, note: AuditEvent, body: Mapping[str, Any]) -> bool:
+    def _written(self, note: AuditEvent, payload: Mapping[str, Any]) -> bool:
         """Write it down before it is done; what cannot be written is not done."""
-        if self._write(note, body):
+        if self._write(note, payload):
             return True
         self.tell("console-not-written")
         return False

@@ -256,7 +256,7 @@ class Panel:
             ]
             if embodiments.has_robot
             else [],
-            "body": str(EmbodimentName.AVATAR) if embodiments.prefers_avatar else robot,
+            "embodiment": str(EmbodimentName.AVATAR) if embodiments.prefers_avatar else robot,
             "languages": [
                 {"value": plan.language, "label": plan.catalogue.text("language-name")}
                 for plan in booth.assigner.study.plans
@@ -265,7 +265,7 @@ class Panel:
             "volumes": [{"value": str(volume), "label": f"{volume:.0%}"} for volume in LOUDNESS],
             "volume": str(min(LOUDNESS, key=lambda volume: abs(volume - actions.volume))),
             "canBeNext": permission(Action.NEXT, actions.stage).effect is not ActionEffect.REFUSED,
-            "quiet": embodiments.is_muted,
+            "muted": embodiments.is_muted,
             "staysPaused": booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms()))
             and not actions.paused_by_panel,
             "backup": told("console-backup-busy")
@@ -350,7 +350,7 @@ class ExperimenterConsole:
             booth.runner.set_closed,
         )
         self.actions = ActionController(booth, self._asking, note, self._write, self.upkeep, catalogue)
-        look = partial(_look, folder, simulated=self._kind)
+        look = partial(_look, folder, kind=self._kind)
         self.panel = Panel(
             panel,
             booth,
@@ -402,10 +402,10 @@ def read_for(work: Executor, folder: Path) -> Callable[..., None]:
     return lambda number, then: work(partial(read_interrupted_session, folder, number), then)
 
 
-def _look(folder: Path, *, simulated: SessionKind) -> DashboardSnapshot | str:
+def _look(folder: Path, *, kind: SessionKind) -> DashboardSnapshot | str:
     """The records since this morning, or why they cannot be read."""
     today = datetime.now().astimezone().replace(hour=0, minute=0, second=0, microsecond=0)
     try:
-        return read_snapshot(folder, int(today.timestamp() * MS_PER_SECOND), simulated=simulated)
+        return read_snapshot(folder, int(today.timestamp() * MS_PER_SECOND), kind=kind)
     except UserInputError as failure:
         return str(failure)

@@ -269,7 +269,7 @@ def _resumable(session: SnapshotSession, translate: Translate) -> Row:
 
 def _deviation(noted: SnapshotAuditEvent, translate: Translate) -> Row:
     when = datetime.fromtimestamp(noted.wall_ms / MS_PER_SECOND).astimezone()
-    reason = str(noted.body.get("reason") or "")
+    reason = str(noted.payload.get("reason") or "")
     return {
         "when": f"{when:%H:%M}",
         "words": translate(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, translate)),
@@ -284,23 +284,27 @@ def _more(number: int, translate: Translate) -> str:
 
 def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
     """The one thing that a note is about, in words."""
-    body: dict[str, Any] = noted.body
+    payload: dict[str, Any] = noted.payload
     match noted.kind:
         case AuditEvent.CONDITION_CHOSEN:
             named = {condition.value: condition for condition in Condition}
-            return condition_name(named.get(body.get("condition", "")), translate)
+            return condition_name(named.get(payload.get("condition", "")), translate)
         case AuditEvent.VOLUME_CHANGED:
-            return f"{body.get('volume', 0):.0%}"
+            return f"{payload.get('volume', 0):.0%}"
         case AuditEvent.MUTE_CHANGED:
-            return translate("console-mute-on" if body.get("quiet") else "console-mute-off")
+            return translate("console-mute-on" if payload.get("muted") else "console-mute-off")
         case AuditEvent.SESSION_ABORTED | AuditEvent.APPLICATION_QUIT:
-            stage = str(body.get("stage", ""))
+            stage = str(payload.get("stage", ""))
             return translate(f"console-stage-{_kebab(stage)}") if stage else ""
         case AuditEvent.DISK_SPACE_CHANGED:
-            return translate(f"console-room-{body.get('level', 'enough')}")
-    of = {AuditEvent.BODY_CHOSEN: "body", AuditEvent.LANGUAGE_CHOSEN: "language", AuditEvent.SESSION_RESUMED: "session"}
+            return translate(f"console-room-{payload.get('level', 'enough')}")
+    of = {
+        AuditEvent.EMBODIMENT_CHOSEN: "embodiment",
+        AuditEvent.LANGUAGE_CHOSEN: "language",
+        AuditEvent.SESSION_RESUMED: "session",
+    }
     of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why"}
-    value = body.get(of.get(noted.kind, ""), "")
+    value = payload.get(of.get(noted.kind, ""), "")
     return value if isinstance(value, str) else json.dumps(value)
 
 

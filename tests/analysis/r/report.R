@@ -8,7 +8,7 @@ num <- function(x) as.numeric(ifelse(x %in% c("true", "false"), x == "true", x))
 everyone <- table_of("participants"); hints <- table_of("hints"); flips <- table_of("flips"); scores <- table_of("scores"); answers <- table_of("answers")
 
 # Who is analysed.
-drawn <- everyone[!everyone$allotted %in% c("override", "beyond"), ]
+drawn <- everyone[!everyone$allocation_source %in% c("override", "beyond"), ]
 people <- drawn[drawn$game_completed == "true", ]
 cells <- c("tom", "notom", "mentalised_unexplained", "random_explained"); pair <- c("tom", "notom")
 game <- c("flips", "completion_ms", "completion_with_speech_ms", "per_match_ms", "hints", "assistance_per_flip", "followed_rate", "first_followed_rate", "first_led_to_match_rate")
@@ -16,7 +16,7 @@ values <- setNames(lapply(game, function(m) num(people[[m]])), game)
 for (scale in unique(scores$scale)) { s <- scores[scores$scale == scale, ]; values[[paste0(scale, "_sum")]] <- num(s$sum[match(people$participant_id, s$participant_id)]) }
 of <- function(m, cell) { v <- values[[m]][people$condition == cell]; v[!is.na(v)] }
 completion <- lapply(cells, function(cell) { d <- drawn[drawn$condition == cell, ]; k <- sum(d$game_completed == "true")
-  list(condition = cell, allotted = nrow(d), completed = k, interval = as.numeric(prop.test(k, nrow(d), correct = FALSE)$conf.int), ended = as.list(table(d$last_stage[d$game_completed != "true"]))) })
+  list(condition = cell, allocated = nrow(d), completed = k, interval = as.numeric(prop.test(k, nrow(d), correct = FALSE)$conf.int), ended = as.list(table(d$last_stage[d$game_completed != "true"]))) })
 fisher_p <- fisher.test(sapply(pair, function(cell) table(factor(drawn$game_completed[drawn$condition == cell], c("true", "false")))))$p.value
 descriptives <- do.call(c, lapply(names(values), function(m) lapply(cells, function(cell) { v <- of(m, cell)
   list(measure = m, condition = cell, n = length(v), mean = mean(v), sd = sd(v), quartiles = unname(quantile(v))) })))

@@ -122,7 +122,7 @@ def test_other_questionnaires_do_not_matter() -> None:
 
 def resumed(at_ms: int) -> list[Event]:
     """The stage begins anew after a cut."""
-    return [happened.SessionResumed(at_ms=at_ms, body=EmbodimentName.AVATAR), entered(at_ms)]
+    return [happened.SessionResumed(at_ms=at_ms, embodiment=EmbodimentName.AVATAR), entered(at_ms)]
 
 
 def test_a_stage_that_was_resumed_begins_anew_and_its_earlier_answers_do_not_count() -> None:

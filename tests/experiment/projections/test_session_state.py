@@ -24,7 +24,7 @@ def test_of_nothing_nothing_became() -> None:
         consent=None,
         practice_end=None,
         game_completed=False,
-        body_changes=(),
+        embodiment_changes=(),
         resumptions=(),
         status=None,
     )
@@ -37,7 +37,7 @@ def test_a_whole_session_went_through_every_stage() -> None:
     assert [entered.at_ms for entered in seen.stages] == sorted(entered.at_ms for entered in seen.stages)
     assert seen.stages[-1].at_ms == driver.now
     assert (seen.last_stage, seen.status, seen.game_completed) == (Stage.THANKS, Status.COMPLETED, True)
-    assert (seen.body_changes, seen.pauses, seen.resumptions) == ((), (), ())
+    assert (seen.embodiment_changes, seen.pauses, seen.resumptions) == ((), (), ())
     assert seen.consent is not None
     assert (seen.consent.version, seen.consent.purposes) == (INFORMATION.version, ("store", "share"))
 
@@ -68,7 +68,7 @@ def test_a_session_that_went_on_after_an_interruption_has_not_ended() -> None:
     later = [*cut, *resumed.events[len(driver.events) :]]
     seen = SessionState.from_events(later)
     assert seen.status is None
-    assert seen.resumptions == (happened.SessionResumed(at_ms=driver.now, body=EmbodimentName.robot("furhat")),)
+    assert seen.resumptions == (happened.SessionResumed(at_ms=driver.now, embodiment=EmbodimentName.robot("furhat")),)
     assert [entered.stage for entered in seen.stages[-2:]] == [Stage.PRACTICE, Stage.PRACTICE]
     resumed.to(Stage.OVER)
     assert SessionState.from_events([*cut, *resumed.events[len(driver.events) :]]).status is Status.COMPLETED
@@ -91,7 +91,7 @@ def test_pauses_are_told_from_when_to_when() -> None:
 
 
 def test_a_pause_that_was_cut_off_is_over_when_the_session_goes_on() -> None:
-    events = [happened.PauseRequested(at_ms=10), happened.SessionResumed(at_ms=30, body=EmbodimentName.AVATAR)]
+    events = [happened.PauseRequested(at_ms=10), happened.SessionResumed(at_ms=30, embodiment=EmbodimentName.AVATAR)]
     assert SessionState.from_events(events).pauses == (Interval(10, 30),)
     assert SessionState.from_events([*events, happened.PauseRequested(at_ms=40)]).pauses == (
         Interval(10, 30),
@@ -102,8 +102,8 @@ def test_a_pause_that_was_cut_off_is_over_when_the_session_goes_on() -> None:
 def test_changes_of_the_body_are_told_with_why() -> None:
     driver = driven_to(Stage.GAME)
     driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
-    changed = happened.EmbodimentChanged(at_ms=driver.now, body=EmbodimentName.AVATAR, why="the plug")
-    assert SessionState.from_events(driver.events).body_changes == (changed,)
+    changed = happened.EmbodimentChanged(at_ms=driver.now, embodiment=EmbodimentName.AVATAR, why="the plug")
+    assert SessionState.from_events(driver.events).embodiment_changes == (changed,)
 
 
 def test_a_stage_is_told_with_its_time() -> None:

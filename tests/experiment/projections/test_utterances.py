@@ -46,7 +46,7 @@ def lost(at_ms: int = 0) -> list[happened.Event]:
     """The robot is lost, and the avatar helps from then on."""
     return [
         happened.RobotDisconnected(at_ms=at_ms, why="x"),
-        happened.EmbodimentChanged(at_ms=at_ms, body=AVATAR, why="x"),
+        happened.EmbodimentChanged(at_ms=at_ms, embodiment=AVATAR, why="x"),
     ]
 
 
@@ -82,14 +82,14 @@ def test_what_the_robot_had_said_before_it_was_lost_needs_no_second_attempt() ->
 
 
 def test_sentences_after_the_loss_are_the_avatar_s_until_a_robot_goes_on_with_the_session() -> None:
-    again = happened.SessionResumed(at_ms=70, body=ROBOT)
+    again = happened.SessionResumed(at_ms=70, embodiment=ROBOT)
     events = [asked(1), finished(1), *lost(50), asked(2, 60), finished(2, 65), again, asked(3, 80)]
-    assert [[attempt.body for attempt in said] for said in attempts(events)] == [[ROBOT], [AVATAR], [ROBOT]]
+    assert [[attempt.embodiment for attempt in said] for said in attempts(events)] == [[ROBOT], [AVATAR], [ROBOT]]
 
 
 def test_without_the_first_body_s_name_nothing_is_said_of_it() -> None:
     (said,) = SessionState.from_events([asked(1), *lost()]).sentences
-    assert [attempt.body for attempt in said.attempts] == [None, AVATAR]
+    assert [attempt.embodiment for attempt in said.attempts] == [None, AVATAR]
 
 
 def test_every_sentence_is_told_with_its_stage_and_what_it_was_for() -> None:
@@ -145,8 +145,8 @@ def test_a_hint_that_was_being_said_again_when_its_card_was_flipped_did_not_fail
 
 
 def test_changes_of_the_body_are_counted() -> None:
-    changed = happened.EmbodimentChanged(at_ms=0, body=AVATAR, why="x")
-    assert SessionState.from_events([*lost(), changed]).body_changes == (changed, changed)
+    changed = happened.EmbodimentChanged(at_ms=0, embodiment=AVATAR, why="x")
+    assert SessionState.from_events([*lost(), changed]).embodiment_changes == (changed, changed)
 
 
 def test_in_a_whole_session_every_sentence_is_heard_or_read() -> None:

@@ -1,4 +1,4 @@
-"""What is said of the database, its copies, its list of places, and the clock against it; none of it changes a byte."""
+"""Checks of the database, its copies, its allocation list, and the clock; none of them changes a byte."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Allocation
+from kiosk.experiment.session_config import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store.checks import OLD, SLACK, allocation_check, backup_check, clock_check, database_check, sessions_check
 from kiosk.store.database import FILE, SCHEMA, in_use
@@ -56,10 +57,10 @@ def test_a_day_is_counted_and_nothing_of_it_is_touched(folder: Path, provenance:
 
 def test_a_session_that_was_cut_off_is_told(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(FOUR, 4, 1, simulated=False)
-        seated(recorder, provenance, BEGUN, simulated=False)
-        seated(recorder, provenance, COMPLETED, simulated=False)
-        seated(recorder, provenance, BEGUN, simulated=False)
+        recorder.create_allocation_list(FOUR, 4, 1, kind=SessionKind.STUDY)
+        seated(recorder, provenance, BEGUN, kind=SessionKind.STUDY)
+        seated(recorder, provenance, COMPLETED, kind=SessionKind.STUDY)
+        seated(recorder, provenance, BEGUN, kind=SessionKind.STUDY)
     (stored,) = sessions_check(folder, busy=False)
     assert stored.message == "3 of people, 2 of them cut off"
 
@@ -145,8 +146,8 @@ def test_a_copy_of_today_is_well_and_an_old_one_only_if_nothing_came_since(
 
 def test_the_list_tells_how_much_of_it_is_left(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(FOUR, 4, 1, simulated=False)
-        first = seated(recorder, provenance, simulated=False)
+        recorder.create_allocation_list(FOUR, 4, 1, kind=SessionKind.STUDY)
+        first = seated(recorder, provenance, kind=SessionKind.STUDY)
     assert first is not None
     (found,) = allocation_check(folder, "", DECLARED)
     assert f"{first.condition.value} 1 of 4" in found.message
@@ -156,9 +157,9 @@ def test_the_list_tells_how_much_of_it_is_left(folder: Path, provenance: Provena
 
 def test_a_list_that_is_used_up_is_told_of(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(FOUR, 4, 1, simulated=False)
+        recorder.create_allocation_list(FOUR, 4, 1, kind=SessionKind.STUDY)
         for _ in range(8):
-            seated(recorder, provenance, simulated=False)
+            seated(recorder, provenance, kind=SessionKind.STUDY)
     (found,) = allocation_check(folder, "", DECLARED)
     assert (found.severity, found.message) == (Severity.WARNING, "used up: tom 4 of 4, notom 4 of 4")
     raised = Allocation(target_n={"tom": 8, "notom": 8}, block_size=4)
@@ -180,7 +181,7 @@ def test_another_list_than_the_fixed_one_is_bad_before_the_kiosk_refuses_it(
 ) -> None:
     a_day(folder, provenance)
     (found,) = allocation_check(folder, "", DECLARED.model_copy(update=other))
-    assert (found.severity, "another list" in found.message) == (Severity.ERROR, True)
+    assert (found.severity, "another allocation list" in found.message) == (Severity.ERROR, True)
 
 
 def test_a_study_without_quotas_has_no_list(folder: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from random import Random
 
 from kiosk.experiment.events import Stage
+from kiosk.experiment.session_config import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store.checks import forms
 from kiosk.store.database import FILE
@@ -18,13 +19,13 @@ PLAN = replace(study_plan(), about_you=questionnaire("about-you", likert("first"
 CHANGED = questionnaire("about-you", likert("first", scale="L", points=7), likert("second"))
 
 
-def store_answers(folder: Path, *, simulated: bool = False) -> None:
+def store_answers(folder: Path, *, kind: SessionKind = SessionKind.STUDY) -> None:
     """Store the answers of one participant."""
     driver = Driver(PLAN, 1)
     driver.to(Stage.ABOUT_YOU)
     answer_all(driver, Random(1))
     driver.end()
-    store(folder, [(driver, 1)], simulated=simulated)
+    store(folder, [(driver, 1)], kind=kind)
 
 
 def test_a_study_that_is_as_it_was_is_well(tmp_path: Path) -> None:
@@ -44,7 +45,7 @@ def test_a_form_that_changed_under_its_version_is_told(tmp_path: Path) -> None:
 
 
 def test_what_was_only_rehearsed_may_change(tmp_path: Path) -> None:
-    store_answers(tmp_path, simulated=True)
+    store_answers(tmp_path, kind=SessionKind.SIMULATED)
     assert [result.severity for result in forms(tmp_path, replace(PLAN, about_you=CHANGED))] == [Severity.OK]
 
 

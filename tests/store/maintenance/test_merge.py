@@ -19,6 +19,7 @@ from kiosk import StorageError, UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import NotRecordedReason
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store import merge as merge_module
 from kiosk.store.database import FILE
 from kiosk.store.merge import merge
@@ -28,7 +29,7 @@ from kiosk.store.verify import verify
 from kiosk.store.withdrawal import withdraw
 from tests.store.visitors import BEGUN, COMPLETED, a_day, rows
 
-TABLES = ("allocation", "booth_event", "event", "participant", "session", "source", "tombstone", "visit")
+TABLES = ("allocation_list", "audit_event", "event", "participant", "session", "source", "tombstone", "visit")
 
 
 @pytest.fixture
@@ -63,8 +64,8 @@ def people(folder: Path) -> list[tuple[Any, ...]]:
     return rows(
         folder,
         """
-        SELECT participant.site, participant.simulated, number, code, started_at, seed, condition, place,
-            (SELECT group_concat(seq || type || body || at_ms || wall_ms) FROM event WHERE session = id)
+        SELECT participant.site, participant.kind, number, code, started_at, seed, condition, allocation_slot,
+            (SELECT group_concat(seq || type || payload || at_ms || wall_ms) FROM event WHERE session = id)
         FROM participant JOIN session ON id = session ORDER BY 1, 2, 3
         """,
     )
@@ -108,8 +109,9 @@ def test_the_order_of_the_folders_does_not_matter(milan: Path, girona: Path, out
 def test_a_session_keeps_its_list(milan: Path, girona: Path, out: Path) -> None:
     merge([girona, milan], out)
     mixed = """
-        SELECT session.site, allocation.site FROM session JOIN allocation ON list = allocation.id
-        UNION ALL SELECT tombstone.site, allocation.site FROM tombstone JOIN allocation ON list = allocation.id
+        SELECT session.site, list.site FROM session JOIN allocation_list AS list ON allocation_list = list.id
+        UNION ALL
+        SELECT tombstone.site, list.site FROM tombstone JOIN allocation_list AS list ON allocation_list = list.id
     """
     assert sorted(rows(out, mixed)) == [("GI", "GI")] * 3 + [("MI", "MI")] * 3
 
@@ -117,7 +119,7 @@ def test_a_session_keeps_its_list(milan: Path, girona: Path, out: Path) -> None:
 def test_counts_are_those_of_all_together(milan: Path, girona: Path, out: Path) -> None:
     merge([milan, girona], out)
     with open_repository(out) as stored:
-        counts = stored.counts(simulated=False)
+        counts = stored.counts(kind=SessionKind.STUDY)
     assert sum(cell.quota for cell in counts.cells.values()) == 16
     assert sum(cell.begun for cell in counts.cells.values()) == 6
     assert sum(cell.withdrawn for cell in counts.cells.values()) == 1
@@ -135,13 +137,13 @@ def test_a_kiosk_goes_on_with_the_merged_folder(milan: Path, girona: Path, out: 
     merge([milan, girona], out)
     with Recorder(out, "MI") as recorder:
         assert recorder.recovered == ()
-        person = recorder.begin(replace(provenance, simulated=False), BEGUN)
+        person = recorder.begin(replace(provenance, kind=SessionKind.STUDY), BEGUN)
     assert (person.session, person.name) == (9, "MI-4")
 
 
 def test_whoever_withdraws_is_found_in_the_merged_folder(milan: Path, girona: Path, out: Path) -> None:
     merge([milan, girona], out)
-    ((code,),) = rows(out, "SELECT code FROM participant WHERE site = 'GI' AND number = 2 AND NOT simulated")
+    ((code,),) = rows(out, "SELECT code FROM participant WHERE site = 'GI' AND number = 2 AND kind = 0")
     withdraw(out, code)
     assert len(rows(out, "SELECT 1 FROM tombstone")) == 2
     assert verify(out) == []
@@ -165,7 +167,7 @@ def test_folders_of_one_site_are_merged_if_nobody_clashes(
         for seed in (8, 9):
             recorder.begin(replace(provenance, seed=seed), COMPLETED)
     with Recorder(tmp_path / "people", "MI") as recorder:
-        recorder.begin(replace(provenance, seed=7, simulated=False), COMPLETED)
+        recorder.begin(replace(provenance, seed=7, kind=SessionKind.STUDY), COMPLETED)
     assert merge([rehearsals, tmp_path / "people"], out) == 3
     with pytest.raises(UserInputError, match=r"participant MI-1 stands in .*milan and in .*people"):
         merge([milan, tmp_path / "people"], tmp_path / "other")
@@ -191,16 +193,16 @@ def test_a_participant_who_withdrew_in_one_of_them_is_refused_as_well(
 ) -> None:
     """Otherwise a copy from before the withdrawal would bring them back."""
     with Recorder(tmp_path / "before", "MI") as recorder:
-        recorder.begin(replace(provenance, simulated=False, seed=999), COMPLETED)
+        recorder.begin(replace(provenance, kind=SessionKind.STUDY, seed=999), COMPLETED)
     with pytest.raises(UserInputError, match=r"participant MI-1 stands in"):
         merge([tmp_path / "before", milan], out)
 
 
 def test_a_code_that_stands_in_two_folders_is_refused(out: Path, tmp_path: Path, provenance: Provenance) -> None:
     codes = []
-    for name, simulated in (("one", False), ("two", True)):
+    for name, kind in (("one", SessionKind.STUDY), ("two", SessionKind.SIMULATED)):
         with Recorder(tmp_path / name) as recorder:
-            codes.append(recorder.begin(replace(provenance, simulated=simulated), COMPLETED).code)
+            codes.append(recorder.begin(replace(provenance, kind=kind), COMPLETED).code)
     code, _ = codes
     with pytest.raises(UserInputError, match=rf"the code {code} stands in .*one and in .*two; nothing was merged"):
         merge([tmp_path / "one", tmp_path / "two"], out)
@@ -305,7 +307,7 @@ def test_kiosks_without_a_site_get_one_in_the_merged_folder(nameless: list[Path]
     assert merge(nameless, out, sites=list(zip(nameless, ["HALL", "LIB"], strict=True))) == 7
     hall, library = map(people, nameless)
     assert people(out) == [("HALL", *row[1:]) for row in hall] + [("LIB", *row[1:]) for row in library]
-    for table in ("session", "participant", "allocation", "tombstone"):
+    for table in ("session", "participant", "allocation_list", "tombstone"):
         assert {site for (site,) in rows(out, f"SELECT site FROM {table}")} <= {"HALL", "LIB"}  # noqa: S608
     assert verify(out) == []
     assert [(folder / FILE).read_bytes() for folder in nameless] == before
@@ -356,7 +358,7 @@ def test_a_copy_from_before_a_withdrawal_does_not_bring_anybody_back(
 ) -> None:
     kiosk, copy = tmp_path / "kiosk", tmp_path / "copy"
     with Recorder(kiosk) as recorder:
-        person = recorder.begin(replace(provenance, simulated=False), COMPLETED)
+        person = recorder.begin(replace(provenance, kind=SessionKind.STUDY), COMPLETED)
     shutil.copytree(kiosk, copy)
     withdraw(kiosk, person.code)
     for sites in ([], [(copy, "COPY")]):

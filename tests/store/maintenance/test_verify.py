@@ -12,6 +12,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment.events import SpeechStarted
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.participants import codes
 from kiosk.store.recorder import Provenance, Recorder
@@ -86,12 +87,12 @@ def test_it_says_how_far_it_is(day: Path) -> None:
         (
             Verification.READABLE,
             "event 1: SessionStarted cannot be read",
-            ["UPDATE event SET body = '[1]' WHERE seq = 1"],
+            ["UPDATE event SET payload = '[1]' WHERE seq = 1"],
         ),
         (
             Verification.READABLE,
             "SessionStarted cannot be read",
-            ["UPDATE event SET body = '{\"x\": 1}' WHERE seq = 1"],
+            ["UPDATE event SET payload = '{\"x\": 1}' WHERE seq = 1"],
         ),
         (Verification.SOURCES, "is not what its hash says", ["UPDATE source SET content = content || ' '"]),
         (
@@ -105,13 +106,13 @@ def test_it_says_how_far_it_is(day: Path) -> None:
         (
             Verification.PARTICIPANTS,
             "is mistyped",
-            ["UPDATE participant SET code = 'MI-2222223' WHERE number = 1 AND simulated"],
+            ["UPDATE participant SET code = 'MI-2222223' WHERE number = 1 AND kind = 1"],
         ),
         (Verification.PARTICIPANTS, "of another site", ["UPDATE participant SET site = 'GI' WHERE number = 3"]),
         (
             Verification.PARTICIPANTS,
             "of another site, or another kind",
-            ["UPDATE participant SET simulated = 1 WHERE number = 3"],
+            ["UPDATE participant SET kind = 1 WHERE number = 3"],
         ),
         (Verification.PARTICIPANTS, "has the number 0", ["UPDATE participant SET number = 0 WHERE number = 3"]),
         (
@@ -120,13 +121,17 @@ def test_it_says_how_far_it_is(day: Path) -> None:
             ["UPDATE participant SET number = 2 WHERE number = 3"],
         ),
         (
-            Verification.PLACES,
+            Verification.ALLOCATION,
             "list 1: does not meet its quotas",
-            ['UPDATE allocation SET quotas = \'{"tom": 4, "notom": 5}\''],
+            ['UPDATE allocation_list SET quotas = \'{"tom": 4, "notom": 5}\''],
         ),
-        (Verification.PLACES, "and place 9 of list 1 is not", ["UPDATE session SET place = 9 WHERE id = 1"]),
         (
-            Verification.PLACES,
+            Verification.ALLOCATION,
+            "and slot 9 of list 1 is not",
+            ["UPDATE session SET allocation_slot = 9 WHERE id = 1"],
+        ),
+        (
+            Verification.ALLOCATION,
             "session 1: is no_assistance, and",
             ["UPDATE session SET condition = 'no_assistance' WHERE id = 1"],
         ),
@@ -190,7 +195,7 @@ def test_a_voice_that_changed_in_the_middle_of_a_study_is_found(
     with Recorder(folder) as recorder:
         for number, told in enumerate((first, second, second)):
             spoken = SpeechStarted(at_ms=0, utterance=1, **({"engine": "person", "voice": "anna"} | told))
-            session = replace(provenance, seed=number, simulated=False)
+            session = replace(provenance, seed=number, kind=SessionKind.STUDY)
             recorder.begin(session, (*BEGUN, spoken))
     flaws = found(folder).get(Verification.VOICE, [])
     assert len(flaws) == bool(words)
@@ -204,7 +209,7 @@ def test_one_code_that_two_people_have_is_found(day: Path) -> None:
         "CREATE TABLE copy AS SELECT * FROM participant",
         "DROP TABLE participant",
         "ALTER TABLE copy RENAME TO participant",
-        f"UPDATE participant SET code = '{OTHER_CODE}' WHERE site = 'MI' AND NOT simulated",  # noqa: S608
+        f"UPDATE participant SET code = '{OTHER_CODE}' WHERE site = 'MI' AND kind = 0",  # noqa: S608
     )
     told = found(day)
     assert "sessions 1, 4: have one code, 2 times" in told[Verification.PARTICIPANTS]

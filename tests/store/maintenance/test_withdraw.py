@@ -12,6 +12,7 @@ import pytest
 
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.randomisation import AllocationSource
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups
@@ -29,11 +30,13 @@ OTHERS = "somebody else's answer"
 def code(folder: Path, provenance: Provenance) -> str:
     """The code of somebody who said a good deal, between two others; copies were made before and after."""
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(FOUR, 4, 7, simulated=False)
-        place = recorder.next_slot(simulated=False)
+        recorder.create_allocation_list(FOUR, 4, 7, kind=SessionKind.STUDY)
+        place = recorder.next_slot(kind=SessionKind.STUDY)
         assert place is not None
         plan = replace(provenance.plan, condition=place.condition)
-        person = replace(provenance, plan=plan, slot=place, allocation_source=AllocationSource.LIST, simulated=False)
+        person = replace(
+            provenance, plan=plan, slot=place, allocation_source=AllocationSource.LIST, kind=SessionKind.STUDY
+        )
         recorder.begin(provenance, saying(OTHERS))
         participant = recorder.begin(person, saying(ANSWER))
         back_up(folder, folder / FOLDER)
@@ -135,7 +138,7 @@ def test_everybody_may_withdraw(folder: Path, provenance: Provenance) -> None:
     assert state(folder)[:3] == [[], [], []]
     assert verify(folder) == []
     with open_repository(folder) as stored:
-        assert sum(cell.begun for cell in stored.counts(simulated=False).cells.values()) == 3
+        assert sum(cell.begun for cell in stored.counts(kind=SessionKind.STUDY).cells.values()) == 3
 
 
 # Refused

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
+from kiosk.experiment.session_config import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.checks import database_check
@@ -43,7 +44,7 @@ def pristine(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """A folder as a kiosk that was killed leaves it, with copies, one of them unfinished; and a visitor's code."""
     place = tmp_path_factory.mktemp("pristine")
     folder, left = place / "data", place / "left"
-    person = Provenance(plan(), 4, "avatar", "abc123", simulated=False)
+    person = Provenance(plan(), 4, "avatar", "abc123", kind=SessionKind.STUDY)
     with Recorder(folder) as recorder:
         recorder.begin(person, saying(OTHERS))
         code = recorder.begin(replace(person, seed=5), saying(ANSWER)[:-1]).code
@@ -220,7 +221,7 @@ def test_a_withdrawal_that_cannot_be_finished_keeps_no_kiosk_shut(
     with monkeypatch.context() as patched:
         patched.setattr(withdraw_module, "back_up", full)
         with Recorder(cut_off) as recorder:
-            recorder.begin(Provenance(plan(), 9, "avatar", "abc123", simulated=True), COMPLETED)
+            recorder.begin(Provenance(plan(), 9, "avatar", "abc123", kind=SessionKind.SIMULATED), COMPLETED)
     assert unfinished(cut_off)
     Recorder(cut_off).__exit__(None, None, None)
     check_finished(cut_off, code)
@@ -258,7 +259,7 @@ def test_only_the_owner_may_read_the_database_its_logs_and_its_copies(data: Path
     for path in data.rglob("recollect*.db*"):
         path.chmod(0o644)
     with Recorder(data) as recorder:
-        recorder.begin(Provenance(plan(), 9, "avatar", "abc123", simulated=True), COMPLETED)
+        recorder.begin(Provenance(plan(), 9, "avatar", "abc123", kind=SessionKind.SIMULATED), COMPLETED)
         assert {name: mode for name, mode in modes(data).items() if name.startswith(f"{FILE}")} == dict.fromkeys(
             (FILE, f"{FILE}-wal", f"{FILE}-shm"), 0o600
         )

@@ -20,10 +20,10 @@ from tests.store.visitors import BEGUN, COMPLETED, FINISHED, FOUR, LEFT, seated
 TWO = {Condition.TOM: 2}
 
 
-def counted(folder: Path, *, simulated: bool = True) -> EnrolmentCounts:
+def counted(folder: Path, *, kind: SessionKind = SessionKind.SIMULATED) -> EnrolmentCounts:
     """The counts of a folder."""
     with open_repository(folder) as stored:
-        return stored.counts(simulated=simulated)
+        return stored.counts(kind=kind)
 
 
 def told(cell: CountCell) -> dict[str, int]:
@@ -39,7 +39,7 @@ def test_of_a_folder_in_which_nothing_happened_there_is_nothing_to_count(folder:
 
 def test_every_condition_that_has_a_quota_is_told(folder: Path) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(FOUR, 4, 1, simulated=True)
+        recorder.create_allocation_list(FOUR, 4, 1, kind=SessionKind.SIMULATED)
     assert {condition: told(cell) for condition, cell in counted(folder).cells.items()} == {
         Condition.TOM: {"quota": 4},
         Condition.NOTOM: {"quota": 4},
@@ -48,11 +48,11 @@ def test_every_condition_that_has_a_quota_is_told(folder: Path) -> None:
 
 def test_every_fate_is_told_apart(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.SIMULATED)
         for events in (LEFT, COMPLETED, BEGUN, BEGUN, FINISHED):
             seated(recorder, provenance, events)
-        for allotted in (AllocationSource.OVERRIDE, AllocationSource.BEYOND, AllocationSource.BEYOND):
-            seated(recorder, provenance, allotted=allotted)
+        for allocation_source in (AllocationSource.OVERRIDE, AllocationSource.BEYOND, AllocationSource.BEYOND):
+            seated(recorder, provenance, allocation_source=allocation_source)
         recorder.begin(provenance, COMPLETED)
     assert told(counted(folder).cells[Condition.TOM]) == {
         "quota": 2,
@@ -67,7 +67,7 @@ def test_every_fate_is_told_apart(folder: Path, provenance: Provenance) -> None:
 
 def test_a_session_is_under_way_while_somebody_writes(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.SIMULATED)
         seated(recorder, provenance, LEFT)
         seated(recorder, provenance, BEGUN)
         assert told(counted(folder).cells[Condition.TOM]) == {"quota": 2, "begun": 2, "dropped_out": 1, "under_way": 1}
@@ -76,14 +76,14 @@ def test_a_session_is_under_way_while_somebody_writes(folder: Path, provenance: 
 
 def test_people_and_rehearsals_are_counted_apart(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=False)
-        seated(recorder, provenance, simulated=False)
-        recorder.begin(replace(provenance, simulated=True), COMPLETED)
-        recorder.count_visit(NotRecordedReason.LEFT, simulated=True)
-        recorder.count_visit(NotRecordedReason.DECLINED, simulated=False)
-        recorder.begin(replace(provenance, simulated=SessionKind.TRIAL), BEGUN)
-        recorder.count_visit(NotRecordedReason.LEFT, simulated=SessionKind.TRIAL)
-    people, rehearsals = (counted(folder, simulated=simulated) for simulated in (False, True))
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.STUDY)
+        seated(recorder, provenance, kind=SessionKind.STUDY)
+        recorder.begin(replace(provenance, kind=SessionKind.SIMULATED), COMPLETED)
+        recorder.count_visit(NotRecordedReason.LEFT, kind=SessionKind.SIMULATED)
+        recorder.count_visit(NotRecordedReason.DECLINED, kind=SessionKind.STUDY)
+        recorder.begin(replace(provenance, kind=SessionKind.TRIAL), BEGUN)
+        recorder.count_visit(NotRecordedReason.LEFT, kind=SessionKind.TRIAL)
+    people, rehearsals = (counted(folder, kind=kind) for kind in (SessionKind.STUDY, SessionKind.SIMULATED))
     assert told(people.cells[Condition.TOM]) == {"quota": 2, "begun": 1, "consumed": 1}
     assert told(rehearsals.cells[Condition.TOM]) == {"begun": 1, "unlisted": 1}
     assert people.visits == {NotRecordedReason.DECLINED: 1, NotRecordedReason.UNDER_AGE: 0, NotRecordedReason.LEFT: 0}
@@ -96,10 +96,10 @@ def test_people_and_rehearsals_are_counted_apart(folder: Path, provenance: Prove
 
 def test_raised_quotas_are_counted_once(folder: Path) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
-        recorder.create_allocation_list({Condition.TOM: 6}, 1, 1, simulated=True)
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.SIMULATED)
+        recorder.create_allocation_list({Condition.TOM: 6}, 1, 1, kind=SessionKind.SIMULATED)
     with Recorder(folder, "MI") as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.SIMULATED)
     assert counted(folder).cells[Condition.TOM].quota == 8
 
 
@@ -111,8 +111,10 @@ def test_counts_add_up_after_somebody_withdrew(
     folder: Path, provenance: Provenance, events: tuple[object, ...], fate: Disposition
 ) -> None:
     with Recorder(folder) as recorder:
-        recorder.create_allocation_list(TWO, 1, 1, simulated=True)
-        placed = replace(provenance, slot=recorder.next_slot(simulated=True), allocation_source=AllocationSource.LIST)
+        recorder.create_allocation_list(TWO, 1, 1, kind=SessionKind.SIMULATED)
+        placed = replace(
+            provenance, slot=recorder.next_slot(kind=SessionKind.SIMULATED), allocation_source=AllocationSource.LIST
+        )
         code = recorder.begin(placed, events).code  # type: ignore[arg-type]  # events they are
         seated(recorder, provenance)
     before = counted(folder).cells[Condition.TOM]

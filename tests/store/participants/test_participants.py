@@ -51,8 +51,8 @@ def test_every_site_counts_for_itself(folder: Path, provenance: Provenance) -> N
 def test_a_rehearsal_or_a_trial_uses_up_no_number_of_a_person_s(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         numbers = [
-            recorder.begin(replace(provenance, simulated=simulated), [START]).number
-            for simulated in (True, True, False, True, False, SessionKind.TRIAL, SessionKind.TRIAL, False)
+            recorder.begin(replace(provenance, kind=kind), [START]).number
+            for kind in map(SessionKind, (1, 1, 0, 1, 0, 2, 2, 0))
         ]
     assert numbers == [1, 2, 1, 3, 2, 1, 2, 3]
 

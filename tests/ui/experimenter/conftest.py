@@ -68,7 +68,7 @@ class Desk(Booth):
     def notes(self) -> list[tuple[str, dict[str, Any]]]:
         """Everything that was written down of the booth."""
         connection = open_for_reading(self.data)
-        rows = connection.execute("SELECT type, body FROM booth_event ORDER BY id").fetchall()
+        rows = connection.execute("SELECT type, payload FROM audit_event ORDER BY id").fetchall()
         connection.close()
         return [(kind, json.loads(body)) for kind, body in rows]
 

@@ -225,7 +225,7 @@ def test_a_session_that_begins_in_silence_says_so_and_is_only_read(assigner: Des
     assigner.do(Action.MUTE)
     witness = Witness(assigner.app)
     assigner.go_to(Stage.INTRODUCTION)
-    assert [event.quiet for event in witness.events if isinstance(event, happened.MuteChanged)] == [True]
+    assert [event.muted for event in witness.events if isinstance(event, happened.MuteChanged)] == [True]
     assert witness.saw(happened.SpeechFailed)
     assert not witness.saw(happened.SpeechStarted)
 

@@ -30,7 +30,7 @@ Column {
             action: "embodiment"
             title: actions.words["console-embodiment"]
             options: actions.choices.embodiments
-            chosen: actions.choices.body
+            chosen: actions.choices.embodiment
             onPicked: value => actions.panel.wish("embodiment", value)
         }
         PanelChoice {
@@ -57,9 +57,9 @@ Column {
             width: parent.width
             spacing: 9 * Theme.unit
             PanelButton {
-                objectName: "action-quiet"
-                words: actions.choices.quiet ? actions.words["console-heard"] : actions.words["console-mute"]
-                chosen: actions.choices.quiet
+                objectName: "action-mute"
+                words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+                chosen: actions.choices.muted
                 onClicked: actions.panel.wish("mute", "")
             }
             PanelButton {
