@@ -113,6 +113,15 @@ def _name(name: str) -> str:
 Name = Annotated[str, AfterValidator(_name)]
 """Names go into records, columns and messages."""
 
+
+def _option_name(name: str) -> str:
+    # Survey programs number their options: "1=female".
+    return name if re.fullmatch("0|[1-9][0-9]{0,3}", name) else _name(name)
+
+
+OptionName = Annotated[str, AfterValidator(_option_name)]
+"""A name, or a whole number up to 9999 without zeros before it."""
+
 Points = Annotated[int, Field(ge=2, le=11)]
 Bound = Annotated[int, Field(ge=-999_999_999, le=999_999_999)]
 """One end of what can be answered; the interface counts in 32 bits."""
@@ -362,7 +371,7 @@ class Integer(Question):
 class Option(ConfigModel):
     """One of the answers to choose from."""
 
-    id: Name
+    id: OptionName
     text: Words
 
 

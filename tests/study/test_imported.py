@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from kiosk import StorageError, UserInputError
 from kiosk.config import ASSETS
-from kiosk.experiment.items import Likert
+from kiosk.experiment.items import Likert, Single
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
 from kiosk.study.csv_import import PLAIN, WORDED, Heading, as_toml, read_items, write_questionnaire
 from tests.study.bad_tables import HEAD, LIKERT, TABLES, rows
@@ -103,6 +103,18 @@ def test_capital_letters_in_columns_and_kinds_make_no_difference(tmp_path: Path)
 def test_a_language_is_known_however_its_code_is_written(code: str, tmp_path: Path) -> None:
     (item,) = read(tmp_path, rows(LIKERT, head=HEAD.replace("_en", f"_{code}"))).items
     assert item.text == {"pt-BR": "How?"}
+
+
+def test_options_may_be_numbered_as_survey_programs_number_them(tmp_path: Path) -> None:
+    (item,) = read(tmp_path, "id,kind,text_en,options_en\nsex,single,You are,1=male;2=female;10=another\n").items
+    assert isinstance(item, Single)
+    assert item.ids == ("1", "2", "10")
+
+
+@pytest.mark.parametrize("number", ["01", "1.5", "-1", "12345", "1e3"])
+def test_what_only_looks_like_a_whole_number_is_no_option(number: str, tmp_path: Path) -> None:
+    with pytest.raises(UserInputError, match=f"column options_en: '{number}' is no name"):
+        read(tmp_path, f"id,kind,text_en,options_en\nsex,single,You are,{number}=male;2=female\n")
 
 
 def test_one_language_in_two_columns_is_refused(tmp_path: Path) -> None:
