@@ -34,7 +34,8 @@ from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
 from kiosk.ui.input import Activity
 from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.renderer import SoundEffect
-from kiosk.ui.screens.avatar import AvatarBody, IdleLife
+from kiosk.ui.screens.attract import IdleLife
+from kiosk.ui.screens.avatar import AvatarBody
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import ConditionAssigner, SessionRunner
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice

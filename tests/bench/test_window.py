@@ -8,10 +8,11 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from textwrap import dedent
+from time import monotonic, process_time
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPoint, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPoint, Qt, QTimer
 from PySide6.QtQuick import QQuickView, QQuickWindow
 from PySide6.QtTest import QTest
 
@@ -163,3 +164,30 @@ def test_frame_time_while_cards_turn(benchmark: Any, tmp_path: Path) -> None:
 
         benchmark.pedantic(next_frame, setup=turn, rounds=600, warmup_rounds=30)
     tell_percentiles(benchmark)
+
+
+MOST_OF_A_CORE = 0.15
+"""What the start screen may cost all day."""
+
+
+@pytest.mark.usefixtures("qapp")
+@pytest.mark.benchmark(group="start screen")
+def test_cost_of_the_start_screen(benchmark: Any, tmp_path: Path) -> None:
+    """Processor time of the start screen that plays by itself at 1080 lines, as a share of one core, for 40 seconds."""
+    moving = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
+    with headless(Settings.model_validate({"voice": {"enabled": False}}), tmp_path, mode=moving) as app:
+        lay_out(app.window)
+        turned: list[int] = []
+        app.screens.attract.turned.connect(turned.append)
+        used, began = process_time(), monotonic()
+
+        def let_it_play() -> None:
+            wait = QEventLoop()
+            QTimer.singleShot(4_000, wait.quit)
+            wait.exec()
+
+        benchmark.pedantic(let_it_play, rounds=10)
+        share = (process_time() - used) / (monotonic() - began)
+    benchmark.extra_info["share of one core"] = round(share, 3)
+    assert turned
+    assert share < MOST_OF_A_CORE

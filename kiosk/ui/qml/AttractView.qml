@@ -1,4 +1,4 @@
-// What draws people in: a fan of cards that turn one after another, a title, and one button for each language.
+// What draws people in: a small board that plays by itself, a title, and one large button for each language.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -11,7 +11,14 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
-    readonly property real cardSize: Math.min(width / 7.4, height / 6)
+    // All in two rows; where the screen is narrow, in three.
+    readonly property int columns: Math.ceil(attract.layout.length / (width > height ? 2 : 3))
+    readonly property int rows: Math.ceil(attract.layout.length / columns)
+    // The words take what they need; the cards have the rest.
+    readonly property real cardSize: Math.max(60 * Theme.unit,
+        Math.min(width / (1.12 * columns + 0.7), (height - words.height - 5 * Theme.gap) / (1.12 * rows)))
+    // A card was turned, in the middle of this item; the helper looks at it.
+    signal looked(place: point)
     readonly property bool several: attract.ways.length > 1
 
     // The next visitor begins as if the last one had never been: at the first language, and with no ring.
@@ -33,7 +40,9 @@ FocusScope {
             objectName: "start-" + way.modelData.language
             most: view.width - 4 * Theme.gap
             words: way.modelData.start
-            font.pixelSize: Theme.heading
+            font.pixelSize: Theme.size(54)
+            horizontalPadding: 68 * Theme.unit
+            verticalPadding: 32 * Theme.unit
             focus: true
             Accessible.description: way.modelData.name
             Keys.onLeftPressed: nextItemInFocusChain(false).forceActiveFocus(Qt.BacktabFocusReason)
@@ -59,40 +68,80 @@ FocusScope {
         font.pixelSize: Theme.small
         color: Theme.faintInk
     }
-    Column {
-        anchors.centerIn: parent
-        spacing: 2 * Theme.gap
+    Connections {
+        target: view.attract
+        function onTurned(card) {
+            view.looked(cards.mapToItem(view, (card % view.columns + 0.5) * cards.pitch,
+                                        (Math.floor(card / view.columns) + 0.5) * cards.pitch))
+        }
+    }
+    Item {
+        id: cards
+        readonly property real pitch: view.cardSize * 1.12
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: words.top; bottomMargin: 1.5 * Theme.gap }
+        width: pitch * view.columns
+        height: pitch * view.rows
+        Repeater {
+            model: view.attract.layout
+            Item {
+                id: place
+                required property int index
+                required property string modelData
+                readonly property bool found: view.attract.found.includes(index)
+                // How far a pair has come forward when it is found.
+                property real forward: 0
+                x: index % view.columns * cards.pitch
+                y: Math.floor(index / view.columns) * cards.pitch
+                z: forward > 0 ? 1 : 0
+                width: cards.pitch
+                height: cards.pitch
+                onFoundChanged: if (found && Theme.motion > 0) coming.restart()
 
-        Grid {
-            anchors.horizontalCenter: parent.horizontalCenter
-            columns: 6
-            spacing: view.cardSize * 0.12
-            Repeater {
-                model: view.attract.pictures
+                Rectangle {
+                    visible: place.found
+                    anchors.centerIn: face
+                    width: face.width * face.scale + 12 * Theme.unit
+                    height: width
+                    radius: width * 0.13
+                    color: Theme.amber
+                }
                 CardFace {
-                    required property int index
-                    required property string modelData
+                    id: face
+                    anchors.centerIn: parent
                     width: view.cardSize
                     height: view.cardSize
                     back: view.cardBack
                     shadow: view.cardShadow
-                    picture: modelData
-                    up: view.attract.shown === index
+                    picture: place.modelData
+                    up: view.attract.up.includes(place.index)
+                    scale: 1 + 0.07 * lift + 0.1 * place.forward
+                }
+                SequentialAnimation {
+                    id: coming
+                    NumberAnimation { target: place; property: "forward"; to: 1; duration: Theme.motion; easing.type: Easing.OutBack }
+                    PauseAnimation { duration: Theme.motion }
+                    NumberAnimation { target: place; property: "forward"; to: 0; duration: Theme.motion; easing.type: Easing.InOutQuad }
                 }
             }
         }
+    }
+    Column {
+        id: words
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - height - cards.height - 1.5 * Theme.gap) / 2 }
+        spacing: Theme.gap
+
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
-            topPadding: Theme.gap
             text: view.attract.title
-            font { pixelSize: Theme.title; bold: true }
+            font { pixelSize: Theme.size(92); bold: true }
         }
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
+            bottomPadding: Theme.gap
             text: view.attract.line
-            font.pixelSize: Theme.body
+            font.pixelSize: Theme.size(38)
             color: Theme.faintInk
         }
         Grid {

@@ -66,12 +66,14 @@ Window {
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
         AttractView {
+            id: attractView
             anchors.fill: parent
             visible: root.kiosk.screen === "attract"
             focus: visible && root.kiosk.bare
             attract: root.attract
             cardBack: root.cardBack
             cardShadow: root.cardShadow
+            onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
         AboutView {
             anchors.fill: parent

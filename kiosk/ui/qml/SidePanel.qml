@@ -39,8 +39,8 @@ Item {
         return Math.max(-1, Math.min(1, (place - middle) / (500 * Theme.unit)))
     }
 
-    Timer { id: attention; interval: 1200 }
-    Timer { id: following; interval: 2500 }
+    PauseAnimation { id: attention; duration: 1200 }
+    PauseAnimation { id: following; duration: 2500 }
     Connections {
         target: panel.avatar
         function onGestured(name) {

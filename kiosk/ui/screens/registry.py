@@ -15,12 +15,13 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.ui.experimenter.view_model import ExperimenterScreen
+from kiosk.ui.screens.attract import AttractScreen
 from kiosk.ui.screens.avatar import AvatarScreen
 from kiosk.ui.screens.board import BoardScreen
 from kiosk.ui.screens.consent import AgeScreen, ConsentScreen
 from kiosk.ui.screens.pages import AboutScreen, DebriefScreen, IntroductionScreen, ResultScreen, ThanksScreen
 from kiosk.ui.screens.questionnaire import FormScreen
-from kiosk.ui.screens.shell import AttractScreen, KioskScreen
+from kiosk.ui.screens.shell import KioskScreen
 
 
 class InputHandler(Protocol):

@@ -1,4 +1,4 @@
-"""The window as a whole, and what draws people to it. Neither knows what comes next."""
+"""The window as a whole. It does not know what comes next."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from kiosk.ui.screens.texts import fixed_texts
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
-_NO_CARD = -1
 _TEXT_SCALES = {TextSize.NORMAL: 1.0, TextSize.LARGE: 1.15, TextSize.LARGEST: 1.3}
 
 
@@ -304,106 +303,3 @@ class KioskScreen(QObject):
         self._takes_input = False
         self.changed.emit()
         self.screen_changed.emit()
-
-
-@QmlElement
-class AttractScreen(QObject):
-    """What draws people in: cards that turn, a title in one language after another, and a way in for each of them."""
-
-    changed = Signal()
-    started = Signal(str)
-    """A visitor begins, in this language."""
-
-    def __init__(self, pictures: Sequence[str], catalogues: Sequence[Catalogue], parent: QObject | None = None) -> None:
-        """Show these pictures; the first of the languages is shown first."""
-        super().__init__(parent)
-        self._pictures = list(pictures)
-        self._catalogues = tuple(catalogues)
-        self._shown = self._language = self._first = 0
-        self._up = True
-        self._trial: str | None = None
-
-    def show_trial(self, shortcut: str) -> None:
-        """Say that this is a trial, and by which shortcut it is left; it may have none."""
-        self._trial = shortcut
-        self.changed.emit()
-
-    @property
-    def resting(self) -> Catalogue:
-        """The language while nobody is there."""
-        return self._catalogues[self._first]
-
-    def rest_in(self, language: str) -> None:
-        """Show this language first, from the next time on that nobody is there."""
-        self._first = [catalogue.language for catalogue in self._catalogues].index(language)
-
-    def animate(self) -> None:
-        """Turn back the card that is up; or, when none is, turn up the next one: two never move at once."""
-        self._up = not self._up
-        if self._up:
-            self._shown = (self._shown + 1) % len(self._pictures)
-        self.changed.emit()
-
-    def next_language(self) -> None:
-        """Show the title in the next language."""
-        self._language = (self._language + 1) % len(self._catalogues)
-        self.changed.emit()
-
-    @property
-    def greetings(self) -> tuple[str, ...]:
-        """What may be shown to whoever passes, in the language of the moment."""
-        return self._catalogues[self._language].wordings("attract-greeting")
-
-    def clear(self) -> None:
-        """Begin anew, with the first card and the first language."""
-        self._shown, self._language = 0, self._first
-        self._up = True
-        self.changed.emit()
-
-    @Property(list, constant=True)
-    def pictures(self) -> list[str]:
-        """Where the pictures of the cards are, as addresses."""
-        return self._pictures
-
-    @Property(int, notify=changed)
-    def shown(self) -> int:
-        """Which of the cards is turned up; -1 for none."""
-        return self._shown if self._up else _NO_CARD
-
-    @Property(str, notify=changed)
-    def title(self) -> str:
-        """The title, in the language of the moment."""
-        return self._text("attract-title")
-
-    @Property(str, notify=changed)
-    def line(self) -> str:
-        """The line below it, in the same language."""
-        return self._text("attract-line")
-
-    @Property(str, notify=changed)
-    def trial(self) -> str:
-        """That this is a trial, and how it is left, in the same language; empty if it is none."""
-        if self._trial is None:
-            return ""
-        text = self._catalogues[self._language].text
-        return text("attract-trial", shortcut=self._trial) if self._trial else text("attract-trial-keyless")
-
-    @Property(list, constant=True)
-    def ways(self) -> list[dict[str, str]]:
-        """The ways in, one for each language: its code, its name, and "start" in it."""
-        return [
-            {
-                "language": catalogue.language,
-                "name": catalogue.text("language-name"),
-                "start": catalogue.text("attract-start"),
-            }
-            for catalogue in self._catalogues
-        ]
-
-    @Slot(str)
-    def start(self, language: str) -> None:
-        """A visitor begins, in this language."""
-        self.started.emit(language)
-
-    def _text(self, message: str) -> str:
-        return self._catalogues[self._language].text(message)
