@@ -27,7 +27,7 @@ class UserInputError(Exception):
         self.sentences = sentences
 
     def __str__(self) -> str:
-        """The sentences, one per line."""
+        """Return the sentences, one per line."""
         return "\n".join(self.sentences)
 
 

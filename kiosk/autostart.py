@@ -44,7 +44,7 @@ def is_supervisor(command: Sequence[str]) -> bool:
 
 
 def enabled() -> Iterator[str]:
-    """The services and desktop files that open the kiosk with the machine, or with its user's session."""
+    """Yield the services and desktop files that open the kiosk with the machine, or with its user's session."""
     systemctl = shutil.which("systemctl")
     for manager, name in SERVICES if systemctl else ():
         service = name.format(user=getpass.getuser())

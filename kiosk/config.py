@@ -190,7 +190,7 @@ class Idle(ConfigModel):
     ] = 900_000
 
     def of(self, stage: str) -> int:
-        """The time of the stage of this name, in ms."""
+        """Return the time of the stage of this name, in ms."""
         after: int = getattr(self, stage)
         return after
 
@@ -574,7 +574,7 @@ class Settings(ConfigModel):
         return self.voice.model_copy(update={"speakers": speakers})
 
     def with_base_dir(self, other: Settings) -> Settings:
-        """The same settings, whose paths start from the folder of another study file."""
+        """Return the same settings, whose paths start from the folder of another study file."""
         copied = self.model_copy()
         copied._file = other._file
         return copied
@@ -660,7 +660,7 @@ def _is_there(path: Path, ending: str) -> bool:
 
 
 def _beside_or_inside(name: str) -> Path:
-    """A folder that stands inside the installed package, or beside it in a checkout."""
+    """Return a folder that stands inside the installed package, or beside it in a checkout."""
     package = Path(__file__).parent
     return package / name if (package / name).is_dir() else package.parent / name
 

@@ -67,7 +67,7 @@ def toml_error_message(error: Exception) -> str:
 
 
 def validation_messages(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
-    """A sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
+    """Return a sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
     found = validation_errors(error)
     said = dict.fromkeys(_sentence(fault, given, model) for fault in found[:_MOST_SENTENCES])
     more = len(found) - _MOST_SENTENCES
@@ -79,7 +79,7 @@ _MOST_SENTENCES = 100
 
 
 def validation_errors(error: ValidationError) -> tuple[ErrorDetails, ...]:
-    """What pydantic found, but for lists that are too short only because something in them is wrong."""
+    """Return what pydantic found, but for lists that are too short only because something in them is wrong."""
     found = error.errors()
     places = {fault["loc"] for fault in found}
     return tuple(fault for fault in found if fault["type"] != "too_short" or not _holds(fault["loc"], places))
@@ -97,7 +97,7 @@ def _sentence(fault: ErrorDetails, given: Any, model: type[BaseModel]) -> str:
 
 
 def error_message(fault: ErrorDetails, model: type[BaseModel]) -> str:
-    """What is wrong, without where."""
+    """Return what is wrong, without where."""
     context = fault.get("ctx", {})
     match fault["type"]:
         case "missing":
@@ -117,7 +117,7 @@ def error_message(fault: ErrorDetails, model: type[BaseModel]) -> str:
 
 
 def _missing(fault: ErrorDetails) -> str:
-    """A key that is missing, or an entry of a list that has to have so many."""
+    """Return a key that is missing, or an entry of a list that has to have so many."""
     last = fault["loc"][-1]
     if isinstance(last, int):
         return f"must have at least {last + 1} entries, but it has {len(fault['input'])}"
@@ -207,14 +207,14 @@ _SHORT = _Short()
 
 
 def toml_value(value: object) -> str:
-    """A value as a TOML file writes it, cut short if it is long."""
+    """Return a value as a TOML file writes it, cut short if it is long."""
     if isinstance(value, bool):
         return str(value).lower()
     return "a table" if isinstance(value, dict) else _SHORT.repr(value)
 
 
 def _place(steps: Sequence[int | str], given: Any) -> str:
-    """A place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``."""
+    """Return a place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``."""
     entries: list[str] = []
     keys: list[str] = []
     here = given
@@ -246,7 +246,7 @@ def _entry(name: str, number: int, entry: Any) -> str:
 
 
 def _keys(model: type[BaseModel], place: Sequence[int | str]) -> tuple[str, ...]:
-    """The keys of the table at a place; none if there is more than one table that it could be."""
+    """Return the keys of the table at a place; none if there is more than one table that it could be."""
     models: tuple[type[BaseModel], ...] = (model,)
     for step in place:
         if isinstance(step, int):

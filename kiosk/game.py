@@ -72,11 +72,11 @@ class Board:
         return Position(*divmod(location, self.columns))
 
     def location(self, position: Position) -> int:
-        """The number of a place, counted row by row from 0."""
+        """Return the number of a place, counted row by row from 0."""
         return position.row * self.columns + position.column
 
     def card(self, position: Position) -> str:
-        """The name of the card that lies at ``position``."""
+        """Return the name of the card that lies at ``position``."""
         return self.cards[self.location(position)]
 
     def mate(self, position: Position) -> Position:
@@ -113,7 +113,7 @@ class History:
         return self._counts[position]
 
     def last(self, position: Position) -> int:
-        """The number of the last flip of the card at ``position``, or 0 if it was never turned up."""
+        """Return the number of the last flip of the card at ``position``, or 0 if it was never turned up."""
         return self._last.get(position, 0)
 
 

@@ -97,7 +97,7 @@ def _parts(code: str) -> _Parts | None:
 
 
 def _meant(code: str) -> _Parts | None:
-    """The parts of a code, with one code for what several stand for."""
+    """Return the parts of a code, with one code for what several stand for."""
     parts = _parts(code)
     if parts is None:
         return None

@@ -69,7 +69,7 @@ def _one_line(value: object) -> str:
 
 
 def _writer(handle: int) -> int:
-    """The file descriptor of a pipe that was inherited."""
+    """Return the file descriptor of a pipe that was inherited."""
     if sys.platform == "win32":
         import msvcrt  # noqa: PLC0415 - there is none elsewhere
 
@@ -86,7 +86,7 @@ class NotifyListener(Protocol):
     """The file descriptors that it must inherit."""
 
     def hear(self, within_s: float) -> Notice:
-        """The next notice; empty if none came within this time."""
+        """Return the next notice; empty if none came within this time."""
 
     def close(self) -> None:
         """Hear nothing more."""
@@ -106,7 +106,7 @@ class NotifySocketListener:
         self.environment = {SOCKET: str(self._path)}
 
     def hear(self, within_s: float) -> Notice:
-        """The next notice; empty if none came within this time."""
+        """Return the next notice; empty if none came within this time."""
         self._socket.settimeout(within_s)
         try:
             return parse_notification(self._socket.recv(NOTICE_BYTES))
@@ -136,7 +136,7 @@ class NotifyPipeListener:
                 self._heard.put(parse_notification(line))
 
     def hear(self, within_s: float) -> Notice:
-        """The next notice; empty if none came within this time."""
+        """Return the next notice; empty if none came within this time."""
         try:
             return self._heard.get(timeout=within_s) if within_s else self._heard.get_nowait()
         except queue.Empty:
@@ -148,7 +148,7 @@ class NotifyPipeListener:
 
 
 def _handle(descriptor: int) -> int:
-    """What a program that inherits a pipe knows it by."""
+    """Return what a program that inherits a pipe knows it by."""
     if sys.platform == "win32":
         import msvcrt  # noqa: PLC0415 - there is none elsewhere
 
@@ -159,11 +159,11 @@ def _handle(descriptor: int) -> int:
 
 
 def notify_listener(folder: Path) -> NotifyListener:
-    """The hearing end that this system has."""
+    """Return the hearing end that this system has."""
     return NotifySocketListener(folder) if sys.platform != "win32" else NotifyPipeListener()
 
 
 def parse_notification(notice: bytes) -> Notice:
-    """A notice by its names; whatever is no line of one is left out."""
+    """Return a notice by its names; whatever is no line of one is left out."""
     lines = (line.partition("=") for line in notice.decode(errors="replace").splitlines())
     return {name: value for name, equals, value in lines if equals}

@@ -53,7 +53,7 @@ class NotificationSource(Protocol):
     """A program that tells."""
 
     def hear(self, within_s: float) -> Notice:
-        """What it tells next; empty if it tells nothing within this time."""
+        """Return what it tells next; empty if it tells nothing within this time."""
 
     def dead(self) -> bool:
         """Whether it has ended."""
@@ -83,7 +83,7 @@ class Watchdog:
         return 0.0 if self._up_at is None else self._clock() - self._up_at
 
     def hear(self, within_s: float | None = None) -> Notice:
-        """What it tells next, within a tick unless told otherwise; empty if that is nothing."""
+        """Return what it tells next, within a tick unless told otherwise; empty if that is nothing."""
         notice = self._child.hear(self._patience.tick if within_s is None else within_s)
         now = self._clock()
         # Where everything stood still for a while, the supervisor too, nobody is to blame for having been silent.
@@ -121,7 +121,7 @@ class ProcessGroup:
             raise
 
     def hear(self, within_s: float) -> Notice:
-        """What it tells next; empty if it tells nothing within this time."""
+        """Return what it tells next; empty if it tells nothing within this time."""
         return self._listener.hear(within_s)
 
     def dead(self) -> bool:
@@ -323,7 +323,7 @@ class _Watch:
 
 
 def _read(reader: int, within_s: float) -> bytes | None:
-    """What comes within this time; None if nothing does, and no bytes at the end."""
+    """Return what comes within this time; None if nothing does, and no bytes at the end."""
     ready, _, _ = select.select([reader], [], [], within_s)
     return os.read(reader, _READ_BYTES) if ready else None
 

@@ -27,7 +27,7 @@ SOUNDS: dict[str, tuple[tuple[float, float, float], ...]] = {
 
 
 def note(frequency: float, length: float) -> Samples:
-    """A soft stroke: a sine and a little of its octave, at once there and fading away."""
+    """Return a soft stroke: a sine and a little of its octave, at once there and fading away."""
     time = np.arange(int(RATE * length)) / RATE
     tone = np.sin(2 * np.pi * frequency * time) + 0.25 * np.sin(4 * np.pi * frequency * time)
     fade: Samples = np.minimum(time / 0.004, 1) * np.exp(-5 * time / length)

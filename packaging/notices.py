@@ -68,7 +68,7 @@ class Part:
 
 
 def sources(analysis: Path, inside: Path) -> set[Path]:
-    """The files that PyInstaller's table of contents names, and the trimmed folder still holds."""
+    """Return the files that PyInstaller's table of contents names, and the trimmed folder still holds."""
     tables = ast.literal_eval(analysis.read_text(encoding="utf-8"))
     found = set()
     for row in (row for part in tables if isinstance(part, list) for row in part if isinstance(row, tuple)):
@@ -100,14 +100,14 @@ def write(shipped: Iterable[Part], place: Path) -> None:
 
 
 def owners(files: set[Path]) -> Iterator[Distribution]:
-    """The distributions of this environment that any of these files belongs to."""
+    """Yield the distributions of this environment that any of these files belongs to."""
     for each in distributions():
         if any(Path(str(each.locate_file(file))).resolve() in files for file in each.files or ()):
             yield each
 
 
 def of_distribution(distribution: Distribution) -> Part:
-    """A Python package; raises NoLicence if neither its texts nor where they are can be told."""
+    """Return a Python package; raises NoLicence if neither its texts nor where they are can be told."""
     licence, texts = _licence(distribution), _texts(distribution)
     where = "" if texts else _elsewhere(distribution.name, licence)
     return Part(distribution.name, distribution.version, licence, texts or _common(where), where)
@@ -127,7 +127,7 @@ def python() -> Part:
 
 
 def debian(files: set[Path]) -> list[Part]:
-    """The Debian packages that any of these files belongs to; none where there is no dpkg."""
+    """Return the Debian packages that any of these files belongs to; none where there is no dpkg."""
     if shutil.which("dpkg") is None:
         return []
     # Debian may know a file by its name from before /lib became /usr/lib.
@@ -146,7 +146,7 @@ def _of_package(name: str) -> Part:
 
 
 def _licence(distribution: Distribution) -> str:
-    """What a distribution calls its licence, in one line."""
+    """Return what a distribution calls its licence, in one line."""
 
     def said(field: str) -> list[str]:
         return distribution.metadata.get_all(field) or []
@@ -159,7 +159,7 @@ def _licence(distribution: Distribution) -> str:
 
 
 def _texts(distribution: Distribution) -> dict[str, Path]:
-    """The licence files among what a distribution says of itself, by their places within it."""
+    """Return the licence files among what a distribution says of itself, by their places within it."""
     texts = {}
     for file in distribution.files or ():
         if file.parts[0].endswith(".dist-info") and ("licenses" in file.parts or file.name.upper().startswith(TEXTS)):
@@ -177,7 +177,7 @@ def _elsewhere(name: str, licence: str) -> str:
 
 
 def _common(where: str) -> dict[str, Path]:
-    """The texts that are to be found there, where this machine has them."""
+    """Return the texts that are to be found there, where this machine has them."""
     named = (Path(word) for word in where.split() if word.startswith(f"{COMMON}/"))
     return {text.name: text for text in named if text.exists()}
 

@@ -53,7 +53,7 @@ def _drop_unused_modules(there: Path, screens: Path) -> None:
 
 
 def _module_of(file: Path) -> Path:
-    """The folder of the QML module that a file belongs to: the nearest one that declares a module."""
+    """Return the folder of the QML module that a file belongs to: the nearest one that declares a module."""
     return next((folder for folder in file.parents if (folder / "qmldir").exists()), file.parent)
 
 

@@ -55,7 +55,7 @@ def _turn_round(pattern: ast.Pattern | None) -> None:
 
 
 def text(source: str) -> str:
-    """The content of an ``.ftl`` file in the pseudo-language."""
+    """Return the content of an ``.ftl`` file in the pseudo-language."""
     resource: ast.Resource = _Pseudo().visit(FluentParser().parse(source))
     return FluentSerializer().serialize(resource)
 

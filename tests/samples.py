@@ -41,13 +41,13 @@ ANIMALS, FRUIT = _deck("animals"), _deck("fruit")
 
 
 def likert(name: str, **more: Any) -> Likert:
-    """An item of five points."""
+    """Return an item of five points."""
     ends = {"lowest": {"en": "not at all"}, "highest": {"en": "very much"}}
     return Likert.model_validate({"id": name, "kind": "likert", "text": {"en": f"{name}?"}} | ends | more)
 
 
 def questionnaire(name: str, *items: Any, **more: Any) -> Questionnaire:
-    """A questionnaire of these items."""
+    """Return a questionnaire of these items."""
     return Questionnaire(id=name, version="1", note="made for tests", items=items, **more)
 
 
@@ -85,18 +85,18 @@ ITALIAN_INFORMATION = INFORMATION.model_copy(
 
 
 def policy_that(choose: Callable[[State], ActionSpec], gate: Gate = NO_GATE) -> QTable:
-    """A table whose greedy action in every state is the chosen one."""
+    """Return a table whose greedy action in every state is the chosen one."""
     values = [[float(action is choose(state)) for action in ACTIONS] for state in STATES]
     return QTable.freeze("made for a test", gate, values, {"by": "hand"})
 
 
 def always(action: ActionSpec, gate: Gate = NO_GATE) -> QTable:
-    """A table that always takes this action."""
+    """Return a table that always takes this action."""
     return policy_that(lambda _: action, gate)
 
 
 def mixed(seed: int = 0, gate: Gate = NO_GATE) -> QTable:
-    """A table that takes any action anywhere, drawn by a seed."""
+    """Return a table that takes any action anywhere, drawn by a seed."""
     rng = Random(seed)
     chosen = {state: rng.choice(list(ACTIONS)) for state in STATES}
     return policy_that(chosen.__getitem__, gate)
@@ -108,7 +108,7 @@ def plan(
     stages: tuple[str, ...] = SHORT,
     **settings: Any,
 ) -> SessionConfig:
-    """A plan for a session of these stages; ``settings`` are sections of the study file."""
+    """Return a plan for a session of these stages; ``settings`` are sections of the study file."""
     return SessionConfig(
         settings=Settings(stages=stages, **settings),
         condition=condition,
@@ -124,10 +124,10 @@ def plan(
 
 
 def whole(condition: Condition = Condition.TOM, policy: QTable | None = None, **settings: Any) -> SessionConfig:
-    """A plan for a session of all stages that there are."""
+    """Return a plan for a session of all stages that there are."""
     return plan(condition, policy, STAGES, **settings)
 
 
 def board_of(*rows: str) -> Board:
-    """A board from one word per row, one letter per card: ``board_of("abc", "cab")``."""
+    """Return a board from one word per row, one letter per card: ``board_of("abc", "cab")``."""
     return Board(len(rows), len(rows[0]), tuple("".join(rows)))

@@ -16,14 +16,14 @@ from kiosk.errors import validation_messages
 
 
 def written(folder: Path, content: str | bytes) -> Path:
-    """A study file of this content."""
+    """Return a study file of this content."""
     file = folder / "study.toml"
     file.write_bytes(content if isinstance(content, bytes) else content.encode())
     return file
 
 
 def refusal(file: Path) -> str:
-    """The sentence with which a study file is refused."""
+    """Return the sentence with which a study file is refused."""
     with pytest.raises(UserInputError) as refused:
         Settings.read(file)
     assert str(refused.value).startswith(f"the study file {file}")

@@ -36,7 +36,7 @@ class Drawing(BaseModel):
 
 
 def said(given: Any) -> tuple[str, ...]:
-    """What is said of this."""
+    """Return what is said of this."""
     with pytest.raises(ValidationError) as found:
         Drawing.model_validate(given)
     return validation_messages(found.value, given, Drawing)

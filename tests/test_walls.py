@@ -118,7 +118,7 @@ def _walk(package: str, tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def room_of(name: str, rooms: set[str]) -> str | None:
-    """The room of this house that a name belongs to; what belongs to no room is the package's own."""
+    """Return the room of this house that a name belongs to; what belongs to no room is the package's own."""
     first, _, rest = name.partition(".")
     if first != "kiosk":
         return None
@@ -143,7 +143,7 @@ def breaches(package: Path) -> list[str]:
 
 
 def loaded_by(room: str) -> set[str]:
-    """What is in memory once every module of a room has been imported by a fresh interpreter."""
+    """Return what is in memory once every module of a room has been imported by a fresh interpreter."""
     names = [name for name, of, _ in modules(PACKAGE) if of == room and not name.endswith("__main__")]
     program = (
         "import importlib, json, sys\n"

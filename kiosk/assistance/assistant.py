@@ -27,11 +27,11 @@ class Policy(Protocol):
         ...
 
     def row(self, state: State) -> tuple[float, ...]:
-        """The values of a state, one for each action."""
+        """Return the values of a state, one for each action."""
         ...
 
     def action(self, state: State) -> ActionSpec:
-        """The action to take in a state."""
+        """Return the action to take in a state."""
         ...
 
 
@@ -127,7 +127,7 @@ class Explanation:
     spoken: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """The explanation as JSON values: locations from 0 row by row, rows and columns from 1.
+        """Return the explanation as JSON values: locations from 0 row by row, rows and columns from 1.
 
         Without a hint ``target``, ``counts`` and ``reason`` are null. ``overridden`` is there only when the action
         was not left to gate and table, ``said`` only when it is known.
@@ -181,7 +181,7 @@ def explain_decision(
 
 
 def game_after(board: Board, flips: Iterable[Position]) -> Concentration:
-    """The game after these flips, ready for the next one: unmatched cards have turned back.
+    """Return the game after these flips, ready for the next one: unmatched cards have turned back.
 
     Raises UserInputError, naming the flip by its number, if the rules do not allow it or nothing is left to flip.
     """
@@ -218,7 +218,7 @@ class UpcomingFlip:
     phase: Phase
 
     def value(self, *, matched: bool) -> float:
-        """The reward "retrieval": how much of a match was the player's own. A first card never matches."""
+        """Return the reward "retrieval": how much of a match was the player's own. A first card never matches."""
         if not matched:
             return 0.0
         hints = sum(action.needs_target for action in (self.before, self.action))
@@ -251,11 +251,11 @@ class LearningTable:
         return self._frozen.actions
 
     def row(self, state: State) -> tuple[float, ...]:
-        """The values of a state as they are now, one for each action."""
+        """Return the values of a state as they are now, one for each action."""
         return tuple(self._values[state.index_in(self.actions)])
 
     def action(self, state: State) -> ActionSpec:
-        """The greedy action; ties go to the lowest, which helps least."""
+        """Return the greedy action; ties go to the lowest, which helps least."""
         row = self.row(state)
         return self.actions[row.index(max(row))]
 
@@ -265,7 +265,7 @@ class LearningTable:
         row[column] += max(-self._step, min(self._step, RATE * (sample - row[column])))
 
     def frozen(self) -> QTable:
-        """The table as it is now; unless something was learnt, it is the one that it began as, to the sha256."""
+        """Return the table as it is now; unless something was learnt, it is the one that it began as, to the sha256."""
         return QTable.freeze(self._frozen.name, self.gate, self._values, self._frozen.training, self.actions)
 
 
@@ -327,12 +327,12 @@ class LearningAssistant(Assistant):
 
 
 def assistant_with(policy: QTable, mentaliser: Mentaliser, step: float) -> Assistant:
-    """An assistant whose table stays as it is, or, with a step above 0, goes on learning."""
+    """Return an assistant whose table stays as it is, or, with a step above 0, goes on learning."""
     return LearningAssistant(policy, mentaliser, step) if step else Assistant(policy, mentaliser)
 
 
 def table_before_flip(policy: QTable, step: float, game: Concentration, flips: Iterable[Position]) -> Policy:
-    """The table as it stood when the flip after ``flips`` was decided; ``game`` is a new one, and is played.
+    """Return the table as it stood when the flip after ``flips`` was decided; ``game`` is a new one, and is played.
 
     Where the hints pointed does not matter here: only how much help there was, and what came of it, is learnt from.
     """

@@ -25,7 +25,7 @@ class HintReason(Enum):
 
     @classmethod
     def of(cls, card: FlipInMove, other: int, target: int) -> HintReason:
-        """The class for these flip counts; on a second card ``other`` is the open card, this flip included.
+        """Return the class for these flip counts; on a second card ``other`` is the open card, this flip included.
 
         On a first card the two counts are read in either order: which of the two is pointed at is the target rule's
         business, and a sentence about "one and the other" is true both ways round.
@@ -116,7 +116,7 @@ class Mentaliser:
         self._rng = rng
 
     def target(self, game: Concentration) -> Target:
-        """The card that a hint for the coming flip of ``game`` points at; some card must still be closed."""
+        """Return the card that a hint for the coming flip of ``game`` points at; some card must still be closed."""
         return self.pointing_at(self._rng.choice(self.candidates(game)), game)
 
     def candidates(self, game: Concentration) -> tuple[Position, ...]:
@@ -124,7 +124,7 @@ class Mentaliser:
         return self._candidates(game) if game.first_card is None else (game.board.mate(game.first_card),)
 
     def pointing_at(self, position: Position, game: Concentration) -> Target:
-        """What there is to say of a hint that points at this card."""
+        """Return what there is to say of a hint that points at this card."""
         mate = game.board.mate(position)
         seen, mate_seen = game.history.count(position), game.history.count(mate)
         reason = HintReason.of(FlipInMove.coming(game), mate_seen, seen)
@@ -142,7 +142,7 @@ def _mates_of_the_most_flipped(game: Concentration) -> tuple[Position, ...]:
 
 
 def _mate_of_the_most_recent(game: Concentration) -> tuple[Position, ...]:
-    """The mate of the closed card flipped last; any closed card while none was flipped."""
+    """Return the mate of the closed card flipped last; any closed card while none was flipped."""
     latest = max(game.closed, key=game.history.last)
     return (game.board.mate(latest),) if game.history.last(latest) else game.closed
 

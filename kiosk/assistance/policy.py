@@ -64,7 +64,7 @@ class ActionSpec:
         return tuple(f"{self.message}-{card.value}-{self.precision.value}" for card in FlipInMove)
 
     def __index__(self) -> int:
-        """The column in a table with the usual four actions; raises ValueError for any other."""
+        """Return the column in a table with the usual four actions; raises ValueError for any other."""
         return ACTIONS.index(self)
 
     @property
@@ -122,7 +122,7 @@ class Phase(IntEnum):
 
     @classmethod
     def of(cls, pairs_found: int, pairs: int) -> Phase:
-        """The phase of a game in which ``pairs_found`` of ``pairs`` are found."""
+        """Return the phase of a game in which ``pairs_found`` of ``pairs`` are found."""
         return cls(min(pairs_found * len(cls) // pairs, cls.END))
 
 
@@ -150,7 +150,7 @@ class FlipInMove(Enum):
 
     @classmethod
     def coming(cls, game: Concentration) -> FlipInMove:
-        """The card of the move that the next flip of ``game`` turns up."""
+        """Return the card of the move that the next flip of ``game`` turns up."""
         return cls.FIRST if game.first_card is None else cls.SECOND
 
 
@@ -168,7 +168,7 @@ class State:
         return self.index_in(ACTIONS)
 
     def index_in(self, actions: tuple[ActionSpec, ...]) -> int:
-        """The row of a Q-table with these actions, from 0."""
+        """Return the row of a Q-table with these actions, from 0."""
         return (self.game * len(actions) + actions.index(self.last)) * len(MoveOutcome) + self.outcome
 
     @property
@@ -178,14 +178,14 @@ class State:
 
     @classmethod
     def at(cls, index: int, actions: tuple[ActionSpec, ...] = ACTIONS) -> Self:
-        """The state with this index in a table with these actions."""
+        """Return the state with this index in a table with these actions."""
         rest, outcome = divmod(index, len(MoveOutcome))
         game, last = divmod(rest, len(actions))
         return cls(Phase(game), actions[last], MoveOutcome(outcome))
 
     @classmethod
     def of(cls, game: Concentration, last: ActionSpec) -> Self:
-        """The state before the next flip of ``game``, when the previous decision was ``last``."""
+        """Return the state before the next flip of ``game``, when the previous decision was ``last``."""
         phase = Phase.of(game.pairs_found, game.board.pairs)
         return cls(phase, last, MoveOutcome.of(FlipInMove.coming(game), last_move_matched=game.last_move_matched))
 
@@ -287,7 +287,7 @@ class QTable:
         training: Mapping[str, Any],
         actions: tuple[ActionSpec, ...] = ACTIONS,
     ) -> Self:
-        """A table as it will stand in its file: values rounded to DECIMALS."""
+        """Return a table as it will stand in its file: values rounded to DECIMALS."""
         # Adding 0.0 turns -0.0 into 0.0, which would otherwise hash differently.
         rounded = tuple(tuple(round(float(v), DECIMALS) + 0.0 for v in row) for row in values)
         return cls(name, gate, rounded, training, actions)
@@ -298,11 +298,11 @@ class QTable:
         return states_with(self.actions)
 
     def row(self, state: State) -> tuple[float, ...]:
-        """The values of a state, one for each action."""
+        """Return the values of a state, one for each action."""
         return self.values[state.index_in(self.actions)]
 
     def action(self, state: State) -> ActionSpec:
-        """The greedy action; ties go to the lowest, which helps least."""
+        """Return the greedy action; ties go to the lowest, which helps least."""
         row = self.row(state)
         return self.actions[row.index(max(row))]
 
@@ -313,7 +313,7 @@ class QTable:
 
     @classmethod
     def blank(cls) -> Self:
-        """The table that never helps, behind the usual gate."""
+        """Return the table that never helps, behind the usual gate."""
         return cls.freeze(NONE, Gate(), [[0.0] * len(ACTIONS) for _ in STATES], {})
 
     @classmethod
@@ -335,11 +335,11 @@ class QTable:
 
     @classmethod
     def from_json(cls, text: str) -> Self:
-        """The table that ``to_json`` wrote; raises ValueError saying what is wrong with it."""
+        """Return the table that ``to_json`` wrote; raises ValueError saying what is wrong with it."""
         return cls._of(json.loads(text, object_pairs_hook=said_once))
 
     def to_json(self) -> str:
-        """The text of the policy file, with one line per state so that the eye can run down the columns."""
+        """Return the text of the policy file, with one line per state so that the eye can run down the columns."""
         document = self._document()
         values = document.pop("values")
         head = json.dumps(document, indent=2, ensure_ascii=False).removesuffix("\n}")

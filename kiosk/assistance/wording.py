@@ -76,7 +76,7 @@ class Catalogue:
         self._next = tuple(others)
 
     def text(self, message: str, **variables: str | int) -> str:
-        """The message with its variables filled in, or that of the next language that can say it.
+        """Return the message with its variables filled in, or that of the next language that can say it.
 
         A message or a variable that the shipped English one does not know either is our mistake and raises.
         """
@@ -97,7 +97,7 @@ class Catalogue:
         raise KeyError(self._why_not(message, variables))
 
     def card(self, name: str) -> dict[str, str]:
-        """What a sentence may say of a card: ``$card``, its name, and ``$card-<form>`` for every form there is.
+        """Return what a sentence may say of a card: ``$card``, its name, and ``$card-<form>`` for every form there is.
 
         A card that the catalogue does not know goes by its file's name in every form; sentences about a deck that
         nobody has translated yet are clumsy, but nobody is left without help.
@@ -154,12 +154,12 @@ class Catalogue:
             _log.warning("%s", words)
 
     def _text(self, message: str, variables: Mapping[str, str | int]) -> str | None:
-        """The message, or None if it cannot be said."""
+        """Return the message, or None if it cannot be said."""
         pattern = self._bundle.get_message(message).value if message in self else None
         return None if pattern is None else self._format(pattern, variables)
 
     def _wordings(self, message: str, variables: Mapping[str, str | int]) -> tuple[str, ...]:
-        """The wordings of a message that can be said."""
+        """Return the wordings of a message that can be said."""
         attributes = self._bundle.get_message(message).attributes if message in self else {}
         formed = (self._format(attributes[name], variables) for name in sorted(attributes))
         said = tuple(text for text in formed if text is not None)
@@ -198,13 +198,13 @@ class Written:
     source: str
 
     def line(self, node: SyntaxNode) -> int:
-        """The line in which a part of it begins, counted from 1."""
+        """Return the line in which a part of it begins, counted from 1."""
         return self.source.count("\n", 0, node.span.start if node.span else 0) + 1
 
 
 @cache
 def _english() -> Catalogue:
-    """The catalogue that can say everything."""
+    """Return the catalogue that can say everything."""
     return Catalogue(ASSETS / "sentences" / "en")
 
 
@@ -247,7 +247,7 @@ class PlainSentences:
         self._wording = wording
 
     def sentence(self, hint: Hint) -> str:
-        """What is said with a hint; it names no more of the place than the action gives away."""
+        """Return what is said with a hint; it names no more of the place than the action gives away."""
         return self._wording.say(pointing(hint), **place(hint))
 
     def all_wordings(self, hint: Hint) -> tuple[str, ...]:
@@ -255,7 +255,7 @@ class PlainSentences:
         return self._wording.catalogue.wordings(pointing(hint), **place(hint))
 
     def remark(self, action: ActionSpec) -> str:
-        """What is said by an action without a place."""
+        """Return what is said by an action without a place."""
         return self._wording.say(action.message)
 
     def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
@@ -267,7 +267,7 @@ class ReasonedSentences(PlainSentences):
     """Says first what this player's history gives as the reason, then where."""
 
     def sentence(self, hint: Hint) -> str:
-        """What is said with a hint: the reason, then the place."""
+        """Return what is said with a hint: the reason, then the place."""
         card = self._wording.catalogue.card(hint.name)
         return f"{self._wording.say(reasoning(hint), **card)} {super().sentence(hint)}"
 
@@ -279,17 +279,17 @@ class ReasonedSentences(PlainSentences):
 
 
 def reasoning(hint: Hint) -> str:
-    """The message that gives a hint's reason."""
+    """Return the message that gives a hint's reason."""
     return f"reason-{hint.card.value}-{hint.target.reason.value}"
 
 
 def pointing(hint: Hint) -> str:
-    """The message that says where a hint points."""
+    """Return the message that says where a hint points."""
     return f"{hint.action.message}-{hint.card.value}-{hint.action.precision.value}"
 
 
 def place(hint: Hint) -> dict[str, str | int]:
-    """The rows and columns that a hint gives away, counted from 1 as people do."""
+    """Return the rows and columns that a hint gives away, counted from 1 as people do."""
     given = {"row": hint.row, "column": hint.column}
     return {name: number + 1 for name, number in given.items() if number is not None}
 

@@ -128,7 +128,7 @@ class _Outcome:
 
 
 def run_checks(probes: Sequence[Check], tell: ProgressCallback) -> tuple[CheckResult, ...]:
-    """What all probes find, in their order; a fault of ours is raised when all have had their time."""
+    """Return what all probes find, in their order; a fault of ours is raised when all have had their time."""
     begun = time.monotonic()
     heard: queue.SimpleQueue[_Outcome] = queue.SimpleQueue()
     for number, probe in enumerate(probes):
@@ -157,7 +157,7 @@ def _look(number: int, probe: Check, heard: queue.SimpleQueue[_Outcome]) -> None
 
 
 def _late(probes: Sequence[Check], outcomes: dict[int, _Outcome], passed_s: float) -> dict[int, _Outcome]:
-    """What is said of probes whose time is over."""
+    """Return what is said of probes whose time is over."""
     over = ((n, probe) for n, probe in enumerate(probes) if n not in outcomes and passed_s > probe.within_s)
     return {
         number: _Outcome(
@@ -367,7 +367,7 @@ def _said(booth: CheckTargets) -> Iterator[CheckResult]:
 
 
 def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int | None) -> CheckTargets:
-    """What is to be looked at; what is wrong with the study file is among it."""
+    """Return what is to be looked at; what is wrong with the study file is among it."""
     if data.exists() and not data.is_dir():
         raise UserInputError(f"the data folder {data} cannot be used: it is a file")
     settings: Settings | None = None

@@ -90,7 +90,7 @@ class _WithoutWords(logging.Formatter):
     """
 
     def format(self, record: logging.LogRecord) -> str:
-        """A line of the log, with what follows it of a fault."""
+        """Return a line of the log, with what follows it of a fault."""
         own = copy(record)
         # Another handler may have put it into its own words, which are kept with the record.
         own.exc_text = None
@@ -138,7 +138,7 @@ def _handler(file: Path, *, shared: bool, later: bool) -> logging.FileHandler:
 
 
 def code_commit() -> str:
-    """The commit that runs, with "-dirty" if it was changed since; "released" outside a checkout and a build."""
+    """Return the commit that runs, with "-dirty" if it was changed since; "released" outside a checkout and a build."""
     if _BUILT_FROM.is_file():
         return _BUILT_FROM.read_text("utf-8")
     return _git("describe", "--always", "--dirty", "--abbrev=40", "--exclude=*") or "released"
@@ -153,7 +153,7 @@ def code_made() -> datetime:
 
 
 def _git(*arguments: str) -> str:
-    """What git says of the checkout; empty outside of one."""
+    """Return what git says of the checkout; empty outside of one."""
     try:
         said = subprocess.run(  # noqa: S603 - with arguments of our own
             ["git", *arguments],  # noqa: S607 - git is on the path

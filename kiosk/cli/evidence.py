@@ -97,7 +97,7 @@ def measure_arm(policy: QTable, arm: CardArm, games: int, seed: int) -> GameResu
 
 
 def card_table(policy: QTable, rows: Sequence[tuple[CardArm, GameResults]], games: int, seed: int) -> str:
-    """The numbers of a policy card, as a table in Markdown."""
+    """Return the numbers of a policy card, as a table in Markdown."""
     lines = [
         f"{policy.name}, sha256 {policy.sha256}",
         f"{games:,} games a line, seed {seed}; means with their normal 95 % intervals.",
@@ -118,7 +118,7 @@ def card_table(policy: QTable, rows: Sequence[tuple[CardArm, GameResults]], game
 
 
 def claims_table(claims: Sequence[Claim]) -> str:
-    """The claims as a table in Markdown."""
+    """Return the claims as a table in Markdown."""
     head = ["| claim | expected | measured | holds |", "|---|---|---|---|"]
     return "\n".join(
         head + [f"| {c.what} | {c.expected} | {c.measured} | {'yes' if c.holds else '**no**'} |" for c in claims]
@@ -126,7 +126,7 @@ def claims_table(claims: Sequence[Claim]) -> str:
 
 
 def figure_samples(games: int, seed: int) -> list[MoveSample]:
-    """The three distributions of the paper's simulation figure."""
+    """Return the three distributions of the paper's simulation figure."""
     default, none = QTable.named("default"), QTable.blank()
     return [
         MoveSample("no help, threshold .5", _moves(none, ChancePlayer(), games, seed), PAPER_UNAIDED),
@@ -278,7 +278,7 @@ def _saved(played: dict[str, GameResults], d: str) -> Claim:
 
 
 def difference(one: Spread, other: Spread, games: int) -> tuple[float, float, float]:
-    """The difference of two means of ``games`` games each, between the ends of its normal 95 % interval."""
+    """Return the difference of two means of ``games`` games each, between the ends of its normal 95 % interval."""
     half = Z95 * math.sqrt((one.sd**2 + other.sd**2) / games)
     between = one.mean - other.mean
     return between - half, between, between + half
@@ -314,7 +314,7 @@ def _controls(_games: int, seeds: int, _seed: int) -> list[Claim]:
 
 
 def train_seeds(recipe: Recipe, seeds: int) -> list[QTable]:
-    """The recipe's tables for the seeds 1 to ``seeds``."""
+    """Return the recipe's tables for the seeds 1 to ``seeds``."""
     tables = []
     for seed in range(1, seeds + 1):
         learner = Learner(replace(recipe, seed=seed))

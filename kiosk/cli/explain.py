@@ -80,7 +80,7 @@ def _action(name: str) -> ActionSpec:
 
 
 def _sentence(error: ErrorDetails) -> str:
-    """What pydantic found wrong, as a person would say it; places in a list are counted from 1."""
+    """Return what pydantic found wrong, as a person would say it; places in a list are counted from 1."""
     key = ", number ".join(str(part + 1) if isinstance(part, int) else part for part in error["loc"])
     match error["type"]:
         case "missing":
@@ -204,7 +204,7 @@ def _of_session(number: str, flip: int, data: Path) -> Explanation:
 
 
 def _lines(explanation: Explanation) -> Iterator[str]:
-    """The explanation for a person: each step on its line."""
+    """Yield the explanation for a person: each step on its line."""
     decision = explanation.decision
     state, verdict = decision.state, decision.gate_decision
     yield _line("state", f"{state.label}, row {state.index_in(decision.actions)} of the table")

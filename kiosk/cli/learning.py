@@ -93,7 +93,7 @@ player_options = _options(
 def player_from_options(
     base: SimulatedPlayer, player: str | None, people: Path | None = None, **given: Any
 ) -> SimulatedPlayer:
-    """The player that the options describe; what they leave out is as in ``base`` or in that player's nature."""
+    """Return the player that the options describe; what they leave out is as in ``base`` or in that player's nature."""
     if people is not None:
         if player not in {None, PopulationPlayer.name}:
             raise UserInputError(f"the people of {people} are no {player} player: leave out --player, or --people")
@@ -189,7 +189,7 @@ def _leave_checkpoint(learner: Learner, name: str, out: Path) -> None:
 
 
 def recipe_of(reward: Reward, **options: Any) -> Recipe:
-    """The reward's recipe with what the options change."""
+    """Return the reward's recipe with what the options change."""
     base = RECIPES[reward]
     kinds = {
         "epsilon": Exploration,
@@ -211,7 +211,7 @@ def recipe_of(reward: Reward, **options: Any) -> Recipe:
 
 
 def _with_usual(names: Sequence[str]) -> tuple[ActionSpec, ...]:
-    """The usual four actions and those of these names; raises UserInputError if there can be no such set."""
+    """Return the usual four actions and those of these names; raises UserInputError if there can be no such set."""
     try:
         return check_actions([*ACTIONS, *map(find_action, names)])
     except ValueError as error:
@@ -219,7 +219,7 @@ def _with_usual(names: Sequence[str]) -> tuple[ActionSpec, ...]:
 
 
 def train_command_line(recipe: Recipe, name: str) -> str:
-    """The command that makes this table again, without ``--out``."""
+    """Return the command that makes this table again, without ``--out``."""
     player = recipe.player.parameters()
     words = {"reward": recipe.reward.value, "player": player.pop("name")}
     words |= {key: _word(value) for key, value in player.items() if (key, value) != ("follow", 1.0)}

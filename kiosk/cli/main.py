@@ -58,7 +58,7 @@ class RootGroup(click.Group):
     """The group of all commands; without a command it opens the kiosk."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """The commands, in the order in which a person meets them."""
+        """Return the commands, in the order in which a person meets them."""
         return list(_COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature

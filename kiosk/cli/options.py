@@ -75,7 +75,7 @@ class ProgressCallback(Protocol):
 
 @contextmanager
 def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterator[ProgressCallback]:
-    """A bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
+    """Provide a bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
     columns = (
         TextColumn(what),
         BarColumn(),
@@ -106,13 +106,13 @@ def set_pin_command(*, as_json: bool) -> None:
 
 
 def _ask(prompt: str) -> str:
-    """What was typed, unseen; what is asked goes where it is not taken for the answer."""
+    """Return what was typed, unseen; what is asked goes where it is not taken for the answer."""
     answer: str = click.prompt(prompt, hide_input=True, err=True, default="", show_default=False)
     return answer
 
 
 def read_catalogue(language: str) -> Catalogue:
-    """The catalogue of a language; raises UserInputError with all the languages there are."""
+    """Return the catalogue of a language; raises UserInputError with all the languages there are."""
     if language not in shipped_languages():
         raise UserInputError(f"there is no language {language!r}; there are {', '.join(shipped_languages())}")
     return Catalogue(ASSETS / "sentences" / language)

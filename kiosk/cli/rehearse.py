@@ -168,7 +168,7 @@ def rehearse(
 
 
 def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:
-    """The memories of the visitors to come: all alike, or drawn from a file of people."""
+    """Return the memories of the visitors to come: all alike, or drawn from a file of people."""
     if people is None:
         return repeat(MemoryTraits())
     population, rng = PopulationPlayer.load(people), Random(f"{seed}/people")
@@ -280,7 +280,7 @@ def _in_words(told: dict[str, Any]) -> str:
 
 
 def _last_session(data: Path, longest_gap_ms: float | None) -> dict[str, Any]:
-    """The session that was just stored; with a robot, what became of its sentences besides."""
+    """Return the session that was just stored; with a robot, what became of its sentences besides."""
     from kiosk.store.queries import open_repository  # noqa: PLC0415 - a tenth of a second that opening need not pay
 
     with open_repository(data) as stored:

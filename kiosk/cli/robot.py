@@ -101,7 +101,7 @@ def _tried(robot: RobotDriver, language: str, sentence: str | None) -> Iterator[
 
 
 def _inspected(robot: InspectableRobot, language: str) -> Iterator[RobotTrial]:
-    """What a robot tells about itself; nothing more if it is not there."""
+    """Yield what a robot tells about itself; nothing more if it is not there."""
     reached = _try("is it there", lambda: _reach(robot))
     yield reached
     if reached.worked:

@@ -81,7 +81,7 @@ def check_pictures(read: StudyConfig) -> list[str]:
 
 
 def summarised(read: StudyConfig) -> dict[str, Any]:
-    """What a study is, for people and programs."""
+    """Return what a study is, for people and programs."""
     settings, plan = read.settings, read.plans[0]
     return {
         "title": settings.title,
@@ -118,7 +118,7 @@ def _came_from(source: Source) -> str:
 
 
 def _renamed(read: StudyConfig) -> Iterator[str]:
-    """The items whose columns in a data set are called otherwise."""
+    """Yield the items whose columns in a data set are called otherwise."""
     for item, column in renamed_items(StudyMaterials(read.plans)).items():
         yield f"about_you: the item {item!r} will be the column {column!r}, as the data set's own has that name"
 
@@ -128,7 +128,7 @@ def _questions(asked: Questionnaire) -> int:
 
 
 def _told(value: object) -> str:
-    """A value of the summary as a person reads it."""
+    """Return a value of the summary as a person reads it."""
     match value:
         case None:
             return "none"

@@ -65,7 +65,7 @@ def spoken_texts(plan: SessionConfig) -> tuple[str, ...]:
 
 
 def _hint_texts(plan: SessionConfig) -> Iterator[str]:
-    """The parts of hints: a reason for each card, and each place."""
+    """Yield the parts of hints: a reason for each card, and each place."""
     catalogue, game = plan.catalogue, plan.settings.game
     for message in sorted(catalogue.messages):
         if message.startswith("reason-"):
@@ -207,7 +207,7 @@ def play_command(text: str, study: Path | None, language: str) -> None:
 
 
 def _next(player: Player, events: queue.Queue[dict[str, object] | None]) -> dict[str, object]:
-    """What the player posts next; nothing if it posts nothing for a moment."""
+    """Return what the player posts next; nothing if it posts nothing for a moment."""
     try:
         return events.get(timeout=_TEND_S) or {}
     except queue.Empty:

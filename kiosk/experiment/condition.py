@@ -21,7 +21,7 @@ class Sentences(Protocol):
     """What is said with a hint."""
 
     def sentence(self, hint: Hint) -> str:
-        """The sentence for one hint."""
+        """Return the sentence for one hint."""
         ...
 
     def all_wordings(self, hint: Hint) -> tuple[str, ...]:
@@ -29,7 +29,7 @@ class Sentences(Protocol):
         ...
 
     def remark(self, action: ActionSpec) -> str:
-        """The sentence for an action without a place."""
+        """Return the sentence for an action without a place."""
         ...
 
     def all_remarks(self, action: ActionSpec) -> tuple[str, ...]:
@@ -51,7 +51,7 @@ class Condition(Enum):
 
     @classmethod
     def from_name(cls, name: str) -> Condition:
-        """The condition of this name; raises UserInputError with all the names there are."""
+        """Return the condition of this name; raises UserInputError with all the names there are."""
         try:
             return cls(name)
         except ValueError as error:
@@ -68,7 +68,7 @@ class Help:
 
 
 def help_in(condition: Condition, rule: TargetRule, wording: Wording, rng: Random) -> Help | None:
-    """The help that a visitor in this condition gets; ``rule`` is the one that mentalised conditions follow."""
+    """Return the help that a visitor in this condition gets; ``rule`` is the one that mentalised conditions follow."""
     followed = target_rule(condition, rule)
     if followed is None:
         return None
@@ -77,7 +77,7 @@ def help_in(condition: Condition, rule: TargetRule, wording: Wording, rng: Rando
 
 
 def target_rule(condition: Condition, rule: TargetRule) -> TargetRule | None:
-    """The rule that hints for first cards follow, if ``rule`` is the mentalised one; None where nobody helps."""
+    """Return the rule that hints for first cards follow, if ``rule`` is the mentalised one; None where nobody helps."""
     if condition is Condition.NO_ASSISTANCE:
         return None
     mentalised, _ = _CELLS[condition]

@@ -114,12 +114,12 @@ class EmbodimentName:
 
     @classmethod
     def robot(cls, driver: str) -> EmbodimentName:
-        """The robot of a driver."""
+        """Return the robot of a driver."""
         return cls(EmbodimentKind.ROBOT, driver)
 
     @classmethod
     def from_text(cls, text: str) -> EmbodimentName:
-        """The name that a record holds; raises ValueError for anything else."""
+        """Return the name that a record holds; raises ValueError for anything else."""
         kind, _, driver = text.partition(":")
         return cls(EmbodimentKind(kind), driver)
 
@@ -568,7 +568,7 @@ class SessionEnded(SessionEvent):
 
 
 def _answer(value: object, _: object) -> Answer | None:
-    """An answer as it was written: a number, a text, a list of options, or none."""
+    """Return an answer as it was written: a number, a text, a list of options, or none."""
     match value:
         case bool():
             raise ValueError(f"{value} is no answer")
@@ -580,7 +580,7 @@ def _answer(value: object, _: object) -> Answer | None:
 
 
 def _action(name: str) -> ActionSpec:
-    """The action of a record."""
+    """Return the action of a record."""
     try:
         return find_action(name)
     except UserInputError as error:
@@ -588,7 +588,7 @@ def _action(name: str) -> ActionSpec:
 
 
 def _converter() -> Converter:
-    """A converter to and from JSON values in which every closed set goes by name."""
+    """Return a converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
     converter.register_structure_hook(Answer | None, _answer)
     converter.register_unstructure_hook(EmbodimentName, str)
@@ -607,13 +607,13 @@ include_subclasses(Event, _CONVERTER, union_strategy=partial(configure_tagged_un
 
 
 def to_record(event: Event) -> dict[str, Any]:
-    """An event as JSON values: its class under ``type``, its fields under their names."""
+    """Return an event as JSON values: its class under ``type``, its fields under their names."""
     record: dict[str, Any] = _CONVERTER.unstructure(event, unstructure_as=Event)
     return record
 
 
 def from_record(record: Mapping[str, Any]) -> Event:
-    """The event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
+    """Return the event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
     try:
         return _CONVERTER.structure(record, Event)
     except (BaseValidationError, KeyError) as error:

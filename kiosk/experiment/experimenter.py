@@ -61,12 +61,12 @@ class DeviationReason(Enum):
     OTHER = "other"
 
     def in_own_words(self, typed: str) -> str:
-        """The reason with words of the experimenter's own."""
+        """Return the reason with words of the experimenter's own."""
         return f"{self.value}: {typed}"
 
     @staticmethod
     def without_words(reason: str) -> str:
-        """A reason as the list has it, whatever was typed with it."""
+        """Return a reason as the list has it, whatever was typed with it."""
         return next(
             (each.value for each in DeviationReason if reason.startswith(each.value)), DeviationReason.OTHER.value
         )
@@ -122,7 +122,7 @@ TABLE: Mapping[Action, Mapping[Stage, Permission]] = MappingProxyType(
 
 
 def permission(action: Action, stage: Stage) -> Permission:
-    """What holds for this action in this stage."""
+    """Return what holds for this action in this stage."""
     return TABLE[action][stage]
 
 
@@ -134,7 +134,7 @@ def condition_cycle(quotas: Iterable[str]) -> tuple[Condition | None, ...]:
 
 
 def actions_markdown() -> str:
-    """The table for the manual: a row for each action; stages that are alike in everything share a column."""
+    """Return the table for the manual: a row for each action; stages that are alike in everything share a column."""
     columns: dict[tuple[Permission, ...], list[str]] = {}
     for stage in Stage:
         columns.setdefault(tuple(TABLE[action][stage] for action in Action), []).append(stage.value)
@@ -230,7 +230,7 @@ _PIN = re.compile(rf"[0-9]{{{LEAST},{MOST}}}", re.ASCII)
 
 
 def hash_pin(pin: str, salt: bytes) -> str:
-    """A PIN as the study file keeps it; raises UserInputError if it is none. ``salt`` is 16 bytes of chance."""
+    """Return a PIN as the study file keeps it; raises UserInputError if it is none. ``salt`` is 16 bytes of chance."""
     if not _PIN.fullmatch(pin):
         raise UserInputError(f"a PIN has {LEAST} to {MOST} digits and nothing else")
     return f"scrypt:{salt.hex()}:{_key(pin, salt).hex()}"

@@ -52,7 +52,7 @@ class _Given:
     marked: bool = False
 
     def hint_event(self, hint: Hint) -> happened.HintGiven:
-        """The hint as it is recorded."""
+        """Return the hint as it is recorded."""
         return happened.HintGiven(
             at_ms=self.at_ms,
             flip=self.flip,
@@ -309,7 +309,7 @@ class GameStage(StageHandler):
         return decision
 
     def _holding(self, utterance: int) -> _Given | None:
-        """The hint that holds the board, if this is its sentence."""
+        """Return the hint that holds the board, if this is its sentence."""
         given = self._given
         return given if given is not None and given.holds and given.utterance == utterance else None
 

@@ -81,7 +81,7 @@ class Information(ConfigModel):
 
     @classmethod
     def of(cls, folder: Path, language: str) -> Self:
-        """The sheet of a language; raises UserInputError if there is none."""
+        """Return the sheet of a language; raises UserInputError if there is none."""
         file = next((each for each in sorted(folder.glob("*.toml")) if code_of(each.stem) == language), None)
         if file is None:
             raise UserInputError(f"there is no information sheet for the language {language!r} in {folder}")

@@ -36,7 +36,7 @@ Words = Annotated[dict[str, Text], Field(min_length=1), BeforeValidator(_by_lang
 
 
 def in_language(words: Mapping[str, str], language: str) -> str:
-    """The text in this language, or in the first one there is."""
+    """Return the text in this language, or in the first one there is."""
     return words.get(language) or next(iter(words.values()))
 
 
@@ -169,7 +169,7 @@ class BaseItem(ConfigModel):
     text: Words
 
     def view(self, language: str) -> dict[str, Any]:  # noqa: ARG002 - for the kinds that have words
-        """What QML draws besides the text, as JSON values in a language."""
+        """Return what QML draws besides the text, as JSON values in a language."""
         return {}
 
     def simulate(self, chance: Random, *, last: bool) -> Iterator[Act]:  # noqa: ARG002 - for the kinds that are answered
@@ -182,7 +182,7 @@ class BaseItem(ConfigModel):
         return AnswerFormat()
 
     def score(self, answer: Answer) -> int | None:  # noqa: ARG002 - for the kinds that are scored
-        """The number that an answer counts as; None if it is not counted."""
+        """Return the number that an answer counts as; None if it is not counted."""
         return None
 
     def texts(self) -> Iterator[Mapping[str, str]]:
@@ -222,11 +222,11 @@ class Rating(Question):
         return AnswerFormat(ends=self.ends)
 
     def score(self, answer: Answer) -> int | None:
-        """The answer as it counts: turned round if the item is reversed."""
+        """Return the answer as it counts: turned round if the item is reversed."""
         return self.scored(answer) if isinstance(answer, int) else None
 
     def scored(self, answer: int) -> int:
-        """The answer as it counts: turned round if the item is reversed."""
+        """Return the answer as it counts: turned round if the item is reversed."""
         return sum(self.ends) - answer if self.reverse else answer
 
 
@@ -253,11 +253,11 @@ class Likert(_Pointed):
     highest: Words
 
     def texts(self) -> Iterator[Mapping[str, str]]:
-        """The question and the ends."""
+        """Yield the question and the ends."""
         yield from (self.text, self.lowest, self.highest)
 
     def view(self, language: str) -> dict[str, Any]:
-        """The ends and the points."""
+        """Return the ends and the points."""
         return _ends(self.lowest, self.highest, language) | {"points": self.points, "pictures": []}
 
 
@@ -269,11 +269,11 @@ class Differential(_Pointed):
     right: Words
 
     def texts(self) -> Iterator[Mapping[str, str]]:
-        """The question and the opposites."""
+        """Yield the question and the opposites."""
         yield from (self.text, self.left, self.right)
 
     def view(self, language: str) -> dict[str, Any]:
-        """The ends and the points."""
+        """Return the ends and the points."""
         return _ends(self.left, self.right, language) | {"points": self.points, "pictures": []}
 
 
@@ -286,11 +286,11 @@ class Pictures(_Pointed):
     highest: Words
 
     def texts(self) -> Iterator[Mapping[str, str]]:
-        """The question and, for those who do not see the pictures, the ends."""
+        """Yield the question and, for those who do not see the pictures, the ends."""
         yield from (self.text, self.lowest, self.highest)
 
     def view(self, language: str) -> dict[str, Any]:
-        """The ends and the points; where the pictures lie is known to the interface."""
+        """Return the ends and the points; where the pictures lie is known to the interface."""
         return _ends(self.lowest, self.highest, language) | {"points": self.points}
 
 
@@ -309,11 +309,11 @@ class Slider(Rating):
         return self.lowest, self.highest
 
     def texts(self) -> Iterator[Mapping[str, str]]:
-        """The question and the ends."""
+        """Yield the question and the ends."""
         yield from (self.text, self.left, self.right)
 
     def view(self, language: str) -> dict[str, Any]:
-        """The ends, in words and in numbers."""
+        """Return the ends, in words and in numbers."""
         return _ends(self.left, self.right, language) | {"lowest": self.lowest, "highest": self.highest}
 
     def simulate(self, chance: Random, *, last: bool) -> Iterator[Act]:  # noqa: ARG002 - it needs no keyboard
@@ -345,7 +345,7 @@ class Integer(Question):
         return AnswerFormat(ends=(self.lowest, self.highest))
 
     def view(self, language: str) -> dict[str, Any]:  # noqa: ARG002 - digits are the same
-        """What can be typed; the range in words is known to the interface."""
+        """Return what can be typed; the range in words is known to the interface."""
         return {"minus": self.input.has_minus, "widest": self.input.longest, "pattern": self.input.pattern}
 
     def simulate(self, chance: Random, *, last: bool) -> Iterator[Act]:  # noqa: ARG002 - "Done" is always tapped
@@ -384,7 +384,7 @@ class Choice(Question):
     options: Annotated[tuple[Option, ...], Field(min_length=2, max_length=12, strict=False)]
 
     def texts(self) -> Iterator[Mapping[str, str]]:
-        """The question and its options."""
+        """Yield the question and its options."""
         yield self.text
         yield from (option.text for option in self.options)
 
@@ -394,7 +394,7 @@ class Choice(Question):
         return tuple(option.id for option in self.options)
 
     def view(self, language: str) -> dict[str, Any]:
-        """The options."""
+        """Return the options."""
         return {"options": [{"id": each.id, "text": in_language(each.text, language)} for each in self.options]}
 
     @field_validator("options")
@@ -485,7 +485,7 @@ WORDS = ("perché no", "qué bien", "Ça va", "it was fun", "23 pairs, or so", "
 
 
 def _ends(left: Mapping[str, str], right: Mapping[str, str], language: str) -> dict[str, Any]:
-    """The words at the two ends of a rating."""
+    """Return the words at the two ends of a rating."""
     return {"left": in_language(left, language), "right": in_language(right, language)}
 
 

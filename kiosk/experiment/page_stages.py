@@ -293,7 +293,7 @@ class ThanksStage(StageHandler):
 
 
 def _remark(measures: Measures) -> str:
-    """The message for the end of a game; the study's limits hold for its own board, others in proportion."""
+    """Return the message for the end of a game; the study's limits hold for its own board, others in proportion."""
     return result_speech(measures.moves, measures.pairs)
 
 
@@ -314,7 +314,7 @@ class ItemPage:
 
 
 def item_pages(questionnaire: Questionnaire, chance: Random) -> Iterator[ItemPage]:
-    """The pages of a questionnaire, in the order of this session."""
+    """Yield the pages of a questionnaire, in the order of this session."""
     together: list[Item] = []
     for item in _ordered(questionnaire, chance):
         if isinstance(item, TextPage) or len(together) == questionnaire.per_page:
@@ -333,7 +333,7 @@ def _sheet(questionnaire: Questionnaire, items: list[Item]) -> Iterator[ItemPage
 
 
 def _ordered(questionnaire: Questionnaire, chance: Random) -> list[Item]:
-    """The items in their order, or shuffled between the text pages, which keep their places."""
+    """Return the items in their order, or shuffled between the text pages, which keep their places."""
     if questionnaire.order is ItemOrder.FIXED:
         return list(questionnaire.items)
     shuffled = [item for item in questionnaire.items if not isinstance(item, TextPage)]

@@ -120,7 +120,7 @@ class Questionnaire(ConfigModel):
         return {name: tuple(items) for name, items in scales.items()}
 
     def unworded(self, language: str) -> tuple[str, ...]:
-        """The items that lack a text in this language."""
+        """Return the items that lack a text in this language."""
         return tuple(item.id for item in self.items if any(language not in words for words in item.texts()))
 
     @model_validator(mode="before")
@@ -159,7 +159,7 @@ QUESTIONNAIRES = TypeAdapter(tuple[Questionnaire, ...])
 
 
 def differences(one: Questionnaire, other: Questionnaire) -> list[str]:
-    """The items and scales in which two contents of a questionnaire differ, in the languages that both have."""
+    """Return the items and scales in which two contents of a questionnaire differ, in the languages that both have."""
     both = [{item.id: item for item in each.items} for each in (one, other)]
     languages = set.intersection(*({code for item in each.items for code in item.text} for each in (one, other)))
     names = dict.fromkeys((*both[0], *both[1]))
@@ -176,12 +176,12 @@ def _differs(one: Item | None, other: Item | None, languages: Iterable[str]) -> 
 
 
 def summed(items: Iterable[Rating]) -> tuple[object, ...]:
-    """What a scale is the sum of."""
+    """Return what a scale is the sum of."""
     return tuple((item.id, item.ends, item.reverse) for item in items)
 
 
 def facts(item: Item, language: str) -> str:
-    """What an item asks and what can be answered, in a language; in none of them, what can be answered."""
+    """Return what an item asks and what can be answered, in a language; in none of them, what can be answered."""
     match item:
         case _ if isinstance(item, Choice):
             told = (

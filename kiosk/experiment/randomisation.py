@@ -60,7 +60,7 @@ def allocation_slots(
 
 
 def next_slot(listed: tuple[AllocationSlot, ...], consumed: Collection[int]) -> AllocationSlot | None:
-    """The first slot that is not consumed; None when the list is used up."""
+    """Return the first slot that is not consumed; None when the list is used up."""
     return next((slot for slot in listed if slot.number not in consumed), None)
 
 

@@ -61,7 +61,7 @@ def replay_events(plan: SessionConfig, seed: int, events: Sequence[Event]) -> tu
 
 
 def first_difference(steps: Iterable[ReplayStep], events: Sequence[Event]) -> int | None:
-    """The number of the first event that today comes out otherwise than it was recorded; None if all agree."""
+    """Return the number of the first event that today comes out otherwise than it was recorded; None if all agree."""
     steps = tuple(steps)
     differing = next((step.seq for step in steps if not step.agrees), None)
     if differing is not None:
@@ -107,7 +107,7 @@ class DecisionContext:
         )
 
     def explained(self) -> Explanation:
-        """The decision of this moment, laid open; raises UserInputError if there can be no such moment."""
+        """Return the decision of this moment, laid open; raises UserInputError if there can be no such moment."""
         game, chance = game_after(self.board, self.flips), Random(self.seed)
         given = help_in(self.condition, self.rule, Wording(self.catalogue, chance), chance)
         if given is None:
@@ -120,7 +120,7 @@ class DecisionContext:
         return mentaliser.target(game) if self.target is None else mentaliser.pointing_at(self.target, game)
 
     def _undecided(self, game: Concentration) -> Decision:
-        """What gate and table hold where nobody asks them."""
+        """Return what gate and table hold where nobody asks them."""
         if self.override not in (None, ActionSpec.NO_HELP):
             raise UserInputError(
                 f"in the condition {self.condition.value} nobody helps, so there is no action to explain"

@@ -204,7 +204,7 @@ class StageFactory:
             scene.translate(to)
 
     def of(self, stage: Stage) -> StageHandler:
-        """The scene of a stage; before the first and after the last one nothing is to be seen of a session."""
+        """Return the scene of a stage; before the first and after the last one nothing is to be seen of a session."""
         return self._scenes.get(stage, _NOTHING)
 
     def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:

@@ -59,7 +59,7 @@ class SessionConfig:
     """All languages that the visitor can go on in; none but its own if this is empty."""
 
     def translation(self, language: str) -> Translation | None:
-        """What it says in another of its languages; None if it has no such language."""
+        """Return what it says in another of its languages; None if it has no such language."""
         own = Translation(self.catalogue, self.information)
         return next((each for each in (own, *self.translations) if each.catalogue.language == language), None)
 
@@ -74,7 +74,7 @@ class SessionConfig:
         return self.catalogue.language
 
     def with_base_dir(self, other: Settings) -> SessionConfig:
-        """The same plan, whose settings look for what they name by a path where these do."""
+        """Return the same plan, whose settings look for what they name by a path where these do."""
         return replace(self, settings=self.settings.with_base_dir(other))
 
     @property
@@ -124,7 +124,7 @@ class StudyConfig:
         return tuple(plan.language for plan in self.plans)
 
     def plan(self, language: str, condition: Condition | None = None) -> SessionConfig:
-        """The plan of one of its languages, in the study file's condition or another one."""
+        """Return the plan of one of its languages, in the study file's condition or another one."""
         plan = self.plans[self.languages.index(language)]
         plan = replace(plan, translations=tuple(Translation(each.catalogue, each.information) for each in self.plans))
         return plan if condition is None else replace(plan, condition=condition)

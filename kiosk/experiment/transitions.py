@@ -101,7 +101,7 @@ _LEAVING = (IdleTimedOut, AbortRequested, StopPressed, ApplicationClosed)
 
 
 def _underway(own: Mapping[type[Event], Transition]) -> Mapping[type[Event], Transition]:
-    """A stage's own events, and those that may come in any stage that a visitor is in."""
+    """Return a stage's own events, and those that may come in any stage that a visitor is in."""
     return MappingProxyType(
         dict.fromkeys(_ANYWHERE, Transition.STAY) | dict.fromkeys(_LEAVING, Transition.OVER) | dict(own)
     )
@@ -189,7 +189,7 @@ class StageOrder:
 
     @classmethod
     def of(cls, names: Sequence[str]) -> StageOrder:
-        """The course of these stages; raises UserInputError if one is unknown, or comes where it cannot."""
+        """Return the course of these stages; raises UserInputError if one is unknown, or comes where it cannot."""
         unknown = [name for name in names if name not in STAGES]
         if unknown:
             raise UserInputError(f"stages: there is no stage {unknown[0]!r}; there are {', '.join(STAGES)}")
@@ -208,7 +208,7 @@ class StageOrder:
         return next((coming for coming in ahead if kept or coming not in _ONLY_WHEN_KEPT), Stage.OVER)
 
     def before(self, stage: Stage, *, kept: bool) -> Stage | None:
-        """The stage that a visitor can go back to from this one; None if there is none."""
+        """Return the stage that a visitor can go back to from this one; None if there is none."""
         behind = self.stages[: self.stages.index(stage)] if stage in self.stages else ()
         last = next((gone for gone in reversed(behind) if kept or gone not in _ONLY_WHEN_KEPT), None)
         return last if last and any({last, stage} <= pages for pages in _WAY_BACK) else None
@@ -221,7 +221,7 @@ def check_expected(stage: Stage, event: WorldEvent) -> None:
 
 
 def transition(stage: Stage, event: Event) -> Transition:
-    """What this event makes of the stage."""
+    """Return what this event makes of the stage."""
     return TABLE[stage].get(type(event), Transition.STAY)
 
 
@@ -252,7 +252,7 @@ _KEPT_AFTER: Mapping[type[Event], tuple[bool, ...]] = {ConsentDeclined: (False,)
 
 
 def _leads_to(course: StageOrder, stage: Stage, kind: type[Event], step: Transition) -> tuple[Stage, ...]:
-    """The stages that this kind of event may lead to from here; none where there is no way back."""
+    """Return the stages that this kind of event may lead to from here; none where there is no way back."""
     if step is Transition.BACK:
         before = course.before(stage, kept=True)
         return () if before is None else (before,)
@@ -260,7 +260,7 @@ def _leads_to(course: StageOrder, stage: Stage, kind: type[Event], step: Transit
 
 
 def _coming(course: StageOrder, stage: Stage, kind: type[Event]) -> tuple[Stage, ...]:
-    """The stages that this kind of event may lead to."""
+    """Return the stages that this kind of event may lead to."""
     return tuple(course.after(stage, kept=kept) for kept in _KEPT_AFTER.get(kind, (True,)))
 
 

@@ -84,7 +84,7 @@ def say_check(command: Sequence[str], language: str, sentence: str) -> CheckResu
 
 
 def _run(command: Sequence[str], *lines: dict[str, object]) -> str:
-    """What the process says to these commands; what it leaves when it has to be ended goes as well."""
+    """Return what the process says to these commands; what it leaves when it has to be ended goes as well."""
     with tempfile.TemporaryDirectory(prefix="recollect-check-") as folder:
         done = subprocess.run(  # noqa: S603 - our own program
             command,
@@ -99,7 +99,7 @@ def _run(command: Sequence[str], *lines: dict[str, object]) -> str:
 
 
 def _events(lines: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """What the process told, by name; what is none of its lines is left out."""
+    """Yield what the process told, by name; what is none of its lines is left out."""
     for line in lines.splitlines():
         try:
             event = json.loads(line)
@@ -165,7 +165,7 @@ def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool
 
 
 def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequence[str]) -> Iterator[CheckResult]:
-    """A robot that tells what it has."""
+    """Yield a robot that tells what it has."""
     try:
         robot.resolve()
         robot.health_check()
@@ -187,7 +187,7 @@ def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequ
 
 
 def _any(device: RobotDriver) -> CheckResult:
-    """A robot that tells nothing of its voices."""
+    """Return a robot that tells nothing of its voices."""
     try:
         device.connect()
     except RobotError as failure:

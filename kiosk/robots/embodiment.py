@@ -345,11 +345,11 @@ class InspectableRobot(RobotDriver):
 
     @abstractmethod
     def voices(self) -> tuple[RobotVoice, ...]:
-        """The voices that it offers; raises RobotError."""
+        """Return the voices that it offers; raises RobotError."""
 
     @abstractmethod
     def gestures(self) -> tuple[str, ...]:
-        """The names of the gestures that it offers; raises RobotError."""
+        """Return the names of the gestures that it offers; raises RobotError."""
 
     @abstractmethod
     def users(self) -> int:
@@ -370,7 +370,7 @@ def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = ""
 
 
 def speakable(sentence: str, longest: int = LONGEST_TEXT) -> str:
-    """A sentence as a robot takes it: not too long, without markup, control and direction characters."""
+    """Return a sentence as a robot takes it: not too long, without markup, control and direction characters."""
     shown = (character for character in sentence if character not in _DIRECTIONS)
     plain = "".join(" " if character in "<>&" or not can_be_kept(character) else character for character in shown)
     text = " ".join(plain.split())

@@ -68,7 +68,7 @@ CONFUSED: Mapping[str, Any] = MappingProxyType(
 
 
 def gesture(mood: Mood, offered: Collection[str]) -> str | None:
-    """The best gesture for a mood among those that the robot offers, if there is any."""
+    """Return the best gesture for a mood among those that the robot offers, if there is any."""
     return next((wish for wish in WISHES[mood] if wish in offered), None)
 
 
@@ -76,7 +76,7 @@ MIDDLE = 0.5
 
 
 def to_robot_location(place: BoardPoint, settings: RobotSettings) -> tuple[float, float, float]:
-    """A place on the board as x, y, z in metres, by the axes that the study file names."""
+    """Return a place on the board as x, y, z in metres, by the axes that the study file names."""
     sideways, up, forward = settings.board_middle
     width, height = settings.board_size
     seen = (sideways + (place.across - MIDDLE) * width, up + (MIDDLE - place.down) * height, forward)
@@ -183,7 +183,7 @@ class _Adapter(HTTPAdapter):
         self._pool.call = call
 
     def get_connection_with_tls_context(self, *_: Any, **__: Any) -> HTTPConnectionPool:
-        """The connection of this call, wherever the request says it goes."""
+        """Return the connection of this call, wherever the request says it goes."""
         return self._pool
 
     def close(self) -> None:
@@ -244,7 +244,7 @@ def _content(answer: requests.Response) -> bytes:
 
 
 def _fault(error: BaseException, call: Call) -> FailureKind:
-    """What kind of failure this is; who waits longest is slow, whatever the library calls it."""
+    """Return what kind of failure this is; who waits longest is slow, whatever the library calls it."""
     causes = tuple(_causes(error))
     if call.was_cancelled:
         return FailureKind.CUT
@@ -262,7 +262,7 @@ def _is_no_http(cause: BaseException) -> bool:
 
 
 def _causes(error: BaseException) -> list[BaseException]:
-    """An error and every error within it or before it."""
+    """Return an error and every error within it or before it."""
     found: list[BaseException] = []
     waiting: list[object] = [error]
     while waiting:
@@ -330,11 +330,11 @@ class Furhat(InspectableRobot):
             raise RobotError(FailureKind.GARBAGE, "GET /furhat", _shown(content))
 
     def gestures(self) -> tuple[str, ...]:
-        """The names of the gestures that it offers; raises RobotFailed."""
+        """Return the names of the gestures that it offers; raises RobotFailed."""
         return tuple(str(entry["name"]) for entry in self._list("/furhat/gestures"))
 
     def voices(self) -> tuple[RobotVoice, ...]:
-        """The voices that it offers; raises RobotFailed."""
+        """Return the voices that it offers; raises RobotFailed."""
         return tuple(
             RobotVoice(str(entry["name"]), str(entry.get("language") or "")) for entry in self._list("/furhat/voices")
         )
@@ -403,7 +403,7 @@ class Furhat(InspectableRobot):
         _check(f"POST {path}", *self._request("POST", path, parameters, body))
 
     def _list(self, path: str, *, named: bool = True) -> list[dict[str, Any]]:
-        """What it lists; entries without a name are left out, for nobody could ask for them."""
+        """Return what it lists; entries without a name are left out, for nobody could ask for them."""
         code, content = self._request("GET", path)
         listed = _json(content)
         if code != OK:
@@ -428,7 +428,7 @@ def _check(doing: str, code: int, content: bytes) -> None:
 
 
 def _json(content: bytes) -> object:
-    """What a body says; None if it is not JSON."""
+    """Return what a body says; None if it is not JSON."""
     try:
         return json.loads(content)
     except (ValueError, RecursionError):

@@ -58,7 +58,7 @@ class _Waiter:
         self._answers.put(message)
 
     def next(self, until: float, doing: str) -> Mapping[str, Any]:
-        """The next answer, before ``until`` on the monotonic clock; raises RobotFailed."""
+        """Return the next answer, before ``until`` on the monotonic clock; raises RobotFailed."""
         try:
             message = self._answers.get(timeout=max(0.0, until - monotonic()))
         except Empty:
@@ -235,7 +235,7 @@ class FurhatRealtime(RobotDriver):
 
 
 def _message(text: str | bytes) -> Mapping[str, Any]:
-    """What came, or something that nobody waits for if it is no message."""
+    """Return what came, or something that nobody waits for if it is no message."""
     try:
         message = json.loads(text)
     except (ValueError, RecursionError):

@@ -178,7 +178,7 @@ def described(voice: Any) -> str:
 
 
 def _codes(voice: Any) -> list[str]:
-    """The languages of a voice as codes; espeak gives them as bytes that begin with a priority."""
+    """Return the languages of a voice as codes; espeak gives them as bytes that begin with a priority."""
     codes = (code.decode(errors="ignore") if isinstance(code, bytes) else str(code) for code in voice.languages)
     return [code.strip("\x05\x02") for code in codes]
 

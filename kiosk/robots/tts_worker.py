@@ -61,7 +61,7 @@ class SpeechSource:
         return {"engine": engine.name, "engine_version": engine.version, "voice": engine.voice or "", "pack": ""}
 
     def clip(self, text: str) -> tuple[Clip, dict[str, str]]:
-        """The sound of a sentence, with the engine, version, voice and hash of the pack that it came from.
+        """Return the sound of a sentence, with the engine, version, voice and hash of the pack that it came from.
 
         A clip that was changed since its pack was made is not of this pack any more: the engine speaks instead.
         """

@@ -70,7 +70,7 @@ OLD = timedelta(days=1)
 
 
 def database_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
-    """The file itself; ``busy`` tells whether a kiosk is open on the folder."""
+    """Yield the file itself; ``busy`` tells whether a kiosk is open on the folder."""
     if not (folder / FILE).exists():
         yield CheckResult.ok(DATABASE, "none yet; it is made when the kiosk opens")
         return
@@ -116,7 +116,7 @@ def _remedy(failure: UserInputError | sqlite3.Error, folder: Path) -> str:
 
 
 def sessions_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
-    """What is stored of people, and what was cut off."""
+    """Yield what is stored of people, and what was cut off."""
 
     def look(connection: sqlite3.Connection) -> Iterator[CheckResult]:
         stored, cut_off = connection.execute(
@@ -223,7 +223,7 @@ _OTHERS = stat.S_IRWXG | stat.S_IRWXO
 
 
 def free_space_check(folder: Path) -> Iterator[CheckResult]:
-    """The room that is left."""
+    """Yield the room that is left."""
     try:
         left = free_space(folder)
     except UserInputError as failure:
@@ -291,7 +291,7 @@ def written_ms(place: Path) -> list[float]:
 
 
 def existing_part(folder: Path) -> Path:
-    """The data folder, or what is there of the way to it."""
+    """Return the data folder, or what is there of the way to it."""
     folder = folder.absolute()
     return next(place for place in (folder, *folder.parents) if place.is_dir())
 

@@ -235,7 +235,7 @@ UNFINISHED = ".unfinished"
 
 @contextmanager
 def atomic_directory(out: Path) -> Iterator[Path]:
-    """A new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
+    """Provide a new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
 
     Raises UserInputError if it cannot be made, or if the end of the program cut off an earlier one there: it may hold
     what people said, so somebody should know of it. Raises OSError if the disk does not take all of it.

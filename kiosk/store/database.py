@@ -352,7 +352,7 @@ def has_sessions(folder: Path) -> bool:
 
 
 def open_as_it_is(folder: Path) -> Connection:
-    """The same, but an older one is opened as it was written."""
+    """Return the same, but an older one is opened as it was written."""
     path = folder / FILE
     if not path.is_file():
         raise UserInputError(f"there is no database in {folder}")

@@ -104,7 +104,7 @@ def back_up(
 
 
 def list_backups(into: Path) -> list[Path]:
-    """The copies that a folder holds, oldest first."""
+    """Return the copies that a folder holds, oldest first."""
     return sorted(into.glob(_PATTERN))
 
 

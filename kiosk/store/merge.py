@@ -118,7 +118,7 @@ def _is_same(one: Path, other: Path) -> bool:
 
 
 def _given_sites(folders: Sequence[Path], sites: Sequence[tuple[Path, str]]) -> Mapping[Path, str]:
-    """The site that each folder gets, by the folder as it stands among ``folders``."""
+    """Return the site that each folder gets, by the folder as it stands among ``folders``."""
     given: dict[Path, str] = {}
     for named, site in sites:
         folder = next((folder for folder in folders if _is_same(folder, named)), None)
@@ -170,7 +170,7 @@ def _check_apart(parts: Sequence[_Part], out: Path) -> None:
 def _first_shared(
     parts: Sequence[_Part], of: Callable[[_Part], Iterator[_Shared]]
 ) -> tuple[_Shared, _Part, _Part] | None:
-    """The first thing that two folders have, and those two."""
+    """Return the first thing that two folders have, and those two."""
     found: dict[_Shared, _Part] = {}
     for part in parts:
         for thing in of(part):
@@ -203,7 +203,7 @@ def _is_copy(part: _Part, other: _Part) -> bool:
 
 
 def _way_out(parts: Sequence[_Part], out: Path) -> str:
-    """The command that merges kiosks whose participants have the same numbers, if there is one."""
+    """Return the command that merges kiosks whose participants have the same numbers, if there is one."""
     named = _named_anew(parts)
     if named is None:
         return "Kiosks whose data will be merged need a --site each"
@@ -268,6 +268,6 @@ def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Pro
 
 
 def _ordered(parts: Sequence[_Part], table: str, *keys: str) -> list[tuple[_Part, Row]]:
-    """The rows of all folders in an order that does not depend on that of the folders."""
+    """Return the rows of all folders in an order that does not depend on that of the folders."""
     rows = [(part, row) for part in parts for row in part.rows(table)]
     return sorted(rows, key=lambda each: tuple(each[1][key] for key in keys))

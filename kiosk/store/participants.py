@@ -48,12 +48,12 @@ class Participant:
 
 
 def participant_name(site: str, number: int) -> str:
-    """A participant's number with the site, if it has one."""
+    """Return a participant's number with the site, if it has one."""
     return f"{site}-{number}" if site else str(number)
 
 
 def checked_site(site: str) -> str:
-    """The name of a site as it may stand in numbers, codes and tables; raises UserInputError for any other."""
+    """Return the name of a site as it may stand in numbers, codes and tables; raises UserInputError for any other."""
     if not _SITE.fullmatch(site):
         raise UserInputError(f"a site is named by up to 8 capital letters and digits, not {site!r}")
     for label in (site, *([participant_name(site, 1)] if site and not _is_long_number(site) else [])):
@@ -72,7 +72,7 @@ def _is_long_number(site: str) -> bool:
 
 
 def checked_code(text: str) -> str:
-    """The code that was typed, in its own spelling; raises UserInputError if it was mistyped."""
+    """Return the code that was typed, in its own spelling; raises UserInputError if it was mistyped."""
     code = "".join(text.split()).upper()
     characters = code.rpartition("-")[2]
     if len(characters) != CHANCE_CHARACTERS + 1 or set(characters) - set(ALPHABET):
@@ -97,7 +97,7 @@ def enrol(connection: sqlite3.Connection, session: int) -> Participant:
 
 
 def participant_of(connection: sqlite3.Connection, session: int) -> Participant | None:
-    """The person of a session; None if it was recorded before people were numbered, or is not there."""
+    """Return the person of a session; None if it was recorded before people were numbered, or is not there."""
     row = connection.execute(
         "SELECT session, site, number, code FROM participant WHERE session = ?", (session,)
     ).fetchone()
@@ -105,7 +105,7 @@ def participant_of(connection: sqlite3.Connection, session: int) -> Participant 
 
 
 def codes(site: str, seed: int) -> Iterator[str]:
-    """The codes that a session's seed leads to, best first."""
+    """Yield the codes that a session's seed leads to, best first."""
     chance = Random(f"{seed}/code")
     while True:
         characters = "".join(chance.choices(ALPHABET, k=CHANCE_CHARACTERS))
@@ -134,7 +134,7 @@ def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
 
 
 def _check(characters: str) -> str:
-    """The character that makes one wrong character, or two in each other's place, come out wrong.
+    """Return the character that makes one wrong character, or two in each other's place, come out wrong.
 
     A weighted sum modulo the alphabet's size, as in ISBN-10.
     """
@@ -166,7 +166,7 @@ class AllocationLists:
         self._whose = {"site": site, "kind": int(kind)}
 
     def latest(self) -> AllocationList | None:
-        """The list that is followed now; None if none is fixed."""
+        """Return the list that is followed now; None if none is fixed."""
         row = self._connection.execute(
             """
             SELECT id, seed, block_size, quotas, slots FROM allocation_list
@@ -180,7 +180,7 @@ class AllocationLists:
         return AllocationList(number, seed, block, quotas_from_json(quotas), slots_from_json(listed))
 
     def consumed(self) -> set[int]:
-        """The numbers of the slots whose game was completed, those of people who withdrew among them."""
+        """Return the numbers of the slots whose game was completed, those of people who withdrew among them."""
         rows = self._connection.execute(
             """
             SELECT allocation_slot FROM session WHERE site = :site AND kind = :kind AND allocation_source = 'list'
@@ -194,12 +194,12 @@ class AllocationLists:
         return {slot for (slot,) in rows}
 
     def next_slot(self) -> AllocationSlot | None:
-        """The first slot that is not consumed; None if all are, or if no list is fixed."""
+        """Return the first slot that is not consumed; None if all are, or if no list is fixed."""
         stored = self.latest()
         return next_slot(stored.slots, self.consumed()) if stored else None
 
     def list_with(self, slot: AllocationSlot) -> int:
-        """The row of the list in which this slot is free; raises ValueError if it is not."""
+        """Return the row of the list in which this slot is free; raises ValueError if it is not."""
         stored = self.latest()
         if stored is None or slot not in stored.slots or slot.number in self.consumed():
             raise ValueError(f"there is no free {slot} in the list that is fixed")
@@ -258,17 +258,17 @@ def quotas_to_json(quotas: Mapping[Condition, int]) -> str:
 
 
 def quotas_from_json(text: str) -> dict[Condition, int]:
-    """What ``quotas_to_json`` wrote."""
+    """Return what ``quotas_to_json`` wrote."""
     return {Condition(name): quota for name, quota in json.loads(text).items()}
 
 
 def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
-    """A list of blocks, each a list of conditions, so that it can be read without the program."""
+    """Return a list of blocks, each a list of conditions, so that it can be read without the program."""
     return json.dumps([[p.condition.value for p in block] for _, block in groupby(listed, lambda p: p.block)])
 
 
 def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
-    """What ``slots_to_json`` wrote."""
+    """Return what ``slots_to_json`` wrote."""
     named = ((block, name) for block, names in enumerate(json.loads(text), 1) for name in names)
     return tuple(AllocationSlot(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
 
@@ -321,7 +321,7 @@ class CountCell:
         return sum(self.fates.values())
 
     def to_json(self) -> dict[str, int]:
-        """The cell as the command line prints it."""
+        """Return the cell as the command line prints it."""
         fates = {fate.value: self.fates[fate] for fate in Disposition}
         return {"quota": self.quota, "begun": self.begun} | fates | {"withdrawn": self.withdrawn}
 
@@ -385,7 +385,7 @@ def _fate(source: str | None, *, finished: bool, ended: bool) -> Disposition:
 
 
 def _quotas(connection: sqlite3.Connection, *, kind: SessionKind) -> Counter[Condition]:
-    """What the lists that are followed ask for, of all sites together."""
+    """Return what the lists that are followed ask for, of all sites together."""
     asked: Counter[Condition] = Counter()
     latest = "SELECT max(id) FROM allocation_list GROUP BY site, kind"
     for (quotas,) in connection.execute(

@@ -36,7 +36,7 @@ class FrozenPlan:
 
 
 def frozen_plans(folder: Path) -> tuple[FrozenPlan, ...]:
-    """The plans that were frozen in a data folder, oldest first; none where there is no database."""
+    """Return the plans that were frozen in a data folder, oldest first; none where there is no database."""
     if not has_database(folder):
         return ()
     with closing(open_for_reading(folder)) as connection:

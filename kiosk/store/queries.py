@@ -67,7 +67,7 @@ class StoredSession:
     allocation_source: AllocationSource | None
 
     def to_json(self) -> dict[str, Any]:
-        """The session as the command line prints it: without the code, which is the visitor's."""
+        """Return the session as the command line prints it: without the code, which is the visitor's."""
         return {
             "session": self.id,
             "participant": self.participant,
@@ -155,11 +155,11 @@ class SessionRepository:
         )
 
     def seed(self, number: int) -> int:
-        """The seed of a session, from which all its chance came."""
+        """Return the seed of a session, from which all its chance came."""
         return int(self._row(number)["seed"])
 
     def source(self, sha256: str) -> str:
-        """What is kept under a hash; raises UserInputError if nothing is."""
+        """Return what is kept under a hash; raises UserInputError if nothing is."""
         rows = self._database["source"].rows_where("sha256 = ?", [sha256])
         for row in rows:
             return str(row["content"])
@@ -217,7 +217,7 @@ def _event(record: dict[str, Any]) -> Event:
 
 
 def explain_stored_decision(archive: SessionRepository, number: int, flip: int) -> Explanation:
-    """The decision before a flip (from 1) of a stored session, laid open.
+    """Return the decision before a flip (from 1) of a stored session, laid open.
 
     Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
     """

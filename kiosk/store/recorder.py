@@ -70,7 +70,7 @@ def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
 
 
 def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
-    """The seq of the end of a session that was interrupted; raises UserInputError if it was not."""
+    """Return the seq of the end of a session that was interrupted; raises UserInputError if it was not."""
     last = connection.execute(
         "SELECT seq, type, payload FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
     ).fetchone()
@@ -83,14 +83,14 @@ def interrupted_at(connection: sqlite3.Connection, session: int) -> int:
 
 
 def json_text(record: Mapping[str, Any]) -> str:
-    """A record as it stands in the database."""
+    """Return a record as it stands in the database."""
     text = json.dumps(record, ensure_ascii=False, separators=(",", ":"))
     # What the system says may hold lone surrogates, which no file can; written out, they are JSON's own escapes.
     return text.encode("utf-8", "backslashreplace").decode()
 
 
 def now_ms() -> int:
-    """The wall's clock, in ms since 1970; it may be set back, so nothing is ever sorted by it."""
+    """Return the wall's clock, in ms since 1970; it may be set back, so nothing is ever sorted by it."""
     return time.time_ns() // 1_000_000
 
 
@@ -102,7 +102,7 @@ def _origin(event: Event) -> str:
 
 
 def _type_and_payload(event: Event) -> tuple[str, str]:
-    """An event's class, and its own fields as JSON; the time and the class have columns of their own."""
+    """Return an event's class, and its own fields as JSON; the time and the class have columns of their own."""
     record = to_record(event)
     kind = str(record.pop("type"))
     del record["at_ms"]
@@ -170,7 +170,7 @@ class Recorder:
             raise failure(f"the data folder {folder} cannot be written", cause, folder) from cause
 
     def __enter__(self) -> Self:
-        """The recorder itself."""
+        """Return the recorder itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:

@@ -123,7 +123,7 @@ class RecordSource:
             yield SessionRecord(row, self._status(records), self._plan(row), records)
 
     def plans(self) -> tuple[SessionConfig, ...]:
-        """The plans that the sessions followed, the newest first, as far as they can be read."""
+        """Return the plans that the sessions followed, the newest first, as far as they can be read."""
         newest = f"GROUP BY {', '.join(_FOLLOWED)} ORDER BY max(session.id) DESC"
         plans = [self._plan(row) for row in self._rows(newest)]
         return tuple(plan for plan in plans if plan is not None)
@@ -142,7 +142,7 @@ class RecordSource:
         return f"session.kind IN ({', '.join(str(int(kind)) for kind in sorted(self.kinds))})"
 
     def _plan(self, row: Mapping[str, Any]) -> SessionConfig | None:
-        """What a session followed; sessions that followed the same share it."""
+        """Return what a session followed; sessions that followed the same share it."""
         key = tuple(row[column] for column in _FOLLOWED)
         if key not in self._plans:
             try:
@@ -176,7 +176,7 @@ _FOLLOWED = (
 
 @contextmanager
 def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[RecordSource]:
-    """What is stored in a data folder now; raises UserInputError if there is nothing that can be read."""
+    """Provide what is stored in a data folder now; raises UserInputError if there is nothing that can be read."""
     with closing(open_for_reading(folder)) as connection:
         writing = in_use(folder)
         connection.execute("BEGIN")
@@ -188,7 +188,7 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
 
 
 def _told(records: list[dict[str, Any]]) -> Iterator[EventRecord]:
-    """The records with the stage that each fell into."""
+    """Yield the records with the stage that each fell into."""
     for record, (stage, event) in zip(records, with_stages(map(_event, records)), strict=True):
         fields = {key: value for key, value in record.items() if key not in _ABOUT_THE_RECORD}
         yield EventRecord(record["seq"], record["at_ms"], record["origin"], record["type"], fields, stage, event)

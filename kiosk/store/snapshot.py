@@ -84,7 +84,7 @@ def last_written_ms(folder: Path) -> int:
 
 
 def wrong_pins(folder: Path) -> WrongPins:
-    """The wrong PINs since the last right one."""
+    """Return the wrong PINs since the last right one."""
     with _looking_at(folder) as connection:
         times, last_ms = connection.execute(
             """

@@ -42,7 +42,7 @@ class Withdrawal:
     """Whether it was begun before, and only the rest is to be done."""
 
     def to_json(self) -> dict[str, Any]:
-        """The withdrawal as the command line prints it."""
+        """Return the withdrawal as the command line prints it."""
         return {
             "session": self.session,
             "participant": self.participant,
@@ -54,7 +54,7 @@ class Withdrawal:
 
 
 def find_withdrawal(folder: Path, code: str) -> Withdrawal:
-    """What would go with this code; raises UserInputError if nobody has it, or if a kiosk is writing there."""
+    """Return what would go with this code; raises UserInputError if nobody has it, or if a kiosk is writing there."""
     with closing(open_for_reading(folder)) as connection:
         if in_use(folder):
             raise UserInputError(f"a kiosk is writing in {folder}: close it first, then withdraw")

@@ -122,7 +122,7 @@ class CsvTable:
 
 
 def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
-    """The lines of a table from that of its columns on, and the number of the one after it in a spreadsheet."""
+    """Return the lines of a table from that of its columns on, and the number of the one after it in a spreadsheet."""
     text = _text(name, file)
     header, *_ = text.splitlines() or [""]
     told = _SEPARATOR.fullmatch(header.strip())
@@ -142,7 +142,7 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
 
 
 def _text(name: str, file: Path) -> str:
-    """The text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
+    """Return the text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
     try:
         content = file.read_bytes()
         wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
@@ -154,7 +154,7 @@ def _text(name: str, file: Path) -> str:
 
 
 def _without_tail(header: Sequence[str]) -> tuple[str, ...]:
-    """The names of the columns, spelt in one way; some programs end the line with columns that have none."""
+    """Return the names of the columns, spelt in one way; some programs end the line with columns that have none."""
     names = [_spelt(cell.strip()) for cell in header]
     while names and not names[-1]:
         names.pop()
@@ -162,7 +162,7 @@ def _without_tail(header: Sequence[str]) -> tuple[str, ...]:
 
 
 def _spelt(column: str) -> str:
-    """A column's name in small letters, and the code of its language as it is always spelt."""
+    """Return a column's name in small letters, and the code of its language as it is always spelt."""
     stem, _, code = column.partition("_")
     if stem.lower() in WORDED and is_right(code):
         return f"{stem.lower()}_{standard(code)}"
@@ -178,7 +178,7 @@ def _row(name: str, number: int, columns: Sequence[str], line: Sequence[str]) ->
 
 
 def _wrong_columns(columns: Sequence[str]) -> Iterator[str]:
-    """A sentence for every column that is unknown, missing or there twice."""
+    """Yield a sentence for every column that is unknown, missing or there twice."""
     for at, column in enumerate(columns):
         if column in columns[:at]:
             yield f"the column {column!r} is there twice"
@@ -200,7 +200,7 @@ def _meant(column: str) -> str:
 
 
 def _worded(column: str) -> tuple[str, str] | None:
-    """What a column holds the words of, and in which language."""
+    """Return what a column holds the words of, and in which language."""
     stem, _, code = column.partition("_")
     return (stem, standard(code)) if stem in WORDED and is_right(code) else None
 
@@ -221,7 +221,7 @@ class Heading:
 
 
 def read_items(file: Path, heading: Heading) -> Questionnaire:
-    """The questionnaire that a CSV table holds; raises UserInputError with a sentence for every bad cell."""
+    """Return the questionnaire that a CSV table holds; raises UserInputError with a sentence for every bad cell."""
     table = CsvTable.read(file)
     reading = _Reading(table)
     items = tuple(reading.item(row) for row in table.rows)
@@ -253,7 +253,7 @@ class _Reading:
                 self._blame(row, "id", f"{name!r} stands in row {first[name]} too")
 
     def item(self, row: CsvRow) -> Any:
-        """The item of a row, or None."""
+        """Return the item of a row, or None."""
         kind = row.cells.get("kind", "")
         if kind not in ITEM_KINDS:
             what = f"it must be one of {', '.join(ITEM_KINDS)}, but it is {kind!r}" if kind else "it is empty"
@@ -272,7 +272,7 @@ class _Reading:
             return None
 
     def _given(self, row: CsvRow, model: type[BaseItem]) -> tuple[dict[str, Any], set[str]]:
-        """What a row gives for the fields of a model, and the columns that it stands in."""
+        """Return what a row gives for the fields of a model, and the columns that it stands in."""
         given: dict[str, Any] = {}
         used: set[str] = set()
         for key, field_ in model.model_fields.items():
@@ -303,7 +303,7 @@ class _Reading:
             return None
 
     def _options(self, row: CsvRow, columns: Sequence[str]) -> list[dict[str, Any]] | None:
-        """The options of a choice: ``id=word;id=word`` in each language, with the same ids in the same order."""
+        """Return the options of a choice: ``id=word;id=word`` in each language, with the same ids in the same order."""
         words = {column: self._pairs(row, column) for column in columns}
         first, *others = words
         if not all(words.values()):
@@ -317,7 +317,7 @@ class _Reading:
         ]
 
     def _pairs(self, row: CsvRow, column: str) -> dict[str, str]:
-        """The words of a cell by their ids; nothing if they cannot be told."""
+        """Return the words of a cell by their ids; nothing if they cannot be told."""
         pairs = [tuple(map(str.strip, pair.partition("=")[::2])) for pair in row.cells[column].split(";")]
         told = {name: word for name, word in pairs if name and word}
         if len(told) < len(pairs):
@@ -355,7 +355,7 @@ def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
 
 
 def as_toml(questionnaire: Questionnaire) -> str:
-    """The text of a file that is read as this questionnaire."""
+    """Return the text of a file that is read as this questionnaire."""
     document = tomlkit.document()
     given = questionnaire.model_dump(mode="json", exclude_defaults=True)
     items = given.pop("items")
@@ -369,7 +369,7 @@ def as_toml(questionnaire: Questionnaire) -> str:
 
 
 def _table(item: Mapping[str, Any]) -> Table:
-    """An item, with a line for each language of a text and for each option."""
+    """Return an item, with a line for each language of a text and for each option."""
     table = tomlkit.table()
     for key, value in item.items():
         match value:

@@ -54,7 +54,7 @@ def _faults(name: str, written: Written, catalogue: Catalogue, model: Catalogue,
 
 
 def _given(name: str, model: Catalogue) -> frozenset[str] | None:
-    """The variables that a message is given; None for one that is said only inside of others."""
+    """Return the variables that a message is given; None for one that is said only inside of others."""
     if name.startswith(f"{CARD}-"):
         return frozenset()
     hint = given_with(name)
@@ -108,7 +108,7 @@ class _Uses(Visitor):
         return uses
 
     def names(self, kind: type[VariableReference]) -> set[str]:
-        """The names of one kind of what it refers to."""
+        """Return the names of one kind of what it refers to."""
         return {node.id.name for node in self.nodes if isinstance(node, kind)}
 
     def visit_VariableReference(self, node: VariableReference) -> None:  # noqa: N802 - fluent.syntax's name

@@ -92,13 +92,13 @@ def unclear_names(asked: Sequence[tuple[Path, Questionnaire]]) -> Iterator[str]:
 
 
 def unclear_cards(cards: Iterable[str]) -> Iterator[str]:
-    """The same for the cards of a deck."""
+    """Yield the same for the cards of a deck."""
     for one, other in alike(cards):
         yield f"the cards {one!r} and {other!r} {ONE_NAME}"
 
 
 def unclear_purposes(purposes: Iterable[str]) -> Iterator[str]:
-    """The same for the purposes of the consent."""
+    """Yield the same for the purposes of the consent."""
     for one, other in alike(purposes):
         yield f"the purposes {one!r} and {other!r} {ONE_NAME}"
 
@@ -118,7 +118,7 @@ def _between(what: str, named: Sequence[tuple[str, Path]]) -> Iterator[str]:
 
 
 def _unsaid(actions: Sequence[ActionSpec], catalogue: Catalogue) -> Iterator[str]:
-    """What a language has no wordings for, of what actions say."""
+    """Yield what a language has no wordings for, of what actions say."""
     for action in actions:
         lacking = [message for message in action.messages if not catalogue.wordings_of(message)]
         # What comes with Recollect is looked for with all other messages.
@@ -180,7 +180,7 @@ def read_study(settings: Settings) -> StudyConfig:
 
 
 def _boards(settings: Settings) -> Iterator[tuple[str, Game | Practice]]:
-    """The boards that visitors see, by their section of the study file."""
+    """Yield the boards that visitors see, by their section of the study file."""
     yield "game", settings.game
     if "practice" in settings.stages:
         yield "practice", settings.practice
@@ -197,7 +197,7 @@ class _Look:
         self.sources: list[Source] = []
 
     def at(self, key: str, read: Callable[[], Read]) -> Read | None:
-        """What is read, or None if the study file is to blame, at this key."""
+        """Return what is read, or None if the study file is to blame, at this key."""
         try:
             return read()
         except UserInputError as error:
@@ -207,7 +207,7 @@ class _Look:
         return None
 
     def into(self, read: Callable[[], Read]) -> Read | None:
-        """What is read, or None if a file is to blame that its own sentence names."""
+        """Return what is read, or None if a file is to blame that its own sentence names."""
         try:
             return read()
         except UserInputError as error:
@@ -243,7 +243,7 @@ class _Look:
         return found
 
     def _catalogue(self, name: str, model: Catalogue, actions: Sequence[ActionSpec]) -> Catalogue | None:
-        """The sentences of one language, with the names of the cards that lie in the decks' own folders."""
+        """Return the sentences of one language, with the names of the cards that lie in the decks' own folders."""
         if self.at("languages", partial(standard, code_of(name))) is None:
             return None
         place = self.at("languages", partial(located, self._settings, "sentences", name))
@@ -270,12 +270,12 @@ class _Look:
         return catalogue
 
     def _words_of_actions(self, code: str, actions: Sequence[ActionSpec]) -> dict[str, Path]:
-        """The files in which packages say their actions in a language."""
+        """Return the files in which packages say their actions in a language."""
         files = {f"action-{each.label}.ftl": each.sentences / f"{code}.ftl" for each in actions if each.sentences}
         return {name: file for name, file in files.items() if file.is_file()}
 
     def _words_of_decks(self, code: str) -> dict[str, Path]:
-        """The files with which decks name their own cards in a language, by what to call them in records."""
+        """Return the files with which decks name their own cards in a language, by what to call them in records."""
         words: dict[str, Path] = {}
         for _, board in _boards(self._settings):
             place = self._settings.locate("cards", board.deck)
@@ -285,12 +285,12 @@ class _Look:
         return words
 
     def _cards(self) -> tuple[str, ...]:
-        """The names of all cards that a visitor may see."""
+        """Return the names of all cards that a visitor may see."""
         places = (self._settings.locate("cards", board.deck) for _, board in _boards(self._settings))
         return tuple(sorted({path.stem for place in places if place for path in place.path.glob("*.svg")}))
 
     def sheets(self) -> dict[str, Information]:
-        """What visitors are told in every language; the same in each."""
+        """Return what visitors are told in every language; the same in each."""
         text = self._settings.consent.text
         place = self.at("consent.text", partial(located, self._settings, "consent", text))
         if place is None:
@@ -308,7 +308,7 @@ class _Look:
         return sheets
 
     def questionnaires(self) -> tuple[Questionnaire, ...]:
-        """The one about the visitor, and those after the game; none of their names is the same."""
+        """Return the one about the visitor, and those after the game; none of their names is the same."""
         settings = self._settings
         names = (("about_you", settings.about_you), *(("questionnaires", name) for name in settings.questionnaires))
         asked = tuple(read for key, name in names if (read := self._questionnaire(key, name)))
@@ -335,7 +335,7 @@ class _Look:
         return asked
 
     def _unseen(self, asked: Questionnaire) -> Iterator[str]:
-        """What is wrong with the pictures of its scales."""
+        """Yield what is wrong with the pictures of its scales."""
         for item in asked.items:
             if not isinstance(item, Pictures):
                 continue
@@ -349,7 +349,7 @@ class _Look:
                 yield from (f"{item.id}: there is no picture {file}" for file in needed if not file.is_file())
 
     def policy(self) -> QTable | None:
-        """The frozen table."""
+        """Return the frozen table."""
         name = self._settings.assistance.policy
         if name == NONE:
             return QTable.blank()
@@ -360,7 +360,7 @@ class _Look:
         return table
 
     def deck(self, key: str, board: Game | Practice) -> tuple[str, ...]:
-        """The names of a deck's cards, in alphabetical order; there are enough for the board."""
+        """Return the names of a deck's cards, in alphabetical order; there are enough for the board."""
         shape, places = f"a board of {board.rows} x {board.columns}", board.rows * board.columns
         if places % CARDS_IN_A_PAIR:
             self._blame(key, f"{shape} has {places} places, but cards come in pairs")
@@ -398,7 +398,7 @@ class _Look:
 
 
 def _hash_of_files(files: Iterable[Path]) -> str:
-    """The hash over files that belong together, by their names and what is in them."""
+    """Return the hash over files that belong together, by their names and what is in them."""
     return _hash((file.name, _digest(file)) for file in files)
 
 
@@ -433,7 +433,7 @@ TAP_MS = 2000
 
 
 def study_warnings(study: StudyConfig) -> tuple[str, ...]:
-    """A sentence for everything that can be run but may not be meant."""
+    """Return a sentence for everything that can be run but may not be meant."""
     return (*_of_texts(study), *_of_names(study), *_of_cards(study))
 
 
@@ -452,7 +452,7 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
 
 
 def _given(study: StudyConfig) -> set[Condition]:
-    """The conditions that visitors can get without a decision of the experimenter's."""
+    """Return the conditions that visitors can get without a decision of the experimenter's."""
     return {plan.condition for plan in study.plans} | {
         Condition.from_name(name) for name in study.settings.randomisation.target_n
     }
@@ -501,7 +501,7 @@ def expected_minutes(plan: SessionConfig) -> float:
 
 
 def _stage_times(plan: SessionConfig) -> Mapping[str, float]:
-    """What each stage takes in ms, as far as it can be known beforehand."""
+    """Return what each stage takes in ms, as far as it can be known beforehand."""
     settings, pages = plan.settings, plan.information
     return {
         "about": _reading(plan, *pages.about.paragraphs),
@@ -547,7 +547,7 @@ def faults_check(sentences: Sequence[str]) -> Iterator[CheckResult]:
 
 
 def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
-    """What the study is, and what of it may not be meant."""
+    """Yield what the study is, and what of it may not be meant."""
     longest = max(round(expected_minutes(plan)) for plan in study.plans)
     yield CheckResult.ok(
         FILE, f"{study.settings.title!r}, about {longest} minutes, {study.settings.sha256[:SHORT_SHA]}"
@@ -557,7 +557,7 @@ def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
 
 
 def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
-    """The frozen table, and the page about it."""
+    """Yield the frozen table, and the page about it."""
     table = study.plans[0].policy
     words = f"{table.name} {table.sha256[:SHORT_SHA]}"
     name = study.settings.assistance.policy
@@ -569,7 +569,7 @@ def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
 
 
 def languages_check(study: StudyConfig) -> Iterator[CheckResult]:
-    """The languages that a visitor can choose, with their sentences and sheets."""
+    """Yield the languages that a visitor can choose, with their sentences and sheets."""
     plans = ", ".join(f"{plan.language} ({len(plan.catalogue.messages)} messages)" for plan in study.plans)
     yield CheckResult.ok(LANGUAGES, plans)
 

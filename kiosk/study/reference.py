@@ -41,7 +41,7 @@ This page is printed by `recollect study reference`; change the declarations in 
 
 
 def as_study_file(settings: Settings) -> str:
-    """A study file that sets every key to what it is in ``settings``, each under its sentence."""
+    """Return a study file that sets every key to what it is in ``settings``, each under its sentence."""
     parts = [_HEAD]
     for section, model in _sections(settings):
         if section:
@@ -51,7 +51,7 @@ def as_study_file(settings: Settings) -> str:
 
 
 def as_page(model: type[Settings]) -> str:
-    """The reference of every key, as Markdown."""
+    """Return the reference of every key, as Markdown."""
     parts = [_PAGE]
     for section, settings in _sections(model()):
         heading = f"## [{section}]\n\n{_described(type(settings))}" if section else "## Above all sections"
@@ -61,7 +61,7 @@ def as_page(model: type[Settings]) -> str:
 
 
 def _sections(settings: Settings) -> Iterator[tuple[str, BaseModel]]:
-    """The study file itself, without a name, and every section of it."""
+    """Yield the study file itself, without a name, and every section of it."""
     yield "", settings
     for key in type(settings).model_fields:
         if isinstance(section := getattr(settings, key), BaseModel):
@@ -69,14 +69,14 @@ def _sections(settings: Settings) -> Iterator[tuple[str, BaseModel]]:
 
 
 def _keys(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
-    """What is no section."""
+    """Yield what is no section."""
     for key, field in model.model_fields.items():
         if not isinstance(field.default, BaseModel):
             yield key, field
 
 
 def _described(model: type[BaseModel]) -> str:
-    """A section's own sentences, in one paragraph each."""
+    """Return a section's own sentences, in one paragraph each."""
     paragraphs = inspect.cleandoc(model.__doc__ or "").split("\n\n")
     return "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs).replace("``", "`")
 
@@ -87,7 +87,7 @@ def _comment(text: str) -> str:
 
 
 def _sentence(field: FieldInfo) -> str:
-    """What a key sets, and in which unit."""
+    """Return what a key sets, and in which unit."""
     unit = next((each.name for each in field.metadata if isinstance(each, Unit)), "")
     described = field.description or ""
     said = not unit or re.search(rf"\b{unit}\b", described)
@@ -105,7 +105,7 @@ def _row(key: str, field: FieldInfo, value: object) -> str:
 
 
 def _toml(value: object, width: int = WIDTH) -> str:
-    """A value as TOML; a list that is too long for a line gets a line for each entry."""
+    """Return a value as TOML; a list that is too long for a line gets a line for each entry."""
     if isinstance(value, dict):
         inner = ", ".join(f"{key} = {_toml(each)}" for key, each in value.items())
         return f"{{ {inner} }}" if inner else "{}"
@@ -117,7 +117,7 @@ def _toml(value: object, width: int = WIDTH) -> str:
 
 
 def _may_be(field: FieldInfo) -> str:
-    """What may be given for a key, in words."""
+    """Return what may be given for a key, in words."""
     annotation, declared = field.annotation, list(field.metadata)
     if NoneType in get_args(annotation):
         annotation = next(each for each in get_args(annotation) if each is not NoneType)
@@ -130,7 +130,7 @@ def _may_be(field: FieldInfo) -> str:
 
 
 def _bounds(declared: Sequence[Any]) -> str:
-    """The bounds of a number; its unit stands in its sentence."""
+    """Return the bounds of a number; its unit stands in its sentence."""
     return bounds([each for each in declared if not isinstance(each, Unit)])
 
 

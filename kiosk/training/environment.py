@@ -136,7 +136,7 @@ class AssistanceEnv(gym.Env[int, int]):
         return self._observation(), float(paid), over, given_up, self._facts(taken)
 
     def render(self) -> str | None:
-        """The board as text, or None without a render mode; raises ResetNeeded before the first game."""
+        """Return the board as text, or None without a render mode; raises ResetNeeded before the first game."""
         if self.render_mode != "ansi":
             return None
         self._check_dealt()

@@ -158,7 +158,7 @@ class Recipe:
         check_between("gamma", self.gamma, 0, 1)
 
     def training(self, command: str) -> dict[str, Any]:
-        """What a policy file says about how it was made; no dates, machines or paths."""
+        """Return what a policy file says about how it was made; no dates, machines or paths."""
         return {
             "command": command,
             "version": __version__,
@@ -232,7 +232,7 @@ class LearnerState(NamedTuple):
 
 @compiled_rule
 def epsilon_at(lesson: Ints, episode: int) -> float:
-    """The chance of a random action; see ``Epsilon``."""
+    """Return the chance of a random action; see ``Epsilon``."""
     if lesson[EPSILON] == LINEAR_EPSILON:
         return 1.0 - (1.0 - FLOOR) * episode / lesson[EPISODES]
     falling = 1.0 / (1.0 + DECAY * episode)
@@ -241,7 +241,7 @@ def epsilon_at(lesson: Ints, episode: int) -> float:
 
 @compiled_rule
 def alpha_at(lesson: LearnerState, episode: int, visits: int) -> float:
-    """The learning rate; see ``Alpha``."""
+    """Return the learning rate; see ``Alpha``."""
     if lesson.plan[ALPHA] == VISITS:
         return lesson.rates[min(visits, len(lesson.rates) - 1)]
     if lesson.plan[ALPHA] == LINEAR_ALPHA:
@@ -320,7 +320,7 @@ class Learner:
             progress(stop)
 
     def freeze(self, name: str, command: str) -> QTable:
-        """The table as it stands; one that was stopped early says so in its ``training``."""
+        """Return the table as it stands; one that was stopped early says so in its ``training``."""
         averaged = self.recipe.averaging is Averaging.LAST_HALF and self.episodes > self.recipe.episodes // 2
         flat = [float(value) for value in (self._lesson.mean if averaged else self._lesson.q)]
         actions = self.recipe.actions
@@ -360,6 +360,6 @@ def _lesson(recipe: Recipe) -> LearnerState:
 
 
 def _rates(recipe: Recipe) -> list[float]:
-    """The decreasing learning rate, worked out beforehand: a power may differ in its last bit when compiled."""
+    """Return the decreasing learning rate, worked out beforehand: a power may differ in its last bit when compiled."""
     longest = min(recipe.episodes * DECISIONS_AN_EPISODE, LONGEST_MEMORY) if recipe.alpha is LearningRate.VISITS else 0
     return [1.0] + [count**POWER for count in range(1, longest + 1)]

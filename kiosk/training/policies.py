@@ -48,7 +48,7 @@ def visits(policy: QTable) -> dict[State, int]:
 
 
 def helped(policy: QTable) -> list[State]:
-    """The states in which the table helps."""
+    """Return the states in which the table helps."""
     return [state for state in policy.states if policy.action(state) is not ActionSpec.NO_HELP]
 
 
@@ -76,7 +76,7 @@ def compare_policies(one: QTable, other: QTable) -> Comparison:
 
 
 def _shared_values(one: QTable, other: QTable, state: State) -> list[tuple[float, float]]:
-    """The values of a state in two tables, for the actions that both have."""
+    """Return the values of a state in two tables, for the actions that both have."""
     values = [dict(zip(table.actions, table.row(state), strict=True)) for table in (one, other)]
     return [(value, values[1][action]) for action, value in values[0].items() if action in values[1]]
 
@@ -95,7 +95,7 @@ class PolicyClaim:
 
 
 def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[PolicyClaim, ...]:
-    """The paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
+    """Return the paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
     levels = {
         phase: _level(policy, [s for s in policy.states if s.game is phase and _known(policy, s)]) for phase in Phase
     }

@@ -69,7 +69,7 @@ class RewardFlip(NamedTuple):
 
 @compiled_rule
 def reward_flip(game: Ints, lead: int) -> RewardFlip:
-    """The next flip of ``game``, with a help that gives so much away."""
+    """Return the next flip of ``game``, with a help that gives so much away."""
     second = 0 if game[FIRST] == NOWHERE else 1
     early = 1 if game[PAIRS_FOUND] == 0 else 0
     return RewardFlip(second, game[LEAD], lead, game[FLIPS] + 1 - game[LAST_MATCH], PHASES - phase(game), early)
@@ -77,7 +77,7 @@ def reward_flip(game: Ints, lead: int) -> RewardFlip:
 
 @compiled_rule
 def reward_of(reward: int, flip: RewardFlip, matched: int, purse: Floats) -> float:
-    """What this flip is worth."""
+    """Return what this flip is worth."""
     if reward == PAPER:
         return weighed(flip)
     if reward == RETRIEVAL:
@@ -103,7 +103,7 @@ def retrieved(flip: RewardFlip) -> float:
 
 @compiled_rule
 def weighed(flip: RewardFlip) -> float:
-    """The paper's formulas: a / nf on a first card, a / (nf g) without help on a second, a nf g with help."""
+    """Return the paper's formulas: a / nf on a first card, a / (nf g) without help on a second, a nf g with help."""
     if flip.second == 0:
         return WEIGHTS[flip.action] / flip.nf
     if flip.action == NO_HELP:

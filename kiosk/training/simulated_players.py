@@ -72,11 +72,11 @@ class SimulatedPlayer(Protocol):
         ...
 
     def parameters(self) -> dict[str, Any]:
-        """What a policy file says about this player."""
+        """Return what a policy file says about this player."""
         ...
 
     def numbers(self) -> tuple[Ints, Floats]:
-        """The numbers that the rules play with."""
+        """Return the numbers that the rules play with."""
         ...
 
 
@@ -98,11 +98,11 @@ class ChancePlayer:
         check_between("follow", self.follow, 0, 1)
 
     def parameters(self) -> dict[str, Any]:
-        """What a policy file says about this player."""
+        """Return what a policy file says about this player."""
         return {"name": self.name, "threshold": self.threshold, "follow": self.follow}
 
     def numbers(self) -> tuple[Ints, Floats]:
-        """The numbers that the rules play with."""
+        """Return the numbers that the rules play with."""
         wakes = [NEVER] + [self._wakes(left) for left in range(1, PAIRS + 1)]
         return [CHANCE, 0, *wakes], [self.follow, 0.0, 0.0, *[0.0] * (LONGEST + 1)]
 
@@ -140,14 +140,14 @@ class MemoryPlayer:
         check_between("lapse", self.lapse, 0, 1)
 
     def parameters(self) -> dict[str, Any]:
-        """What a policy file says about this player."""
+        """Return what a policy file says about this player."""
         low, high = self.forgetting
         # Without lapses there is no word of them, so that the hashes of tables that know none stay as they are.
         lapses = {"lapse": self.lapse} if self.lapse else {}
         return {"name": self.name, "forgetting": low if low == high else [low, high], "follow": self.follow, **lapses}
 
     def numbers(self) -> tuple[Ints, Floats]:
-        """The numbers that the rules play with."""
+        """Return the numbers that the rules play with."""
         kept = [0.0] * LONGEST
         return [MEMORY, 0, *[NEVER] * (PAIRS + 1)], [self.follow, *self.forgetting, *kept, self.lapse]
 
@@ -197,16 +197,16 @@ class PopulationPlayer:
             raise UserInputError(f"the file of people {path} cannot be used: {error}") from error
 
     def draw(self, rng: Random) -> float:
-        """The forgetting of one person of the population, drawn with ``rng``."""
+        """Return the forgetting of one person of the population, drawn with ``rng``."""
         return _inverse_logit(rng.gauss(self.forgetting_mean, self.forgetting_spread))
 
     def parameters(self) -> dict[str, Any]:
-        """What a policy file says about this player."""
+        """Return what a policy file says about this player."""
         own = {"forgetting_mean": self.forgetting_mean, "forgetting_spread": self.forgetting_spread}
         return {"name": self.name, **own, "follow": self.follow, "lapse": self.lapse}
 
     def numbers(self) -> tuple[Ints, Floats]:
-        """The numbers that the rules play with."""
+        """Return the numbers that the rules play with."""
         normal = NormalDist()
         middles = [normal.inv_cdf((number + 0.5) / POPULATION) for number in range(POPULATION)]
         people = [_inverse_logit(self.forgetting_mean + self.forgetting_spread * middle) for middle in middles]
@@ -252,12 +252,12 @@ class TextPlayer:
             )
 
     def parameters(self) -> dict[str, Any]:
-        """What a policy file says about this player."""
+        """Return what a policy file says about this player."""
         own = {"forgetting": self.forgetting, "counting": self.counting.value}
         return {"name": self.name, **own, "follow": self.follow}
 
     def numbers(self) -> tuple[Ints, Floats]:
-        """The numbers that the rules play with."""
+        """Return the numbers that the rules play with."""
         total = int(self.counting is Counting.TOTAL)
         return [TEXT, total, *[NEVER] * (PAIRS + 1)], [self.follow, *[self.forgetting] * 2, *[0.0] * (LONGEST + 1)]
 
@@ -387,7 +387,7 @@ def mark_half(game: Ints) -> int:
 
 @compiled_rule
 def guess(game: Ints, player: Ints) -> int:
-    """The card that the player tries who knows nothing better."""
+    """Return the card that the player tries who knows nothing better."""
     if player[KIND] == MEMORY:
         return pick(game, mark_not_recalled(game))
     if player[KIND] == TEXT and game[FIRST] == NOWHERE:
@@ -401,7 +401,7 @@ def guess(game: Ints, player: Ints) -> int:
 
 @compiled_rule
 def choose(game: Ints, player: Ints, odds: Floats, action: int, target: int) -> int:
-    """The card that the player turns up next, after a hint (or none) at ``target``.
+    """Return the card that the player turns up next, after a hint (or none) at ``target``.
 
     In a line that is pointed at, a player takes the card that is sure, or any that may be right for all it recalls.
     """

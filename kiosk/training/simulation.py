@@ -70,7 +70,7 @@ class GameTable(NamedTuple):
 
 
 def lay(player: SimulatedPlayer, policy_plan: Ints, seed: int) -> GameTable:
-    """A table with a player at it; the games that follow are fixed by ``seed``."""
+    """Return a table with a player at it; the games that follow are fixed by ``seed``."""
     seed = whole("the seed", seed)
     if seed < 0:
         raise UserInputError(f"the seed must be 0 or more, not {seed}")
@@ -82,7 +82,7 @@ def lay(player: SimulatedPlayer, policy_plan: Ints, seed: int) -> GameTable:
 
 @compiled_rule
 def greedy(q: Floats, row: int, actions: int) -> int:
-    """The action with the highest value; ties go to the lowest, as ``QTable.action``."""
+    """Return the action with the highest value; ties go to the lowest, as ``QTable.action``."""
     best = 0
     for action in range(1, actions):
         if q[row * actions + action] > q[row * actions + best]:
@@ -167,7 +167,7 @@ class Spread:
 
     @classmethod
     def of(cls, values: list[float]) -> Spread:
-        """The spread of at least two numbers."""
+        """Return the spread of at least two numbers."""
         mean = math.fsum(values) / len(values)
         sd = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (len(values) - 1))
         half = Z95 * sd / math.sqrt(len(values))
@@ -185,7 +185,7 @@ class GameResults:
         return [float(tally[entry]) for tally in self.tallies]
 
     def total(self, *entries: int) -> int:
-        """The sum of some numbers over all games."""
+        """Return the sum of some numbers over all games."""
         return sum(tally[entry] for tally in self.tallies for entry in entries)
 
     @property
@@ -209,7 +209,7 @@ class GameResults:
         return Spread.of(self.each(T_FIRST))
 
     def _shares(self, part: tuple[int, ...], whole: tuple[int, ...]) -> list[float]:
-        """A share in each game in which there is something to share."""
+        """Return a share in each game in which there is something to share."""
         counted = ((sum(tally[n] for n in part), sum(tally[n] for n in whole)) for tally in self.tallies)
         return [some / all_ for some, all_ in counted if all_]
 

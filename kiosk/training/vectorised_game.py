@@ -107,13 +107,13 @@ UNIT = 2.0**-BITS
 
 
 def gate_plan(gate: Gate, target: TargetRule, actions: tuple[ActionSpec, ...] = ACTIONS) -> Ints:
-    """A gate, a target rule and the actions of a table as the rules read them."""
+    """Return a gate, a target rule and the actions of a table as the rules read them."""
     leads = [LEADS.index(action.precision) for action in actions]
     return ints([gate.opening, gate.patience, gate.first_patience, TARGET_RULES.index(target), *leads])
 
 
 def new_game(seed: int, actions: int = USUAL) -> Ints:
-    """An empty row for games with so many actions; their random numbers follow from ``seed`` (0 or more)."""
+    """Return an empty row for games with so many actions; their random numbers follow from ``seed`` (0 or more)."""
     numbers = [0] * GAME
     numbers[ACTION_COUNT] = actions
     # The hash keeps neighbouring seeds apart, which this kind of generator by itself would not.
@@ -124,7 +124,7 @@ def new_game(seed: int, actions: int = USUAL) -> Ints:
 
 @compiled_rule
 def draw(game: Ints) -> int:
-    """The next random word of 32 bits: multiply with carry, its two halves joined (period about 2^62).
+    """Return the next random word of 32 bits: multiply with carry, its two halves joined (period about 2^62).
 
     MULTIPLIER is below 2^31, so that nothing overflows 63 bits, and makes MULTIPLIER 2^32 - 1 a safe prime.
     """
@@ -135,13 +135,13 @@ def draw(game: Ints) -> int:
 
 @compiled_rule
 def below(game: Ints, number: int) -> int:
-    """A random whole number from 0 to ``number`` - 1."""
+    """Return a random whole number from 0 to ``number`` - 1."""
     return (draw(game) * number) >> BITS
 
 
 @compiled_rule
 def unit(game: Ints) -> float:
-    """A random number from 0 up to, not including, 1."""
+    """Return a random number from 0 up to, not including, 1."""
     return draw(game) * UNIT
 
 
@@ -185,13 +185,13 @@ def flip(game: Ints, place: int) -> bool:
 
 @compiled_rule
 def phase(game: Ints) -> int:
-    """The phase of the game, 0-2; as ``Phase.of``."""
+    """Return the phase of the game, 0-2; as ``Phase.of``."""
     return min(game[PAIRS_FOUND] * PHASES // PAIRS, PHASES - 1)
 
 
 @compiled_rule
 def state(game: Ints) -> int:
-    """The row of the Q-table before the next flip; as ``State.of(...).index``."""
+    """Return the row of the Q-table before the next flip; as ``State.of(...).index``."""
     outcome = (F_CORRECT if game[MATCHED] == 1 else F_WRONG) + (0 if game[FIRST] == NOWHERE else S_CORRECT - F_CORRECT)
     return (phase(game) * game[ACTION_COUNT] + game[HELP]) * OUTCOMES + outcome
 

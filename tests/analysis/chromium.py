@@ -55,11 +55,11 @@ class Browser:
             self._hear()
 
     def value(self, expression: str) -> Any:
-        """What an expression comes to in the page."""
+        """Return what an expression comes to in the page."""
         return self.ask("Runtime.evaluate", expression=expression, returnByValue=True)["result"].get("value")
 
     def named(self, method: str) -> list[Mapping[str, Any]]:
-        """The events of a kind."""
+        """Return the events of a kind."""
         return [each["params"] for each in self.events if each["method"] == method]
 
     def accessible(self) -> list[tuple[str, str]]:

@@ -37,7 +37,7 @@ def write_study(folder: Path, each: int, player: PopulationPlayer = PEOPLE, seed
 
 
 def enumerated(ages: list[int], move: tuple[int, int], d: float, one: set[int] | None, two: set[int] | None) -> float:
-    """The chance of a move by going through every set of cards that may be recalled."""
+    """Return the chance of a move by going through every set of cards that may be recalled."""
     cards, (x, y), total = len(ages), move, 0.0
     chances = [(1 - d) ** age if age >= 0 else 0.0 for age in ages]
     for recalled in itertools.product((False, True), repeat=cards):

@@ -19,7 +19,7 @@ PEOPLE = ("P0001", "P0002", "P0003")
 
 
 def write_export(folder: Path) -> Path:
-    """A small data set of three people with two scales."""
+    """Return a small data set of three people with two scales."""
     (folder / "data").mkdir(parents=True)
     described = {
         "name": "A study",

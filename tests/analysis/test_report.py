@@ -46,7 +46,7 @@ def run(*words: str) -> str:
 
 @pytest.fixture(scope="module")
 def export(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A simulated study of 12 + 12."""
+    """Return a simulated study of 12 + 12."""
     folder = tmp_path_factory.mktemp("study")
     (folder / "plan.toml").write_text(TEMPLATE.replace("n_per_arm = 56", "n_per_arm = 12"))
     run("plan", "simulate", str(folder / "plan.toml"), "--out", str(folder / "export"))
@@ -67,7 +67,7 @@ def plan_of(folder: Path) -> StudyPlan:
 
 
 def edited(export: Path, folder: Path, table: str, edit: Callable[[dict[str, str]], dict[str, str] | None]) -> Path:
-    """A copy of a data set whose rows of one table went through ``edit``; None drops a row."""
+    """Return a copy of a data set whose rows of one table went through ``edit``; None drops a row."""
     copy = folder / "edited"
     shutil.copytree(export, copy)
     path = copy / file_of(table)

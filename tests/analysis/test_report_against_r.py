@@ -27,7 +27,7 @@ def near(expected: Any, tolerance: float = 1e-6) -> Any:
 
 
 def unpack(folder: Path) -> Path:
-    """The stored data set, as an export of this version."""
+    """Return the stored data set, as an export of this version."""
     with zipfile.ZipFile(HERE / "four_cells.zip") as stored:
         stored.extractall(folder)
     described = json.loads((folder / DESCRIPTION).read_text("utf-8")) | {"schemaVersion": CODEBOOK_VERSION}

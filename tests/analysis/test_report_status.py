@@ -35,14 +35,14 @@ def run(*words: str) -> None:
 
 
 def plan_file_of(folder: Path, n: int, more: str = "") -> Path:
-    """The template for so many an arm."""
+    """Return the template for so many an arm."""
     file = folder / f"plan-{n}.toml"
     file.write_text(TEMPLATE.replace("n_per_arm = 56", f"n_per_arm = {n}") + more)
     return file
 
 
 def collected(folder: Path, plan: Path | None, late: Path | None = None) -> Path:
-    """The data set of four people in each condition, with a plan frozen before them."""
+    """Return the data set of four people in each condition, with a plan frozen before them."""
     data, out = folder / "data", folder / "export"
     if plan is not None:
         run("plan", "freeze", str(plan), "--data", str(data))
@@ -57,7 +57,7 @@ def collected(folder: Path, plan: Path | None, late: Path | None = None) -> Path
 
 @pytest.fixture(scope="module")
 def frozen(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data set of a study whose plan, for three an arm, was frozen first."""
+    """Return the data set of a study whose plan, for three an arm, was frozen first."""
     folder = tmp_path_factory.mktemp("frozen")
     return collected(folder, plan_file_of(folder, 3), late=plan_file_of(folder, 4))
 
@@ -103,7 +103,7 @@ def test_conditions_are_not_compared_before_the_first_declared_look(tmp_path: Pa
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory: pytest.TempPathFactory) -> ExportedStudy:
-    """A rehearsed study, which may be looked at at any time."""
+    """Return a rehearsed study, which may be looked at at any time."""
     return load_study(unpack(tmp_path_factory.mktemp("four") / "cells"))
 
 

@@ -15,7 +15,7 @@ from tests.samples import ANIMALS, always, mixed, policy_that
 
 @pytest.fixture
 def game() -> Concentration:
-    """A game on the study's board."""
+    """Return a game on the study's board."""
     return Concentration(Board.deal(4, 6, ANIMALS, Random(1)))
 
 

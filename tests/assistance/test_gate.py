@@ -14,7 +14,7 @@ OPEN, OPENING, DOING_WELL, STILL_EXPLORING = GateDecision
 
 
 def game_after(failed: int, since_match: int | None = None) -> Concentration:
-    """A game with so many flips of failed moves, and, if asked, a match after them and so many flips since."""
+    """Return a game with so many flips of failed moves, and, if asked, a match after them and so many flips since."""
     game = Concentration(Board(4, 6, (*ANIMALS, *ANIMALS)))
     fail(game, failed)
     if since_match is not None:

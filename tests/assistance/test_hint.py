@@ -56,7 +56,7 @@ def test_on_a_first_card_it_does_not_matter_which_of_the_two_is_pointed_at(
 
 
 def hint(action: ActionSpec) -> Hint:
-    """A hint at row 2, column 5, counted from 0."""
+    """Return a hint at row 2, column 5, counted from 0."""
     target = Target(Position(2, 5), Position(0, 0), 0, 0, HintReason.NOTHING_KNOWN, ())
     return Hint(action, FIRST, target, "owl")
 

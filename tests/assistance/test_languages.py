@@ -37,12 +37,12 @@ of_every_language = pytest.mark.parametrize("language", LANGUAGES)
 
 @cache
 def catalogue(language: str) -> Catalogue:
-    """The catalogue of a language."""
+    """Return the catalogue of a language."""
     return Catalogue(SENTENCES / language)
 
 
 def hints(name: str) -> Iterator[Hint]:
-    """A hint for every reason, precision and card of the move, about this picture."""
+    """Yield a hint for every reason, precision and card of the move, about this picture."""
     for card, action in product(FlipInMove, HELP):
         for other, target in COUNTS[card]:
             reason = HintReason.of(card, other, target)
@@ -76,12 +76,12 @@ def messages(sources: dict[str, str]) -> dict[str, ast.Message]:
 
 @cache
 def parsed(source: str) -> list[ast.EntryType]:
-    """What stands in a file."""
+    """Return what stands in a file."""
     return FluentParser().parse(source).body
 
 
 def variables(message: ast.Message) -> set[str]:
-    """The variables that are used somewhere in a message."""
+    """Return the variables that are used somewhere in a message."""
     return _Uses(message).variables
 
 
@@ -91,7 +91,7 @@ def wordings(message: ast.Message) -> int:
 
 
 def faults(sources: dict[str, str]) -> list[str]:
-    """What a language's files lack or have too much of, measured against English; each names the message."""
+    """Return what a language's files lack or have too much of, measured against English; each names the message."""
     english, own = messages(catalogue("en").sources), messages(sources)
     found = [f"{key} is missing" for key in english.keys() - own.keys()]
     found += [f"{key} is used by nobody" for key in own.keys() - english.keys()]
@@ -111,7 +111,7 @@ def _texts(message: ast.Message) -> Counter[str]:
 
 
 def least_wordings(key: str) -> int:
-    """What is said often needs three wordings, what is said once in a session two."""
+    """Return what is said often needs three wordings, what is said once in a session two."""
     if key.startswith(("reason-", "point-")):
         return 3
     return 2 if wordings(messages(catalogue("en").sources)[key]) else 0
@@ -268,7 +268,7 @@ def test_nothing_supposes_a_woman_or_a_man(language: str) -> None:
 
 @pytest.fixture
 def fourth(tmp_path: Path) -> Catalogue:
-    """The catalogue of the pseudo-language."""
+    """Return the catalogue of the pseudo-language."""
     return Catalogue(pseudo.write(tmp_path))
 
 

@@ -27,14 +27,14 @@ LABELS = [state.label for state in STATES]
 
 @pytest.fixture
 def table() -> QTable:
-    """A table with a number of its own in every place, and a gate unlike the default."""
+    """Return a table with a number of its own in every place, and a gate unlike the default."""
     values = [[index + column / 10 for column in range(4)] for index in range(48)]
     return QTable.freeze("numbers", Gate(1, 2, 3), values, {"seed": 7, "players": ["memory", "chance"], "d": 0.25})
 
 
 @pytest.fixture
 def document(table: QTable) -> Document:
-    """What stands in the file of that table."""
+    """Return what stands in the file of that table."""
     content: Document = json.loads(table.to_json())
     return content
 
@@ -46,14 +46,14 @@ def file(tmp_path: Path) -> Path:
 
 
 def signed(document: Document) -> Document:
-    """The document with the hash that fits its content."""
+    """Return the document with the hash that fits its content."""
     content = {key: value for key, value in document.items() if key != "sha256"}
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return content | {"sha256": hashlib.sha256(canonical.encode()).hexdigest()}
 
 
 def refusal(file: Path) -> str:
-    """The sentence with which a file is refused; it names the file, and is one line."""
+    """Return the sentence with which a file is refused; it names the file, and is one line."""
     with pytest.raises(PolicyError) as refused:
         QTable.load(file)
     sentence = str(refused.value)

@@ -96,7 +96,7 @@ CELLS: dict[tuple[bool, str], Callable[[int, int], bool]] = {
 
 
 def cell(asked: Asked) -> tuple[bool, str]:
-    """The one cell of the table that these counts belong to."""
+    """Return the one cell of the table that these counts belong to."""
     found = [key for key, holds in CELLS.items() if key[0] == asked.second and holds(asked.other, asked.target)]
     assert len(found) == 1
     return found[0]

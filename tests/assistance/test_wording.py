@@ -28,7 +28,7 @@ COUNTS = {
 def hint(
     action: ActionSpec, card: FlipInMove = FlipInMove.FIRST, other: int = 0, target: int = 0, name: str = "owl"
 ) -> Hint:
-    """A hint at row 3, column 6 as people count."""
+    """Return a hint at row 3, column 6 as people count."""
     reason = HintReason.of(card, other, target)
     return Hint(action, card, Target(Position(2, 5), Position(0, 0), target, other, reason, ()), name)
 
@@ -41,12 +41,12 @@ in_every_language = pytest.mark.parametrize("language", CATALOGUES.values(), ids
 
 
 def messages(language: Catalogue, file: str) -> list[str]:
-    """The messages of one file of a catalogue, as often as they stand there."""
+    """Return the messages of one file of a catalogue, as often as they stand there."""
     return re.findall(r"^([a-z][\w-]*) *=", language.sources[file], re.MULTILINE)
 
 
 def catalogue(folder: Path, **files: str) -> Catalogue:
-    """A catalogue of a language of these files."""
+    """Return a catalogue of a language of these files."""
     language = folder / "xx"
     language.mkdir()
     for name, content in files.items():

@@ -34,7 +34,7 @@ FAR_TOO_LONG_MS = 500
 
 @contextmanager
 def kiosk(data: Path, pace: ClockMode, fake: FurhatFake) -> Iterator[App]:
-    """A kiosk with this robot, which is tried again soon after a loss."""
+    """Provide a kiosk with this robot, which is tried again soon after a loss."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "backoff_initial_ms": 5, "backoff_max_ms": 5}
     with headless(short(robot=robot, voice={"device": "null"}), data, mode=RunMode(WindowMode.NOWHERE, pace)) as app:
         yield app
@@ -48,7 +48,7 @@ def told(what: str, times_ms: list[float]) -> None:
 
 
 def noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
-    """The same call, noted just before it is made."""
+    """Return the same call, noted just before it is made."""
 
     def noted(*arguments: Any, **options: Any) -> Any:
         note(*arguments, **options)

@@ -44,13 +44,13 @@ class Bad:
         return study
 
     def sentences(self, study: Path) -> list[str]:
-        """What is said of it where it lies."""
+        """Return what is said of it where it lies."""
         places = {"{study}": f"the study file {study}", "{here}": str(study.parent), **KNOWN}
         return [reduce(lambda text, place: text.replace(*place), places.items(), each) for each in self.says]
 
 
 def asset(name: str) -> str:
-    """The text of a shipped file."""
+    """Return the text of a shipped file."""
     return (ASSETS / name).read_text("utf-8")
 
 
@@ -82,7 +82,7 @@ UNTRANSLATED = (
 
 
 def asked(*changes: tuple[str, str]) -> dict[str, str]:
-    """The questionnaire with some of it replaced."""
+    """Return the questionnaire with some of it replaced."""
     text = QUESTIONS
     for old, new in changes:
         assert old in text
@@ -91,7 +91,7 @@ def asked(*changes: tuple[str, str]) -> dict[str, str]:
 
 
 def told(language: str, old: str, new: str) -> dict[str, str]:
-    """The information sheets with something in one language replaced."""
+    """Return the information sheets with something in one language replaced."""
     name = f"sheets/{language}.toml"
     assert old in SHEETS[name]
     return SHEETS | {name: SHEETS[name].replace(old, new)}

@@ -30,7 +30,7 @@ def run(*words: object, answer: str = "") -> Result:
 
 
 def said(*words: object) -> Any:
-    """What a command that went well says to a program."""
+    """Return what a command that went well says to a program."""
     result = run(*words, "--json")
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
@@ -38,13 +38,13 @@ def said(*words: object) -> Any:
 
 @pytest.fixture
 def day(tmp_path: Path) -> Path:
-    """A day at a booth."""
+    """Return a day at a booth."""
     a_day(tmp_path / "day", PEOPLE, "MI")
     return tmp_path / "day"
 
 
 def code_of(folder: Path, number: int) -> str:
-    """The code of somebody by their number."""
+    """Return the code of somebody by their number."""
     ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
     return str(code)
 

@@ -39,7 +39,7 @@ Recollect = Callable[..., Called]
 
 @pytest.fixture
 def recollect(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Recollect:
-    """The command line, on a machine without a screen."""
+    """Return the command line, on a machine without a screen."""
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
 

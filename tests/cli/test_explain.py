@@ -26,7 +26,7 @@ BEAR, BUTTERFLY, CAT, DUCK = range(4)
 
 @pytest.fixture
 def policy(tmp_path: Path) -> Path:
-    """A policy that always points to a row, behind the gate."""
+    """Return a policy that always points to a row, behind the gate."""
     file = tmp_path / "rows.json"
     file.write_text(always(ActionSpec.SUG_ROW, Gate()).to_json(), "utf-8")
     return file
@@ -34,7 +34,7 @@ def policy(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def case(policy: Path) -> Case:
-    """A case in which the bear was seen three times, alone, and a first card may be helped."""
+    """Return a case in which the bear was seen three times, alone, and a first card may be helped."""
     flips = [BEAR, BUTTERFLY, BEAR, CAT, BEAR, DUCK, 4, 5, 6, 7]
     return {"board": BOARD, "flips": flips, "last_action": "no_help", "condition": "tom", "policy": str(policy),
             "language": "en"}  # fmt: skip
@@ -50,7 +50,7 @@ def run(*arguments: object) -> int:
 
 @pytest.fixture
 def explain(tmp_path: Path, case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Explain:
-    """The explanation of the case with some keys changed."""
+    """Return the explanation of the case with some keys changed."""
     monkeypatch.setattr(sys, "argv", [])
 
     def explanation(**changes: Any) -> dict[str, Any]:
@@ -195,7 +195,7 @@ def test_nothing_the_case_does_not_say_is_made_up(explain: Explain) -> None:
 def refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[str], str]:
-    """The sentence with which a case file of this content is refused."""
+    """Return the sentence with which a case file of this content is refused."""
     monkeypatch.setattr(sys, "argv", [])
 
     def sentence(content: str) -> str:

@@ -27,7 +27,7 @@ SEED = 5
 
 
 def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) -> Driver:
-    """A game played to its end, and on the disk."""
+    """Return a game played to its end, and on the disk."""
     followed = plan(condition, mixed(SEED, Gate()), **settings)
     driver = Driver(followed, SEED)
     driver.to_the_game()

@@ -17,7 +17,7 @@ from tests.export.visitors import store, unsharing, visitor
 
 @pytest.fixture
 def data(tmp_path: Path) -> Path:
-    """A data folder with one participant."""
+    """Return a data folder with one participant."""
     store(tmp_path / "data", [(visitor(1), 1)])
     return tmp_path / "data"
 

@@ -24,7 +24,7 @@ ENCODINGS = ("ascii", "cp1252")
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A session."""
+    """Return a session."""
     folder = tmp_path_factory.mktemp("data")
     with Recorder(folder) as recorder:
         recorder.begin(Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.SIMULATED), [SessionStarted(at_ms=0)])
@@ -33,14 +33,14 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A study with a title that few terminals can print."""
+    """Return a study with a title that few terminals can print."""
     file = tmp_path_factory.mktemp("study") / "gedächtnis.toml"
     file.write_text(f'title = "{TITLE}"\n', encoding="utf-8")
     return file
 
 
 def command(name: str, data: Path, study: Path) -> tuple[str, ...]:
-    """A command that prints something."""
+    """Return a command that prints something."""
     return {
         "sessions": program("sessions", "--data", str(data)),
         "events": program("events", "1", "--data", str(data), "--json"),

@@ -93,7 +93,7 @@ class Newcomer:
 
 
 def bootstrap() -> ModuleType:
-    """The file that the first command runs."""
+    """Return the file that the first command runs."""
     spec = importlib.util.spec_from_file_location("bootstrap", ROOT / "packaging" / "bootstrap.py")
     assert spec is not None
     assert spec.loader is not None
@@ -104,7 +104,7 @@ def bootstrap() -> ModuleType:
 
 @pytest.fixture(scope="module")
 def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A home in which ``bootstrap.py start`` has been run; it is installed already."""
+    """Return a home in which ``bootstrap.py start`` has been run; it is installed already."""
     newcomer = Newcomer(tmp_path_factory.mktemp("home"))
     start = bootstrap()
 
@@ -129,7 +129,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def newcomer(begun: Path, tmp_path: Path) -> Newcomer:
-    """The same home for every row, so that none depends on what another one did."""
+    """Return the same home for every row, so that none depends on what another one did."""
     shutil.copytree(begun / "share", tmp_path / "share")
     (tmp_path / "small.toml").write_text(SMALL)
     return Newcomer(tmp_path)
@@ -164,7 +164,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
 
 
 def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
-    """A row with something for all that stands in capitals, and a day of a booth that is over soon."""
+    """Return a row with something for all that stands in capitals, and a day of a booth that is over soon."""
     rehearsals = newcomer.home / "share" / "recollect" / "rehearsals"
     given = {"H": "127.0.0.1", "ALL": "all", "200": "2", "A": str(rehearsals), "B": str(newcomer.home / "other")}
     if "CODE" in arguments:

@@ -17,13 +17,13 @@ from tests.robots.realtime_fake import RealtimeFake
 
 
 def tried(*arguments: object) -> tuple[int, dict[str, Any]]:
-    """The exit code and the object of ``recollect robot --json``."""
+    """Return the exit code and the object of ``recollect robot --json``."""
     result = CliRunner().invoke(recollect, ["robot", "--json", *map(str, arguments)])
     return result.exit_code, json.loads(result.stdout)
 
 
 def steps(found: dict[str, Any]) -> dict[str, str]:
-    """What every step found."""
+    """Return what every step found."""
     return {step["step"]: step["found"] for step in found["steps"]}
 
 

@@ -37,7 +37,7 @@ Recollect = Callable[..., Called]
 
 @pytest.fixture
 def recollect(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Recollect:
-    """The command line."""
+    """Return the command line."""
 
     def call(*arguments: str | Path) -> Called:
         monkeypatch.setattr(sys, "argv", ["recollect", *map(str, arguments)])

@@ -27,7 +27,7 @@ class Kept:
         self.process = process
 
     def wait_for(self, what: str) -> dict[str, Any]:
-        """The next happening of this kind; fails if the supervisor ends before."""
+        """Return the next happening of this kind; fails if the supervisor ends before."""
         assert self.process.stdout is not None
         for line in self.process.stdout:
             happening: dict[str, Any] = json.loads(line)
@@ -36,14 +36,14 @@ class Kept:
         pytest.fail(f"the supervisor ended without {what!r}")
 
     def kiosk(self) -> int:
-        """The process of the kiosk."""
+        """Return the process of the kiosk."""
         own = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
         return next(int(child) for child in own if b"\0--unattended\0" in Path(f"/proc/{child}/cmdline").read_bytes())
 
 
 @contextmanager
 def kept(data: Path, *options: str, before: tuple[str, ...] = ()) -> Iterator[Kept]:
-    """A supervisor with this data folder and these options; ``before`` is a command that starts it."""
+    """Provide a supervisor with this data folder and these options; ``before`` is a command that starts it."""
     command = (*before, *program("run", "--supervise", "--json", "--data", str(data), *options))
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:

@@ -164,19 +164,19 @@ class Driver:
         return self.send(happened.ResponseGiven(at_ms=self.now, item=shown if item is None else item, value=value))
 
     def pause(self) -> Outcome:
-        """The experimenter stops the session for a while."""
+        """Return the experimenter stops the session for a while."""
         return self.send(happened.PauseRequested(at_ms=self.now))
 
     def end_pause(self) -> Outcome:
-        """The experimenter lets it go on."""
+        """Return the experimenter lets it go on."""
         return self.send(happened.PauseEnded(at_ms=self.now))
 
     def repeat(self) -> Outcome:
-        """The experimenter wants the last sentence said again."""
+        """Return the experimenter wants the last sentence said again."""
         return self.send(happened.RepeatRequested(at_ms=self.now))
 
     def end(self, reason: str = "the fair is closing") -> Outcome:
-        """The experimenter ends the session."""
+        """Return the experimenter ends the session."""
         return self.send(happened.AbortRequested(at_ms=self.now, reason=reason))
 
     def wait(self) -> Outcome:
@@ -268,7 +268,7 @@ class Driver:
     def resumed(
         cls, plan: SessionConfig, seed: int, past: Iterable[WorldEvent], body: EmbodimentName = EmbodimentName.AVATAR
     ) -> Self:
-        """A session that was cut off after these events, in a program that has just started."""
+        """Return a session that was cut off after these events, in a program that has just started."""
         driver = cls(plan, seed)
         for event in past:
             driver.now = event.at_ms
@@ -319,7 +319,7 @@ def driven_to(stage: Stage, plan: SessionConfig | None = None, seed: int = 5, vo
 
 
 def some_answer(item: Item) -> Answer:
-    """An answer that an item accepts."""
+    """Return an answer that an item accepts."""
     if isinstance(item, Multiple):
         return item.ids[:1]
     if isinstance(item, Single):
@@ -332,13 +332,13 @@ def some_answer(item: Item) -> Answer:
 
 
 def at_random(seed: int) -> Callable[[View], Position]:
-    """A visitor without a memory: any closed card."""
+    """Return a visitor without a memory: any closed card."""
     rng = Random(seed)
     return lambda view: rng.choice(view.closed)
 
 
 def with_memory(seed: int) -> Callable[[View], Position]:
-    """A visitor who forgets nothing: a known pair or mate if there is one, else any card not yet seen."""
+    """Return a visitor who forgets nothing: a known pair or mate if there is one, else any card not yet seen."""
     rng = Random(seed)
     seen: dict[Position, str] = {}
 
@@ -354,6 +354,6 @@ def with_memory(seed: int) -> Callable[[View], Position]:
 
 
 def replay(plan: SessionConfig, seed: int, world: Iterable[WorldEvent]) -> list[Outcome]:
-    """The outcomes of a new session that is handed the same events."""
+    """Return the outcomes of a new session that is handed the same events."""
     session = Session(plan, seed)
     return [session.handle(event) for event in world]

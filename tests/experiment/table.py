@@ -15,7 +15,7 @@ from tests.samples import always, plan
 def playing(
     action: ActionSpec = ActionSpec.NO_HELP, voice: Voice = Voice.SPEAKS, seed: int = 1, **timing: Any
 ) -> Driver:
-    """A game that has just begun, in which the assistant always does the same."""
+    """Return a game that has just begun, in which the assistant always does the same."""
     driver = Driver(plan(policy=always(action), timing=Timing(**timing)), seed, voice)
     driver.to_the_game()
     return driver
@@ -32,7 +32,7 @@ def a_pair(driver: Driver) -> tuple[Position, Position]:
 
 
 def another(driver: Driver, *not_these: Position) -> Position:
-    """A closed card that is none of these."""
+    """Return a closed card that is none of these."""
     return next(place for place in driver.view.closed if place not in not_these)
 
 
@@ -47,5 +47,5 @@ def miss(driver: Driver) -> tuple[Position, Position]:
 
 
 def seen(driver: Driver, *what: str) -> tuple[object, ...]:
-    """What the view shows under these names."""
+    """Return what the view shows under these names."""
     return tuple(getattr(driver.view, name) for name in what)

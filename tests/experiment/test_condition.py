@@ -22,7 +22,7 @@ HELPED = [condition for condition in Condition if condition is not Condition.NO_
 
 
 def given_in(condition: Condition, rule: TargetRule = TargetRule.MOST_FLIPPED) -> Help:
-    """The help in a condition in which somebody helps."""
+    """Return the help in a condition in which somebody helps."""
     given = help_in(condition, rule, Wording(ENGLISH, Random(1)), Random(2))
     assert given is not None
     return given

@@ -169,7 +169,7 @@ TAPS = [event for event in EXAMPLES.values() if event.by_visitor and not isinsta
 
 
 def at(driver: Driver, event: happened.WorldEvent) -> happened.WorldEvent:
-    """The event, now."""
+    """Return the event, now."""
     return replace(event, at_ms=driver.now)
 
 

@@ -38,7 +38,7 @@ def told(listed: Iterable[AllocationSlot]) -> Counter[Condition]:
 
 
 def blocks(listed: tuple[AllocationSlot, ...]) -> list[tuple[AllocationSlot, ...]]:
-    """The places of each block."""
+    """Return the places of each block."""
     return [tuple(p for p in listed if p.block == block) for block in sorted({p.block for p in listed})]
 
 

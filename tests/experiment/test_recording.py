@@ -35,12 +35,12 @@ def ended(stage: Stage, how: Status) -> Status:
 
 
 def of(*stages: str) -> SessionConfig:
-    """A session of these stages with a small game."""
+    """Return a session of these stages with a small game."""
     return plan(stages=stages, game=Game(rows=2, columns=2))
 
 
 def without(*left_out: str) -> SessionConfig:
-    """A session of all stages but these."""
+    """Return a session of all stages but these."""
     return of(*(stage for stage in STAGES if stage not in left_out))
 
 
@@ -87,14 +87,14 @@ def test_it_is_kept_with_the_first_stage_past_deciding_whichever_that_is(chosen:
 
 
 def declined() -> Driver:
-    """A visitor who has just said that nothing shall be stored."""
+    """Return a visitor who has just said that nothing shall be stored."""
     driver = driven_to(Stage.CONSENT)
     driver.decline()
     return driver
 
 
 def under_age() -> Driver:
-    """A visitor who agreed, and then said that they are too young."""
+    """Return a visitor who agreed, and then said that they are too young."""
     driver = driven_to(Stage.AGE)
     driver.say_age(adult=False)
     return driver
@@ -169,7 +169,7 @@ def test_the_experimenter_can_end_a_session_anywhere(stage: Stage) -> None:
 
 
 def unstored_game(condition: Condition, seed: int) -> list[Outcome]:
-    """What somebody who declines sees of a game, flip by flip of the same cards."""
+    """Return what somebody who declines sees of a game, flip by flip of the same cards."""
     quotas = {"target_n": {"tom": 1, "no_assistance": 1}, "block_size": 2}
     driver = Driver(plan(condition, always(ActionSpec.SUG_CARD), STAGES, randomisation=quotas), seed)
     driver.to(Stage.CONSENT)

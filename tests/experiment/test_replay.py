@@ -13,7 +13,7 @@ from tests.samples import mixed, plan, whole
 
 
 def session(seed: int, voice: Voice = Voice.SPEAKS, condition: Condition = Condition.TOM) -> Driver:
-    """A whole session of all stages."""
+    """Return a whole session of all stages."""
     driver = Driver(whole(condition, mixed(seed)), seed, voice)
     driver.whole_session(at_random(seed))
     return driver

@@ -31,7 +31,7 @@ SMALL = whole(game=Game(rows=2, columns=3), practice=Practice(rows=2, columns=3)
 
 
 def an_eventful_session(plan: SessionConfig, seed: int) -> list[WorldEvent]:
-    """What came from outside in a whole session with practice, pauses, repeats and a lost robot."""
+    """Return what came from outside in a whole session with practice, pauses, repeats and a lost robot."""
     chance = Random(seed)
     driver = Driver(plan, SEED, chance.choice(list(Voice)))
     driver.start()

@@ -18,12 +18,12 @@ from tests.samples import always, plan, whole
 
 
 def lose(driver: Driver) -> Outcome:
-    """The robot is lost now."""
+    """Return the robot is lost now."""
     return driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
 
 
 def hinted(voice: Voice = Voice.SPEAKS) -> Driver:
-    """A game that begins with a hint."""
+    """Return a game that begins with a hint."""
     driver = Driver(plan(policy=always(ActionSpec.SUG_CARD)), voice=voice)
     driver.to_the_game()
     return driver
@@ -119,7 +119,7 @@ HELPFUL = whole(policy=always(ActionSpec.SUG_CARD), game=Game(rows=2, columns=3)
 
 
 def said(stage: Stage) -> Driver:
-    """A session in which a stage's first sentence has just been said to its end."""
+    """Return a session in which a stage's first sentence has just been said to its end."""
     driver = driven_to(stage, HELPFUL)
     number = driver.view.speaking
     while not (isinstance(driver.world[-1], happened.SpeechFinished) and driver.world[-1].utterance == number):

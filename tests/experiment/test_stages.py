@@ -198,7 +198,7 @@ def allowed(names: tuple[str, ...]) -> bool:
 
 
 def course(names: tuple[str, ...]) -> StageOrder | None:
-    """The course of these names, or None if it is refused."""
+    """Return the course of these names, or None if it is refused."""
     try:
         return StageOrder.of(names)
     except UserInputError:

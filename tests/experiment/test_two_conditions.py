@@ -22,7 +22,7 @@ Sessions = list[tuple[Driver, Driver]]
 
 
 def session(condition: Condition, seed: int, catalogue: Catalogue = CATALOGUES["en"]) -> Driver:
-    """A game played to its end, in this condition, behind the gate."""
+    """Return a game played to its end, in this condition, behind the gate."""
     driver = Driver(replace(plan(condition, mixed(seed, Gate())), catalogue=catalogue), seed)
     driver.to_the_game()
     driver.play(at_random(seed))
@@ -36,7 +36,7 @@ def both() -> Sessions:
 
 
 def hints(both: Sessions, card: FlipInMove) -> list[tuple[HintGiven, HintGiven]]:
-    """The hints before a first or a second card, side by side."""
+    """Return the hints before a first or a second card, side by side."""
     pairs = []
     for tom, notom in both:
         pairs += list(zip(tom.noted(HintGiven), notom.noted(HintGiven), strict=True))
@@ -113,7 +113,7 @@ def test_before_a_first_card_the_words_for_the_place_are_the_same_too(both: Sess
 
 
 def wordless(sentence: str) -> str:
-    """A sentence without its figures."""
+    """Return a sentence without its figures."""
     return "".join("#" if letter.isdigit() else letter for letter in sentence)
 
 

@@ -21,7 +21,7 @@ Read = Callable[[str], list[dict[str, str]]]
 
 
 def rows_of(folder: Path, table: str) -> list[dict[str, str]]:
-    """The rows of a table, read as anybody would."""
+    """Return the rows of a table, read as anybody would."""
     path = folder / "data" / f"task-concentration_description-{table}_data.csv"
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
@@ -29,7 +29,7 @@ def rows_of(folder: Path, table: str) -> list[dict[str, str]]:
 
 @pytest.fixture(scope="session")
 def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of all of them."""
+    """Return the data folder of all of them."""
     folder = tmp_path_factory.mktemp("stored") / "data"
     store(folder, visitors(PARTICIPANTS))
     return folder
@@ -45,7 +45,7 @@ def exported(stored: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def read(exported: Path) -> Read:
-    """The rows of a table of it, by its name."""
+    """Return the rows of a table of it, by its name."""
     return lambda table: rows_of(exported, table)
 
 

@@ -59,7 +59,7 @@ def _files(root: Path) -> Iterator[str]:
 
 
 def _wanted(root: Path) -> dict[str, bool]:
-    """What should be there, and whether it is."""
+    """Return what should be there, and whether it is."""
     folders = {f"{folder.upper()}_DIRECTORY": (root / folder).is_dir() for folder in ("data", *FOLDERS)}
     texts = {
         f"{stem}_DOC": any((root / f"{stem}{end}").is_file() for end in (".md", ".txt"))
@@ -159,7 +159,7 @@ def _tables(root: Path) -> Iterator[str]:
 
 
 def _compiled(root: Path, path: Path) -> dict[str, Any]:
-    """The metadata of a table: what stands beside it goes before what stands above it."""
+    """Return the metadata of a table: what stands beside it goes before what stands above it."""
     found: dict[str, Any] = {}
     for file in (root / "dataset_description.json", path.with_name("file_metadata.json"), path.with_suffix(".json")):
         try:

@@ -30,7 +30,7 @@ def table(path: Path) -> list[dict[str, str]]:
 
 
 def columns_told(path: Path) -> set[str]:
-    """The columns that a JSON file describes."""
+    """Return the columns that a JSON file describes."""
     content = json.loads(path.read_text("utf-8"))
     return {name for name, told in content.items() if isinstance(told, dict) and "Description" in told}
 

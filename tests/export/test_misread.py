@@ -33,7 +33,7 @@ HARMLESS = ("ok", "none", "3 cats", "x=1", "naïve, 日本", 'say "so"', "5", "a
 
 
 def as_pandas(cell: str) -> object:
-    """A cell as pandas' reader takes it where all of its column are like it."""
+    """Return a cell as pandas' reader takes it where all of its column are like it."""
     if cell in {"", "#N/A", "N/A", "NA", "NULL", "NaN", "None", "n/a", "nan", "null", "<NA>"}:
         return None
     if cell.lower() in {"true", "false"}:
@@ -45,12 +45,12 @@ def as_pandas(cell: str) -> object:
 
 
 def as_r(cell: str) -> object:
-    """A cell as R's reader takes it."""
+    """Return a cell as R's reader takes it."""
     return cell in {"T", "TRUE"} if cell in {"T", "F", "TRUE", "FALSE"} else as_pandas(cell)
 
 
 def as_spreadsheet(cell: str) -> object:
-    """A cell as a spreadsheet takes it: formulas, numbers, and what it sees a date or a time in."""
+    """Return a cell as a spreadsheet takes it: formulas, numbers, and what it sees a date or a time in."""
     begins = cell.lstrip(' \u00a0\u200b\ufeff\0"')[:1]
     if (begins and begins in "=+-@\uff1d\uff0b\uff0d\uff20\u2212") or cell[:1] in {"\t", "\r", "\n"}:
         raise AssertionError(f"{cell!r} is evaluated")
@@ -147,7 +147,7 @@ TYPED = tuple(text for text in FORMULAS + LABELS + MARKS + HARMLESS if text.ispr
 
 @pytest.fixture(scope="module")
 def typed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of people who typed all this."""
+    """Return the data folder of people who typed all this."""
     drivers = []
     for seed, text in enumerate(TYPED, 1):
         driver = Driver(replace(study_plan(), about_you=ABOUT), seed)

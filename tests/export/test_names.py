@@ -55,7 +55,7 @@ def answered(about_you: Questionnaire, *after: Questionnaire, seed: int = 1, giv
 
 @pytest.fixture(scope="module")
 def clashing(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder of a participant who was asked under names that clash in every way."""
+    """Return the data folder of a participant who was asked under names that clash in every way."""
     folder = tmp_path_factory.mktemp("clashing") / "data"
     about = questionnaire("con", number("x1"))
     store(folder, [(answered(ABOUT, AFTER, questionnaire("about-you-2", number("x2")), about), 1)])
@@ -63,7 +63,7 @@ def clashing(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def heads(out: Path) -> dict[str, list[str]]:
-    """The columns of every table."""
+    """Return the columns of every table."""
     commas = {path.name: next(csv.reader(path.read_text("utf-8").splitlines())) for path in out.rglob("*.csv")}
     return commas | {path.name: path.read_text("utf-8").splitlines()[0].split("\t") for path in out.rglob("*.tsv")}
 

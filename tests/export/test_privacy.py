@@ -36,7 +36,7 @@ def texts(folder: Path) -> Iterable[tuple[Path, str]]:
 
 
 def talkative() -> Driver:
-    """A visitor who types their name, and whom the experimenter sends away with another one."""
+    """Return a visitor who types their name, and whom the experimenter sends away with another one."""
     plan = study_plan()
     plan = replace(
         plan,
@@ -63,7 +63,7 @@ def talkative() -> Driver:
 
 @pytest.fixture
 def told(tmp_path: Path) -> Path:
-    """A data folder with that visitor in it."""
+    """Return a data folder with that visitor in it."""
     driver = talkative()
     assert any(isinstance(event, ResponseGiven) and event.value == NAME_TYPED for event in driver.events)
     store(tmp_path / "data", [(driver, SEED)])

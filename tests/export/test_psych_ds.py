@@ -59,7 +59,7 @@ def changed(place: str, change: Callable[[str], str]) -> Callable[[Path], None]:
 
 
 def described(**keys: object) -> Callable[[Path], None]:
-    """The description with other keys; None takes one away. The sidecars of the tables say the same."""
+    """Return the description with other keys; None takes one away. The sidecars of the tables say the same."""
 
     def write(root: Path) -> None:
         for path in (root / "dataset_description.json", *root.glob("data/*_data.json")):

@@ -20,7 +20,7 @@ WITH_HALVES = some.text(some.one_of(some.characters(), HALVES))
 
 
 def written(rows: list[list[str]]) -> list[list[str]]:
-    """The rows, written and read again."""
+    """Return the rows, written and read again."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "table.csv"
         file = CsvFile(path, ["first", "second"])

@@ -48,7 +48,7 @@ def asked(about_you: Questionnaire, seed: int, **given: Answer) -> tuple[Driver,
 
 @pytest.fixture(scope="module")
 def changed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A data folder in which the questionnaire about the visitor has two versions."""
+    """Return a data folder in which the questionnaire about the visitor has two versions."""
     folder = tmp_path_factory.mktemp("changed") / "data"
     store(folder, [asked(OLD, 1, coffee=("espresso",)), asked(NEW, 2, coffee=("keurig",))])
     return folder

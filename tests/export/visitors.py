@@ -34,7 +34,7 @@ CONDITIONS = tuple(Condition)
 
 
 def study_plan(condition: Condition = Condition.TOM, seed: int = 0) -> SessionConfig:
-    """A plan with all stages, four scales, and items of every kind about the visitor."""
+    """Return a plan with all stages, four scales, and items of every kind about the visitor."""
     return replace(whole(condition, mixed(seed)), questionnaires=(SCALES, *whole().questionnaires))
 
 
@@ -44,7 +44,7 @@ def visitors(count: int) -> list[tuple[Driver, int]]:
 
 
 def visitor(seed: int, condition: Condition | None = None) -> Driver:
-    """A participant whose ways all follow from the seed."""
+    """Return a participant whose ways all follow from the seed."""
     chance = Random(f"{seed}/visitor")
     condition = condition or CONDITIONS[seed % len(CONDITIONS)]
     driver = Driver(study_plan(condition, seed % 7), seed, chance.choice(list(Voice)))
@@ -125,7 +125,7 @@ def answer_all(driver: Driver, chance: Random, given: Mapping[str, Answer] = Map
 
 
 def chosen(item: Item, chance: Random) -> Answer:
-    """An answer that an item accepts, drawn by chance."""
+    """Return an answer that an item accepts, drawn by chance."""
     if isinstance(item, Single):
         return chance.choice(item.ids)
     if isinstance(item, Multiple):
@@ -138,7 +138,7 @@ def chosen(item: Item, chance: Random) -> Answer:
 
 
 def unsharing(seed: int) -> Driver:
-    """A visitor who takes part, but does not want to be published."""
+    """Return a visitor who takes part, but does not want to be published."""
     driver = Driver(study_plan(), seed)
     driver.to(Stage.CONSENT)
     driver.tick("store")

@@ -33,7 +33,7 @@ class AnyGame(RuleBasedStateMachine):
         self.game = Concentration(Board.deal(*shape, ANIMALS, Random(seed)))
 
     def why_not(self, position: Position) -> FlipRejection | None:
-        """The rules once more, in the order in which a person would explain them."""
+        """Return the rules once more, in the order in which a person would explain them."""
         board = self.game.board
         if not (position.row in range(board.rows) and position.column in range(board.columns)):
             return FlipRejection.OUTSIDE

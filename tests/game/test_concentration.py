@@ -16,7 +16,7 @@ C2, A2, B2 = Position(1, 0), Position(1, 1), Position(1, 2)
 
 @pytest.fixture
 def game() -> Concentration:
-    """A small game: abc over cab."""
+    """Return a small game: abc over cab."""
     return Concentration(board_of("abc", "cab"))
 
 

@@ -17,7 +17,7 @@ SEED = 1
 
 
 def recollect(*arguments: str) -> str:
-    """What the command prints; it must end well and without a word on standard error."""
+    """Return what the command prints; it must end well and without a word on standard error."""
     command = [sys.executable, "-m", "kiosk", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     if done.returncode != 0 or done.stderr:
@@ -26,7 +26,7 @@ def recollect(*arguments: str) -> str:
 
 
 def told() -> str:
-    """The story as it goes today, one event a line."""
+    """Return the story as it goes today, one event a line."""
     with TemporaryDirectory() as data:
         recollect("rehearse", "--headless", "--seed", str(SEED), "--data", data, "--json")
         events = json.loads(recollect("events", "1", "--data", data, "--json"))

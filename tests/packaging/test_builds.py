@@ -31,14 +31,14 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="builds are trie
 
 @pytest.fixture(scope="module")
 def folder() -> Path:
-    """The built folder, made anew."""
+    """Return the built folder, made anew."""
     _build("folder")
     return ROOT / "dist" / "recollect"
 
 
 @pytest.fixture(scope="module")
 def unpacked(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The Debian package of that folder, unpacked and not installed."""
+    """Return the Debian package of that folder, unpacked and not installed."""
     assert folder.is_dir()
     dpkg = shutil.which("dpkg-deb")
     if dpkg is None:
@@ -57,7 +57,7 @@ def _build(kind: str) -> None:
 
 
 def rehearse(command: tuple[str, ...], data: Path) -> dict[str, Any]:
-    """What a rehearsal tells, run far away from the checkout."""
+    """Return what a rehearsal tells, run far away from the checkout."""
     rehearsal = (*command, "rehearse", "--headless", "--seed", "7", "--data", str(data), "--json")
     away = None if command[-1] == "kiosk" else data.parent
     done = subprocess.run(rehearsal, cwd=away, capture_output=True, text=True, check=False, timeout=LONG)

@@ -34,7 +34,7 @@ def test_a_cage_that_breaks_is_no_good_end(tmp_path: Path) -> None:
 
 
 def ended(folder: Path, cage: str, supervisor: str) -> int:
-    """The exit code with this cage, and this supervisor inside."""
+    """Return the exit code with this cage, and this supervisor inside."""
     for name, text in (("cage", cage), ("recollect", f"#!/bin/sh\n{supervisor}\n")):
         (folder / name).write_text(text)
         (folder / name).chmod(0o755)

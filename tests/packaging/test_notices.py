@@ -21,7 +21,7 @@ REALTIME = "websockets"
 
 @pytest.fixture(scope="module")
 def notices() -> ModuleType:
-    """The file that collects them."""
+    """Return the file that collects them."""
     spec = importlib.util.spec_from_file_location("notices", ROOT / "packaging" / "notices.py")
     assert spec is not None
     assert spec.loader is not None
@@ -31,7 +31,7 @@ def notices() -> ModuleType:
 
 
 def required(name: str, met: set[str]) -> Iterator[Distribution]:
-    """A distribution and all that it requires here, each once."""
+    """Yield a distribution and all that it requires here, each once."""
     try:
         found = distribution(name)
     except PackageNotFoundError:

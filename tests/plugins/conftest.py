@@ -83,7 +83,7 @@ class Lab:
 
 @pytest.fixture(scope="package")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    """The environment with the three packages, installed as pip does it without a network."""
+    """Return the environment with the three packages, installed as pip does it without a network."""
     folder = tmp_path_factory.mktemp("lab")
     venv.create(folder / "venv", with_pip=False, symlinks=os.name != "nt")
     scripts = folder / "venv" / ("Scripts" if os.name == "nt" else "bin")
@@ -113,20 +113,20 @@ class Day:
     """What the robot printed."""
 
     def rows(self, table: str) -> Iterator[dict[str, str]]:
-        """The rows of a table of the data set."""
+        """Yield the rows of a table of the data set."""
         (file,) = self.dataset.glob(f"data/*{table}_data.csv")
         with file.open(encoding="utf-8-sig", newline="") as open_file:
             yield from csv.DictReader(open_file)
 
     def codebook(self, table: str) -> str:
-        """The codebook of a table of the data set."""
+        """Return the codebook of a table of the data set."""
         (file,) = self.dataset.glob(f"data/*{table}_data.json")
         return file.read_text("utf-8")
 
 
 @pytest.fixture(scope="package")
 def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
-    """The table is trained with the action; after so few games it still takes it often."""
+    """Return the table is trained with the action; after so few games it still takes it often."""
     folder = tmp_path_factory.mktemp("day")
     study, data, dataset = folder / "study.toml", folder / "data", folder / "set"
     trained = lab.recollect("train", "--action", "encourage", "--episodes", 100, "--out", folder / "enc.json")
@@ -143,7 +143,7 @@ def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
 
 @pytest.fixture(scope="package")
 def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[str, str]]:
-    """What `recollect check` says of everything that it lists: how it is, and in which words."""
+    """Return what `recollect check` says of everything that it lists: how it is, and in which words."""
     checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
     results = json.loads(checked.stdout)["results"]
     return {result["name"]: (result["severity"], result["message"]) for result in results}

@@ -21,7 +21,7 @@ SENTENCES = ("You are doing well, go on.", "Take your time, you can do it.", "Ev
 
 @pytest.fixture
 def study(day: Day, tmp_path: Path) -> Path:
-    """A study file whose policy has the action, and that needs nothing else of another package."""
+    """Return a study file whose policy has the action, and that needs nothing else of another package."""
     shutil.copy(day.study.with_name("enc.json"), tmp_path)
     file = tmp_path / "study.toml"
     file.write_text('languages = ["en"]\n[assistance]\npolicy = "enc.json"\n', "utf-8")

@@ -16,7 +16,7 @@ FILES = ("pyproject.toml", "recollect_ranking/__init__.py", "recollect_ranking/R
 
 
 def study(folder: Path, questions: str = QUESTIONS) -> Path:
-    """A study file whose questionnaire after the game has an item of the kind."""
+    """Return a study file whose questionnaire after the game has an item of the kind."""
     (folder / "helpers.toml").write_text(questions, "utf-8")
     file = folder / "study.toml"
     file.write_text('languages = ["en"]\nquestionnaires = ["helpers.toml"]\n', "utf-8")

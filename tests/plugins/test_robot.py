@@ -16,7 +16,7 @@ from tests.plugins.conftest import Beside, Day, Lab, Register
 
 
 def study(folder: Path, more: str = "") -> Path:
-    """A study file that names the robot."""
+    """Return a study file that names the robot."""
     file = folder / "study.toml"
     file.write_text(f'languages = ["en"]\n[robot]\nkind = "printing"\n{more}', "utf-8")
     return file

@@ -72,7 +72,7 @@ class PulseServer:
 
     @contextmanager
     def microphone(self) -> Iterator[subprocess.Popen[bytes]]:
-        """What the loudspeaker is given, as 16 bit mono at 48 kHz, while it is given."""
+        """Provide what the loudspeaker is given, as 16 bit mono at 48 kHz, while it is given."""
         command = [
             shutil.which("parec") or "",
             "-d",
@@ -88,6 +88,6 @@ class PulseServer:
 
 
 def heard(recorder: subprocess.Popen[bytes], count: int) -> NDArray[np.int16]:
-    """The next samples of a microphone."""
+    """Return the next samples of a microphone."""
     assert recorder.stdout is not None
     return np.frombuffer(recorder.stdout.read(2 * count), dtype="<i2")

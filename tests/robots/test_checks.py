@@ -21,19 +21,19 @@ LANGUAGES = ("en", "it")
 
 
 def python(program: str) -> tuple[str, ...]:
-    """A command that runs this program."""
+    """Return a command that runs this program."""
     return (sys.executable, "-c", program)
 
 
 def saying(*events: Mapping[str, object], code: int = 0) -> tuple[str, ...]:
-    """A voice's process that says this and ends."""
+    """Return a voice's process that says this and ends."""
     return python(
         f"import sys; sys.stdin.read(); print('''{chr(10).join(map(json.dumps, events))}'''); sys.exit({code})"
     )
 
 
 def alone(results: object) -> CheckResult:
-    """The one thing that was found."""
+    """Return the one thing that was found."""
     (found,) = list(results)  # type: ignore[call-overload]
     assert isinstance(found, CheckResult)
     assert found.is_ok == (found.remedy == "")
@@ -147,7 +147,7 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
 
 
 def of(fake: FurhatFake | RealtimeFake, kind: str = "furhat", **more: object) -> RobotConfig:
-    """The settings for a robot on the loopback that has half a second for everything."""
+    """Return the settings for a robot on the loopback that has half a second for everything."""
     quick = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms"), 500)
     return RobotConfig.model_validate({"kind": kind, "host": "127.0.0.1", "port": fake.port} | quick | more)
 

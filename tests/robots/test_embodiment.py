@@ -52,7 +52,7 @@ class Stage:
 
 @pytest.fixture
 def stage() -> Iterator[Stage]:
-    """A robot and an avatar; the robot was not looked for yet."""
+    """Provide a robot and an avatar; the robot was not looked for yet."""
     built = Stage()
     yield built
     built.embodiments.close()
@@ -60,7 +60,7 @@ def stage() -> Iterator[Stage]:
 
 @pytest.fixture
 def robot_helps(stage: Stage) -> Stage:
-    """The same, in a session that began with the robot."""
+    """Return the same, in a session that began with the robot."""
     stage.begin_to_look()
     stage.embodiments.begin_session("en")
     return stage

@@ -23,13 +23,13 @@ SPARE_S = 1.0
 
 @pytest.fixture
 def fake() -> Iterator[FurhatFake]:
-    """A robot."""
+    """Provide a robot."""
     with FurhatFake() as robot:
         yield robot
 
 
 def furhat(fake: FurhatFake, language: str = "en", **settings: object) -> Furhat:
-    """A client with short deadlines."""
+    """Return a client with short deadlines."""
     deadlines = {
         **dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), DEADLINE_MS),
         "speech_deadline_ms_per_char": 1,
@@ -39,7 +39,7 @@ def furhat(fake: FurhatFake, language: str = "en", **settings: object) -> Furhat
 
 
 def saying(text: str, started: Callable[[], None] = lambda: None) -> Utterance:
-    """A sentence."""
+    """Return a sentence."""
     return Utterance(text, started)
 
 

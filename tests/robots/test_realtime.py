@@ -18,7 +18,7 @@ DEADLINE_MS = 250
 
 @pytest.fixture
 def fake() -> Iterator[RealtimeFake]:
-    """A robot."""
+    """Provide a robot."""
     with RealtimeFake() as robot:
         yield robot
 
@@ -33,7 +33,7 @@ def robots() -> Iterator[list[FurhatRealtime]]:
 
 
 def connected(fake: RealtimeFake, robots: list[FurhatRealtime], **settings: object) -> FurhatRealtime:
-    """A client with short deadlines, connected."""
+    """Return a client with short deadlines, connected."""
     deadlines = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), DEADLINE_MS)
     given = {"host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **deadlines, **settings}
     robots.append(FurhatRealtime(RobotSettings.model_validate(given), "it"))

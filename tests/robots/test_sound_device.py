@@ -34,7 +34,7 @@ class Ears:
         self.posts: queue.Queue[dict[str, Any]] = queue.Queue()
 
     def next(self, player: Player) -> dict[str, Any]:
-        """The next thing that is posted, while the player is looked after as its process does."""
+        """Return the next thing that is posted, while the player is looked after as its process does."""
         deadline = time.monotonic() + PATIENCE_S
         while True:
             try:
@@ -52,7 +52,7 @@ def ears() -> Ears:
 
 @pytest.fixture
 def player(ears: Ears) -> Iterator[StreamPlayer]:
-    """A player whose device keeps the time and is heard by no one."""
+    """Provide a player whose device keeps the time and is heard by no one."""
     player = StreamPlayer(ears.posts.put, RATE, NOWHERE)
     assert player.device == NOWHERE
     yield player
@@ -164,7 +164,7 @@ def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_pla
 
 @pytest.fixture
 def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
-    """A loudspeaker that nobody hears."""
+    """Provide a loudspeaker that nobody hears."""
     server = PulseServer(tmp_path)
     server.start()
     for name in ("PULSE_SERVER", "PULSE_RUNTIME_PATH", "XDG_RUNTIME_DIR"):

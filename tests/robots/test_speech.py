@@ -23,7 +23,7 @@ FAST = VoiceConfig(rate=300, device=NOWHERE)
 
 
 def wav(file: Path, samples: np.ndarray[Any, np.dtype[np.float64]]) -> Path:
-    """A mono file of 16 bit with these samples, from -1 to 1."""
+    """Return a mono file of 16 bit with these samples, from -1 to 1."""
     Clip.of(samples, RATE).write(file)
     return file
 
@@ -79,7 +79,7 @@ class Process:
         self.child.stdin.flush()
 
     def hear(self) -> dict[str, Any]:
-        """The next event."""
+        """Return the next event."""
         assert self.child.stdout is not None
         event: dict[str, Any] = json.loads(self.child.stdout.readline())
         return event
@@ -87,7 +87,7 @@ class Process:
 
 @pytest.fixture
 def process() -> Iterator[Process]:
-    """The real thing, with whatever engine this machine has."""
+    """Provide the real thing, with whatever engine this machine has."""
     command = [sys.executable, "-m", "kiosk.robots.tts_worker", voice_options(FAST, "en")]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     with subprocess.Popen(command, text=True, **pipes) as child:  # type: ignore[call-overload]

@@ -23,7 +23,7 @@ REASON, PLACE = "You have seen both owl cards, each of them once.", "Try the car
 
 
 def tone(seconds: float = 0.5, level: float = 0.1, hertz: float = 300) -> Clip:
-    """A tone."""
+    """Return a tone."""
     return Clip.of(level * np.sin(2 * np.pi * hertz * np.arange(int(RATE * seconds)) / RATE), RATE)
 
 
@@ -45,7 +45,7 @@ class Engine:
 
 @pytest.fixture
 def pack(tmp_path: Path) -> VoicePack:
-    """A pack of a reason and a place."""
+    """Return a pack of a reason and a place."""
     return render_pack(Engine(), "en", [REASON, PLACE], tmp_path / "pack", lambda _: None)
 
 

@@ -25,7 +25,7 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def provenance() -> Provenance:
-    """What a session follows."""
+    """Return what a session follows."""
     return Provenance(
         plan=plan(policy=mixed(4)), seed=4, embodiment="avatar", code_commit="abc123", kind=SessionKind.SIMULATED
     )
@@ -33,7 +33,7 @@ def provenance() -> Provenance:
 
 @pytest.fixture
 def played(provenance: Provenance) -> Driver:
-    """A whole session that follows it."""
+    """Return a whole session that follows it."""
     driver = Driver(provenance.plan, provenance.seed)
     driver.whole_session(with_memory(4))
     return driver
@@ -41,7 +41,7 @@ def played(provenance: Provenance) -> Driver:
 
 @pytest.fixture(scope="module")
 def writer() -> Iterator[subprocess.Popen[str]]:
-    """A program that has sessions written by processes that do not stop."""
+    """Provide a program that has sessions written by processes that do not stop."""
     with subprocess.Popen(
         [sys.executable, "-m", "tests.store.writer"],
         cwd=ROOT,

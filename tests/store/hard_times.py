@@ -168,7 +168,7 @@ class Tally:
     more: Counter[str] = field(default_factory=Counter)
 
     def __str__(self) -> str:
-        """The counts in a line, and a line for every fault."""
+        """Return the counts in a line, and a line for every fault."""
         more = "".join(f", {number} {what}" for what, number in sorted(self.more.items()))
         line = f"{self.times} times, {self.acknowledged} acknowledged events{more}, {len(self.faults)} faults"
         return "\n".join((line, *(f"  {fault}" for fault in self.faults)))
@@ -188,7 +188,7 @@ class Worker:
         self._process.stdin.flush()
 
     def hear(self) -> Iterator[dict[str, Any]]:
-        """What the writer reports, up to its end."""
+        """Yield what the writer reports, up to its end."""
         assert self._process.stdout is not None
         for line in self._process.stdout:
             report = json.loads(line)
@@ -318,7 +318,7 @@ def wrong_with_an_open(folder: Path, last: dict[str, Any]) -> Iterator[str]:
 
 @contextmanager
 def small_disk(place: Path) -> Iterator[Path]:
-    """A file system of some MiB; raises CalledProcessError for those who may not mount one."""
+    """Provide a file system of some MiB; raises CalledProcessError for those who may not mount one."""
     place.mkdir()
     subprocess.run(
         ["mount", "-t", "tmpfs", "-o", f"size={DISK_MIB}m,mode=700", "tmpfs", place],  # noqa: S607 - the system's own

@@ -39,7 +39,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def left_by_a_kill(folder: Path, provenance: Provenance, into: Path) -> Path:
-    """A folder as a kiosk leaves it that is killed: all that was written stands in the log."""
+    """Return a folder as a kiosk leaves it that is killed: all that was written stands in the log."""
     with Recorder(folder) as recorder:
         recorder.begin(provenance, BEGUN)
         shutil.copytree(folder, into)
@@ -47,14 +47,14 @@ def left_by_a_kill(folder: Path, provenance: Provenance, into: Path) -> Path:
 
 
 def at_rest(folder: Path, provenance: Provenance, into: Path) -> Path:
-    """A folder as a kiosk leaves it that is closed."""
+    """Return a folder as a kiosk leaves it that is closed."""
     with Recorder(folder) as recorder:
         recorder.begin(provenance, BEGUN)
     return Path(shutil.copytree(folder, into))
 
 
 def without_shared_memory(folder: Path, provenance: Provenance, into: Path) -> Path:
-    """A folder that was copied after a kill, with the log and without what only a running program needs."""
+    """Return a folder that was copied after a kill, with the log and without what only a running program needs."""
     left_by_a_kill(folder, provenance, into)
     (into / f"{FILE}-shm").unlink()
     return into
@@ -82,7 +82,7 @@ def check_readable(folder: Path, out: Path) -> None:
 
 @contextmanager
 def read_only(folder: Path) -> Iterator[Path]:
-    """The folder where no file can be written, as on a medium that is read only."""
+    """Provide the folder where no file can be written, as on a medium that is read only."""
     if os.geteuid() != 0:
         folder.chmod(0o500)
         try:
@@ -290,7 +290,7 @@ def test_damage_that_sqlite_quotes_is_told_in_a_sentence(folder: Path, provenanc
 
 
 def failing_with(code: int, words: str) -> Callable[..., connecting.Connection]:
-    """What connects and fails so."""
+    """Return what connects and fails so."""
 
     def fail(*_: object, **__: object) -> connecting.Connection:
         error = sqlite3.OperationalError(words)

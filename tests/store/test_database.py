@@ -31,13 +31,13 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def ask(folder: Path, query: str) -> list[tuple[object, ...]]:
-    """What stands in the database of a folder."""
+    """Return what stands in the database of a folder."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         return connection.execute(query).fetchall()
 
 
 def made(folder: Path) -> Path:
-    """The database of a folder in which a recorder has been."""
+    """Return the database of a folder in which a recorder has been."""
     with Recorder(folder):
         pass
     return folder / FILE

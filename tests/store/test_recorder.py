@@ -35,7 +35,7 @@ START = happened.SessionStarted(at_ms=0)
 
 
 def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
-    """What stands in the database of a folder."""
+    """Return what stands in the database of a folder."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         return connection.execute(query).fetchall()
 
@@ -62,7 +62,7 @@ def unlimited(connection: sqlite3.Connection) -> None:
 
 @pytest.fixture
 def connections(monkeypatch: pytest.MonkeyPatch) -> list[sqlite3.Connection]:
-    """The connections of every recorder opened from here on, for a test to look at or to limit."""
+    """Return the connections of every recorder opened from here on, for a test to look at or to limit."""
     opened: list[sqlite3.Connection] = []
 
     def opening(folder: Path) -> sqlite3.Connection:

@@ -25,7 +25,7 @@ END = happened.SessionEnded(at_ms=99, status=Status.COMPLETED)
 
 
 def kinds(folder: Path, number: int) -> list[tuple[int, str]]:
-    """The events of a session by seq and type."""
+    """Return the events of a session by seq and type."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         return connection.execute("SELECT seq, type FROM event WHERE session = ? ORDER BY seq", (number,)).fetchall()
 

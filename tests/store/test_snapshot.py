@@ -19,7 +19,7 @@ ENDED = happened.SessionEnded(at_ms=9, status=Status.ABANDONED)
 
 
 def stages(*entered: Stage) -> list[Event]:
-    """A session that came through these stages."""
+    """Return a session that came through these stages."""
     return [happened.StageEntered(at_ms=1, stage=stage) for stage in entered]
 
 

@@ -26,13 +26,13 @@ FOUR = {Condition.TOM: 4, Condition.NOTOM: 4}
 
 
 def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
-    """What stands in the database of a folder."""
+    """Return what stands in the database of a folder."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         return connection.execute(query).fetchall()
 
 
 def saying(words: str) -> tuple[Event, ...]:
-    """A completed session in which these words were recorded."""
+    """Return a completed session in which these words were recorded."""
     return (*FINISHED, happened.SpeechFailed(at_ms=7, utterance=1, why=words), *COMPLETED[2:])
 
 
@@ -52,7 +52,7 @@ def seated(
 
 
 def a_day(folder: Path, provenance: Provenance, site: str = "", seed: int = 1) -> list[Participant]:
-    """A day at a booth: three people, two rehearsals, two who were not stored, and a deviation."""
+    """Return a day at a booth: three people, two rehearsals, two who were not stored, and a deviation."""
     with Recorder(folder, site) as recorder:
         recorder.create_allocation_list(FOUR, 4, seed, kind=SessionKind.STUDY)
         people = []

@@ -7,12 +7,12 @@ LIKERT = "one,likert,5,S,,,,,How?,little,much,,,"
 
 
 def rows(*lines: str, head: str = HEAD) -> str:
-    """A table of these lines."""
+    """Return a table of these lines."""
     return "\n".join((head, *lines)) + "\n"
 
 
 def cell(old: str, new: str) -> str:
-    """The table of one good row with a cell replaced."""
+    """Return the table of one good row with a cell replaced."""
     assert old in LIKERT
     return rows(LIKERT.replace(old, new))
 

@@ -16,7 +16,7 @@ PAGE = (Path(__file__).parents[2] / "docs" / "extend.md").read_text("utf-8")
 
 
 def shown(language: str) -> list[str]:
-    """The blocks of code in a language."""
+    """Return the blocks of code in a language."""
     return re.findall(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)
 
 

@@ -25,7 +25,7 @@ STUDY = 'languages = ["./en"]\nstages = ["introduction", "practice", "game", "re
 
 @pytest.fixture
 def own(tmp_path: Path) -> Path:
-    """A study with sentences of its own."""
+    """Return a study with sentences of its own."""
     shutil.copytree(ASSETS / "sentences" / "en", tmp_path / "en")
     (tmp_path / "study.toml").write_text(STUDY, "utf-8")
     return tmp_path

@@ -26,7 +26,7 @@ SHIPPED = sorted((ASSETS / "questionnaires").glob("*.toml"))
 
 
 def read(folder: Path, table: str | bytes) -> Questionnaire:
-    """The questionnaire of a table."""
+    """Return the questionnaire of a table."""
     file = folder / "table.csv"
     file.write_bytes(table if isinstance(table, bytes) else table.encode())
     return read_items(file, HEADING)
@@ -126,7 +126,7 @@ def test_one_language_in_two_columns_is_refused(tmp_path: Path) -> None:
 
 
 def cells(questionnaire: Questionnaire, delimiter: str) -> str:
-    """The table that a questionnaire is read from."""
+    """Return the table that a questionnaire is read from."""
     languages = list(questionnaire.items[0].text)
     columns = [*PLAIN, *(f"{stem}_{language}" for stem in WORDED for language in languages)]
     out = io.StringIO()
@@ -141,7 +141,7 @@ def cells(questionnaire: Questionnaire, delimiter: str) -> str:
 
 
 def _cells(name: str, value: Any) -> list[tuple[str, str]]:
-    """The cells of one key of an item, by their columns."""
+    """Return the cells of one key of an item, by their columns."""
     match value:
         case None:
             return []
@@ -175,7 +175,7 @@ WORDS_OF_OPTIONS = TEXTS.filter(lambda text: ";" not in text)
 
 
 def words(texts: st.SearchStrategy[str] = TEXTS) -> st.SearchStrategy[dict[str, str]]:
-    """A text in two languages."""
+    """Return a text in two languages."""
     return st.fixed_dictionaries({"en": texts, "it": texts})
 
 

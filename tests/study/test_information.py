@@ -25,7 +25,7 @@ paragraphs = ["That was it."]
 
 
 def sheet(folder: Path, language: str, old: str = "", new: str = "") -> Information:
-    """A sheet with something replaced."""
+    """Return a sheet with something replaced."""
     (folder / f"{language}.toml").write_text(SHEET.replace(old, new), "utf-8")
     return Information.of(folder, language)
 

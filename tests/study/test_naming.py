@@ -15,7 +15,7 @@ from kiosk.study.loader import read_study, study_warnings
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Path:
-    """A folder with things of the lab's own, which all have the names of shipped ones."""
+    """Return a folder with things of the lab's own, which all have the names of shipped ones."""
     text = (ASSETS / "questionnaires" / "trust.toml").read_text("utf-8")
     (tmp_path / "trust.toml").write_text(text.replace('version = "1"', 'version = "lab"'), "utf-8")
     for kind, name in (("consent", "study"), ("cards", "animals"), ("sentences", "en")):
@@ -50,7 +50,7 @@ def read(folder: Path, name: str, written: str) -> StudyConfig:
 
 
 def source(study: StudyConfig, written: str) -> Source:
-    """What came of a name."""
+    """Return what came of a name."""
     return next(each for each in study.sources if each.name == written)
 
 

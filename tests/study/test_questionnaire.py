@@ -45,14 +45,14 @@ text.en = "And now?"
 
 
 def written(folder: Path, content: str) -> Path:
-    """A questionnaire file of this content."""
+    """Return a questionnaire file of this content."""
     file = folder / "q.toml"
     file.write_text(content, "utf-8")
     return file
 
 
 def item(name: str) -> Any:
-    """An item of the gallery."""
+    """Return an item of the gallery."""
     return next(item for item in GALLERY.items if item.id == name)
 
 

@@ -20,7 +20,7 @@ LONGEST_ITEM = 16
 
 
 def shipped(name: str) -> Questionnaire:
-    """A questionnaire by its name."""
+    """Return a questionnaire by its name."""
     return Questionnaire.read(ASSETS / "questionnaires" / f"{name}.toml")
 
 

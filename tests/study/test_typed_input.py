@@ -47,7 +47,7 @@ ENDS = st.integers(-(10**12), 10**12)
 
 @st.composite
 def fields(draw: st.DrawFn) -> NumberInput:
-    """A field for whole numbers between two ends."""
+    """Return a field for whole numbers between two ends."""
     return NumberInput(*sorted(draw(st.lists(ENDS, min_size=2, max_size=2, unique=True))))
 
 

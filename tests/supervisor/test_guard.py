@@ -19,7 +19,7 @@ TERM = bytes([signal.SIGTERM])
 
 
 def guarded_process(act: str, memory_mib: int = 4096) -> subprocess.Popen[str]:
-    """A guarded process that does this."""
+    """Return a guarded process that does this."""
     environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
     return subprocess.Popen(
         [sys.executable, "-m", "tests.supervisor.guarded", act, str(memory_mib)],
@@ -91,7 +91,7 @@ LIMITS = Limits(start=30, silence=10, end=10, stuck=3, memory_mib=100)
 
 
 def looks(*told: bytes, every_s: float = 1.0, taken_mib: int = 50) -> list[str]:
-    """What is found wrong at each look."""
+    """Return what is found wrong at each look."""
     watch = _Watch(LIMITS)
     return [watch.look(every_s, each, taken_mib) for each in told]
 

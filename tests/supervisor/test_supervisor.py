@@ -31,7 +31,7 @@ class Night:
     told: list[SupervisorEvent] = field(default_factory=list)
 
     def what(self) -> list[str]:
-        """What happened in turn, but for the screens."""
+        """Return what happened in turn, but for the screens."""
         return [one.what.value for one in self.told if one.what is not SupervisorEventKind.SHOWS]
 
     def details(self, what: SupervisorEventKind) -> list[str]:
@@ -39,7 +39,7 @@ class Night:
         return [one.detail for one in self.told if one.what is what]
 
     def starts(self, of: str) -> list[int]:
-        """The processes of the kiosk or of the calm window, in turn."""
+        """Return the processes of the kiosk or of the calm window, in turn."""
         places = sorted((self.folder / of).glob("start-*"))
         return [int(place.read_text()) for place in places]
 
@@ -51,7 +51,7 @@ def runs(process: int) -> bool:
 
 
 def actor(folder: Path, *acts: str) -> list[str]:
-    """The command of a program with these acts."""
+    """Return the command of a program with these acts."""
     folder.mkdir()
     return [sys.executable, "-m", "tests.supervisor.actor", str(folder), *acts]
 

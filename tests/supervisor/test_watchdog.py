@@ -20,7 +20,7 @@ class Program:
     to_tell: list[Notice] = field(default_factory=list)
 
     def hear(self, within_s: float) -> Notice:  # noqa: ARG002 - the clock is turned by the step
-        """The next notice; time passes."""
+        """Return the next notice; time passes."""
         self.now += self.step
         return self.to_tell.pop(0) if self.to_tell else {}
 
@@ -30,7 +30,7 @@ class Program:
 
 
 def watched(program: Program) -> Watchdog:
-    """A watch over it."""
+    """Return a watch over it."""
     return Watchdog(program, PATIENCE, lambda: program.now)
 
 

@@ -98,7 +98,7 @@ def play(policy: QTable, person: Person, rule: TargetRule, rng: Random) -> Playe
 
 
 def deal(rng: Random) -> Concentration:
-    """A new game on the study's board."""
+    """Return a new game on the study's board."""
     return Concentration(Board.deal(4, 6, NAMES, rng))
 
 
@@ -124,7 +124,7 @@ def learn(episodes: int, rng: Random) -> Values:
 def episode_of(
     q: Values, epsilon: float, rng: Random
 ) -> Iterable[tuple[State, ActionSpec, float, float, State | None]]:
-    """The decisions of one game: state, action, what was paid until the next one, its discount, and its state."""
+    """Yield the decisions of one game: state, action, what was paid until the next one, its discount, and its state."""
     game, gate, mentaliser = deal(rng), Gate(), Mentaliser(TargetRule.MOST_FLIPPED, rng)
     person = WithMemory(rng.uniform(0.10, 0.45), rng)
     last, pending, gained, discount = ActionSpec.NO_HELP, None, 0.0, 1.0

@@ -26,7 +26,7 @@ def run(*words: str) -> Result:
 
 
 def told(*words: str) -> dict[str, Any]:
-    """The one object that a command prints with --json, and nothing else."""
+    """Return the one object that a command prints with --json, and nothing else."""
     result = run(*words, "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     document: dict[str, Any] = json.loads(result.stdout)
@@ -141,7 +141,7 @@ def test_bad_input_is_refused_in_one_sentence(
 
 
 def damaged(text: str) -> dict[str, str]:
-    """A policy file, spoilt in several ways."""
+    """Return a policy file, spoilt in several ways."""
     return {
         "truncated": text[: len(text) // 2],
         "edited": text.replace("0.8", "0.9", 1),

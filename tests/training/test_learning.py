@@ -38,17 +38,17 @@ RETRIEVING = RECIPES[Reward.RETRIEVAL]
 
 
 def first(action: int, nf: int, *, early: bool = False) -> RewardFlip:
-    """A first card."""
+    """Return a first card."""
     return RewardFlip(0, NO, action, nf, 3, int(early))
 
 
 def second(before: int, action: int, nf: int, g: int = 3) -> RewardFlip:
-    """A second card, after that help with the first."""
+    """Return a second card, after that help with the first."""
     return RewardFlip(1, before, action, nf, g, 0)
 
 
 def paid(reward: int, flip: RewardFlip, *, matched: bool, purse: float = PURSE) -> float:
-    """What one flip is worth."""
+    """Return what one flip is worth."""
     return float(reward_of(reward, flip, int(matched), floats([purse])))
 
 
@@ -144,7 +144,7 @@ def test_alpha_runs_as_documented(alpha: LearningRate, expected: tuple[float, ..
 
 
 def learnt(recipe: Recipe, name: str = "") -> QTable:
-    """The table that a recipe gives."""
+    """Return the table that a recipe gives."""
     learner = Learner(recipe)
     learner.study()
     return learner.freeze(name, train_command_line(recipe, name))
@@ -207,7 +207,7 @@ def test_where_every_flip_is_a_decision_the_visits_still_count_those_with_a_choi
 
 
 def changed(**values: Any) -> Recipe:
-    """The recipe with values of any type."""
+    """Return the recipe with values of any type."""
     return replace(RETRIEVING, **values)
 
 

@@ -41,7 +41,7 @@ TOM, NOTOM = TargetRule.MOST_FLIPPED, TargetRule.RANDOM
 
 
 def forgetting(d: float) -> MemoryPlayer:
-    """A player with a memory."""
+    """Return a player with a memory."""
     return MemoryPlayer((d, d))
 
 

@@ -23,7 +23,7 @@ FLIPS_WATCHED = 90
 
 
 def board_of(game: vectorised_game.Ints) -> Board:
-    """The board that the kernel has dealt."""
+    """Return the board that the kernel has dealt."""
     return Board(
         vectorised_game.ROWS, vectorised_game.COLUMNS, tuple(str(min(p, int(game[MATE + p]))) for p in range(CARDS))
     )
@@ -61,7 +61,7 @@ def test_with_the_same_choices_every_step_of_a_game_is_the_same(
 
 
 def candidates(game: vectorised_game.Ints, rule: TargetRule) -> set[int]:
-    """The places that the kernel lets a hint point at."""
+    """Return the places that the kernel lets a hint point at."""
     number = vectorised_game.mark_candidates(game, vectorised_game.TARGET_RULES.index(rule))
     marked = {place for place in range(CARDS) if game[MARK + place] == 1}
     assert number == len(marked)
@@ -78,7 +78,7 @@ def snapshot(game: vectorised_game.Ints) -> list[tuple[int, int, bool, bool]]:
 
 
 def history_of(game: Concentration) -> list[tuple[int, int, bool, bool]]:
-    """The same of a game."""
+    """Return the same of a game."""
     count, last = game.history.count, game.history.last
     return [(count(p), last(p), p in game.found, p in game.closed) for p in game.board]
 
@@ -134,7 +134,7 @@ for recipe in RECIPES.values():
 
 
 def printed(environment: dict[str, str], before: str = "") -> list[str]:
-    """What the script prints in an interpreter of its own."""
+    """Return what the script prints in an interpreter of its own."""
     command = [sys.executable, "-W", "error", "-c", before + SAME]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | environment)
     return done.stdout.splitlines()

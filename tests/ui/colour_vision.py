@@ -67,12 +67,12 @@ MATRICES = {
 
 
 def seen(picture: Picture, vision: Vision) -> Picture:
-    """A picture as somebody sees it."""
+    """Return a picture as somebody sees it."""
     return _gamma(np.clip(_linear(picture) @ MATRICES[vision].T, 0, 1))
 
 
 def lab(picture: Picture) -> Picture:
-    """A picture in CIELAB."""
+    """Return a picture in CIELAB."""
     relative = _linear(picture) @ TO_XYZ.T / WHITE_D65
     root = np.where(relative > (6 / 29) ** 3, np.cbrt(relative), relative / (3 * (6 / 29) ** 2) + 4 / 29)
     x, y, z = np.moveaxis(root, -1, 0)
@@ -108,7 +108,7 @@ def decks() -> dict[str, dict[str, Picture]]:
 
 
 def empty_card(cards: dict[str, Picture]) -> Picture:
-    """A card without a picture: the frame that all have in common, and within it the colour of its corner."""
+    """Return a card without a picture: the frame that all have in common, and within it the colour of its corner."""
     empty = np.median(np.stack(list(cards.values())), axis=0)
     frame = round(FRAME * SIDE)
     empty[frame:-frame, frame:-frame] = empty[frame, frame]
@@ -116,7 +116,7 @@ def empty_card(cards: dict[str, Picture]) -> Picture:
 
 
 def draw(file: Path) -> Picture:
-    """A card's picture on the paper of the screen."""
+    """Return a card's picture on the paper of the screen."""
     image = QImage(SIDE, SIDE, QImage.Format.Format_RGB32)
     image.fill(QColor("#FBF6EC"))
     painter = QPainter(image)
@@ -171,7 +171,7 @@ def figure() -> QImage:
 
 
 def marks() -> list[Picture]:
-    """A closed card as it lies on the board: unmarked, and marked, in the usual palette and in high contrast."""
+    """Return a closed card as it lies on the board: unmarked, and marked, in the usual palette and in high contrast."""
     back = ASSETS / "cards" / "back.svg"
     themes = [colours(palette) for palette in ("normal", "high")]
     return [

@@ -33,7 +33,7 @@ from tests.ui.headless import headless, short
 
 @pytest.fixture(scope="session")
 def qapp_cls() -> type[QGuiApplication]:
-    """The kiosk has no widgets, and so neither have its tests."""
+    """Return the kiosk has no widgets, and so neither have its tests."""
     return QGuiApplication
 
 
@@ -45,7 +45,7 @@ class Booth:
     data: Path
 
     def item(self, name: str) -> QQuickItem:
-        """The visible item of this name, where it belongs."""
+        """Return the visible item of this name, where it belongs."""
         lay_out(self.app.window)
         item = find_item(self.app.window.contentItem(), name)
         assert item is not None, f"there is no {name} on the screen {self.screen}"
@@ -134,14 +134,14 @@ def booth(make_booth: MakeBooth) -> Booth:
 
 @pytest.fixture
 def stored(booth: Booth) -> Iterator[SessionRepository]:
-    """What the booth has stored."""
+    """Provide what the booth has stored."""
     with open_repository(booth.data) as there:
         yield there
 
 
 @pytest.fixture(scope="module")
 def spoken(qapp: QGuiApplication) -> Iterator[None]:  # noqa: ARG001 - Qt is to be there before
-    """A program that reads the screen aloud is there."""
+    """Provide a program that reads the screen aloud is there."""
     before = QAccessible.isActive()
     QAccessible.setActive(True)
     yield

@@ -55,7 +55,7 @@ class Robot:
 
 
 def kiosk_with_robot(port: int, data: Path) -> AbstractContextManager[App]:
-    """A kiosk without a screen, with the robot on this port."""
+    """Return a kiosk without a screen, with the robot on this port."""
     return headless(read_settings(None, "127.0.0.1", port), data)
 
 
@@ -78,7 +78,7 @@ def planned(seeds: int) -> Iterator[tuple[Fault, int | Moment]]:
 
 
 def line(fault: Fault, at: int | Moment, result: Result) -> str:
-    """A session in one line."""
+    """Return a session in one line."""
     counted = result.utterances
     return (
         f"{fault.value:27} {at.value if isinstance(at, Moment) else f'click {at}':19} "

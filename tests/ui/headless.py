@@ -31,7 +31,7 @@ SMALL = Settings.model_validate(
 
 
 def short(**sections: object) -> Settings:
-    """A study without anything to be decided beforehand; ``sections`` are those of a study file."""
+    """Return a study without anything to be decided beforehand; ``sections`` are those of a study file."""
     return Settings.model_validate({"stages": SHORT, "questionnaires": ["trust"], **sections})
 
 
@@ -47,7 +47,7 @@ def headless(  # noqa: PLR0913 - all that a kiosk can differ in
     kind: SessionKind = SessionKind.SIMULATED,
     opened: Callable[[Path], Recorder] = Recorder,
 ) -> Iterator[App]:
-    """A kiosk with this study, in this condition, or None for its list's; every session has the same seed.
+    """Provide a kiosk with this study, in this condition, or None for its list's; every session has the same seed.
 
     ``opened`` gives the recorder of a data folder.
     """

@@ -62,7 +62,7 @@ def run(app: App) -> None:
 
 
 def program(*arguments: str) -> tuple[str, ...]:
-    """The command of another process of ours: this module again."""
+    """Return the command of another process of ours: this module again."""
     return (sys.executable, "-m", "tests.ui.kept_kiosk", STAGE, str(MARKER), *arguments)
 
 

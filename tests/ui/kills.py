@@ -140,7 +140,7 @@ def kill_in(stage: str, after: int, reports: Iterator[dict[str, Any]]) -> Killin
 
 
 def wrong_with(folder: Path, killing: Killing) -> str:
-    """What is not as it should be in the database after a kill; empty if all is well."""
+    """Return what is not as it should be in the database after a kill; empty if all is well."""
     with closing(sqlite3.connect(folder / FILE)) as database:
         if (found := database.execute("PRAGMA integrity_check").fetchall()) != [("ok",)]:
             return f"the integrity check says {found}"
@@ -163,7 +163,7 @@ def wrong_with(folder: Path, killing: Killing) -> str:
 
 @contextmanager
 def forker() -> Iterator[subprocess.Popen[str]]:
-    """The process that has everything loaded."""
+    """Provide the process that has everything loaded."""
     command = [sys.executable, "-c", "from tests.ui.kills import main; main()"]
     environment = os.environ | {"QT_QPA_PLATFORM": "offscreen", "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(
@@ -176,7 +176,7 @@ def forker() -> Iterator[subprocess.Popen[str]]:
 
 
 def reports_of(output: IO[str]) -> Iterator[dict[str, Any]]:
-    """What the kiosks report, as long as they do."""
+    """Yield what the kiosks report, as long as they do."""
     for line in output:
         yield json.loads(line)
 
@@ -212,7 +212,7 @@ def kill_again_and_again(count: int, seed: int, folder: Path) -> Tally:
 
 
 def faults(folder: Path, killing: Killing, *, cut_off: bool) -> Iterator[str]:
-    """What is wrong with a start after a kill, and with what the next kill left."""
+    """Yield what is wrong with a start after a kill, and with what the next kill left."""
     if killing.opened.get("screen") != "attract":
         yield f"the kiosk came back at {killing.opened.get('screen')}"
     if cut_off and not killing.opened.get("recovered"):

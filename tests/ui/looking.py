@@ -90,7 +90,7 @@ def painted(text: QQuickItem) -> QRect:
 
 
 def described(item: QQuickItem) -> tuple[QAccessible.Role, str]:
-    """What a program that reads the screen is told of an item: its role and its name."""
+    """Return what a program that reads the screen is told of an item: its role and its name."""
     told = QAccessible.queryAccessibleInterface(item)
     if not isinstance(told, QAccessibleInterface):
         return QAccessible.Role.NoRole, ""
@@ -115,12 +115,12 @@ def announced(window: QQuickWindow) -> set[int]:
 
 
 def identity(thing: QObject) -> int:
-    """What tells one of Qt's objects from all others, however often Python is given it."""
+    """Return what tells one of Qt's objects from all others, however often Python is given it."""
     return int(Shiboken.getCppPointer(thing)[0])
 
 
 def untold(window: QQuickWindow) -> list[str]:
-    """What somebody who cannot see the window would not know of: controls without a role or name, and texts."""
+    """Return what somebody who cannot see the window would not know of: controls without a role or name, and texts."""
     reached = announced(window)
     return [
         f"{item.objectName() or item.metaObject().className()} {item.property('text') or ''}"
@@ -156,7 +156,7 @@ def luminance(color: QColor) -> float:
 
 
 def contrast(one: QColor, other: QColor) -> float:
-    """The contrast of two colours, 1 to 21."""
+    """Return the contrast of two colours, 1 to 21."""
     darker, lighter = sorted((luminance(one), luminance(other)))
     return (lighter + FLARE) / (darker + FLARE)
 
@@ -168,14 +168,14 @@ def strongest_change(before: QImage, after: QImage, where: QRect | None = None) 
 
 
 def background(picture: QImage, where: QRect) -> QColor:
-    """The colour that fills most of a place."""
+    """Return the colour that fills most of a place."""
     pixels = _pixels(picture, where).reshape(-1, 3).astype(np.uint32)
     codes, counts = np.unique(pixels @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32), return_counts=True)
     return QColor.fromRgb(int(codes[np.argmax(counts)]))
 
 
 def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
-    """The red, green and blue of a place in a picture, 0 to 255: (height, width, 3)."""
+    """Return the red, green and blue of a place in a picture, 0 to 255: (height, width, 3)."""
     plain = picture.convertToFormat(QImage.Format.Format_RGB888)
     rows = np.frombuffer(plain.constBits(), np.uint8).reshape(plain.height(), plain.bytesPerLine())
     inside = (where or plain.rect()).intersected(plain.rect())
@@ -184,14 +184,14 @@ def _pixels(picture: QImage, where: QRect | None) -> NDArray[np.uint8]:
 
 
 def _light(colour: NDArray[np.float64]) -> Light:
-    """The relative luminance of colours whose last axis is red, green and blue, 0 to 1."""
+    """Return the relative luminance of colours whose last axis is red, green and blue, 0 to 1."""
     linear = np.where(colour <= LINEAR_FROM, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
     found: Light = linear @ np.array([RED, GREEN, BLUE])
     return found
 
 
 def colours(palette: str) -> dict[str, QColor]:
-    """What the theme says in this palette."""
+    """Return what the theme says in this palette."""
     engine = QQmlEngine()
     component = QQmlComponent(engine)
     high = "true" if palette == "high" else "false"

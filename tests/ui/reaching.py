@@ -72,7 +72,7 @@ class Keyboard(UiDriver):
         return item
 
     def _within(self, name: str) -> QQuickItem | None:
-        """The item of this name, if it or something in it has the keyboard."""
+        """Return the item of this name, if it or something in it has the keyboard."""
         item: QQuickItem | None = self.held
         while item is not None and item.objectName() != name:
             item = item.parentItem()
@@ -152,5 +152,5 @@ class Finger(UiDriver):
 
 @cache
 def touch_screen() -> QPointingDevice:
-    """The glass; Qt keeps every device that it was ever told of."""
+    """Return the glass; Qt keeps every device that it was ever told of."""
     return QTest.createTouchDevice()

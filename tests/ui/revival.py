@@ -103,7 +103,7 @@ class Revival:
 
 @contextmanager
 def screen() -> Iterator[dict[str, str]]:
-    """A virtual screen with a window manager; yields the environment for it."""
+    """Provide a virtual screen with a window manager; yields the environment for it."""
     reads, writes = os.pipe()
     geometry = ("-screen", "0", "1920x1080x24", "-nolisten", "tcp")
     with ending(_found("Xvfb"), "-displayfd", str(writes), *geometry, pass_fds=[writes]):
@@ -116,7 +116,7 @@ def screen() -> Iterator[dict[str, str]]:
 
 @contextmanager
 def ending(*command: str, **options: Any) -> Iterator[None]:
-    """A program that runs meanwhile and is ended then."""
+    """Provide a program that runs meanwhile and is ended then."""
     with subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options) as process:
         try:
             yield
@@ -158,7 +158,7 @@ class Kept:
                 return at
 
     def kiosk(self) -> int:
-        """The process of the kiosk."""
+        """Return the process of the kiosk."""
         own = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
         return next(int(child) for child in own if b"\0open\0" in Path(f"/proc/{child}/cmdline").read_bytes())
 
@@ -170,7 +170,7 @@ class Kept:
 
 @contextmanager
 def kept_in(folder: Path, stage: str, environment: dict[str, str]) -> Iterator[Kept]:
-    """A supervisor that is ended whatever happens."""
+    """Provide a supervisor that is ended whatever happens."""
     kept = Kept(stage, folder, environment)
     try:
         yield kept

@@ -105,13 +105,13 @@ class Result:
 
 
 def result_of(stored: SessionRepository, rehearsal: Sabotage) -> Result:
-    """What became of the last session."""
+    """Return what became of the last session."""
     session = stored.sessions()[-1]
     return Result(session, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
 
 
 def replayed(stored: SessionRepository, number: int) -> list[Event]:
-    """The events of a stored session as they come out of its world events today."""
+    """Return the events of a stored session as they come out of its world events today."""
     session = Session(stored.plan(number), stored.seed(number))
     again: list[Event] = []
     for event in stored.events(number):
@@ -122,6 +122,6 @@ def replayed(stored: SessionRepository, number: int) -> list[Event]:
 
 
 def after_loss(events: list[Event]) -> list[Event]:
-    """What followed the loss of the robot."""
+    """Return what followed the loss of the robot."""
     lost = next(number for number, event in enumerate(events) if isinstance(event, happened.RobotDisconnected))
     return events[lost + 1 :]

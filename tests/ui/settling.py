@@ -118,7 +118,7 @@ Filling = Callable[[ScreenSet], None]
 
 
 def item(kind: str, number: int, script: Script) -> Item:
-    """An item of this kind with as much text as items have in questionnaires."""
+    """Return an item of this kind with as much text as items have in questionnaires."""
     kind, _, long_ends = kind.partition(", ")
     short, long = {"en": script.short}, {"en": script.long}
     ends = {"left": short, "right": long}
@@ -207,7 +207,7 @@ class Bench:
         return self._changes
 
     def _made(self, screen: str) -> QQuickItem:
-        """A screen, with the room that it has in the kiosk's window."""
+        """Return a screen, with the room that it has in the kiosk's window."""
         component = QQmlComponent(self._engine)
         component.setData(SOURCES[screen].encode(), QML.as_uri())
         given = {screen: self.screens.by_name[screen], "kiosk": self.screens.kiosk}
@@ -237,7 +237,7 @@ class Bench:
 
 
 def _columns(item: QQuickItem) -> Iterator[QQuickItem]:
-    """The columns of all panes that scroll."""
+    """Yield the columns of all panes that scroll."""
     for child in item.childItems():
         if child.inherits("QQuickFlickable"):
             yield from child.property("contentItem").childItems()
@@ -272,7 +272,7 @@ def main(arguments: list[str]) -> int:
 
 
 def name_of(page: str, window: tuple[int, int], text_size: float) -> str:
-    """What a page is called in one size."""
+    """Return what a page is called in one size."""
     return f"{page}, {window[0]} x {window[1]}, text size {text_size}"
 
 

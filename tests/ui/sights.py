@@ -94,7 +94,7 @@ def _written(picture: QImage, text: QQuickItem) -> Written:
 
 
 def _laid_out(window: QQuickWindow) -> Iterator[QQuickItem]:
-    """The texts and controls of a visitor's screen, and the assistant's bubble."""
+    """Yield the texts and controls of a visitor's screen, and the assistant's bubble."""
     for item in items(window.contentItem()):
         if (is_control(item) or item.inherits("QQuickText")) and not lies_in(item, *OVER_EVERYTHING):
             yield item

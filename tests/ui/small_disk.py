@@ -21,7 +21,7 @@ class SmallDisk:
     """Pages; more than any test writes."""
 
     def open(self, folder: Path) -> Recorder:
-        """A recorder for a data folder on this disk."""
+        """Return a recorder for a data folder on this disk."""
         self._recorder = _OnSmallDisk(folder)
         return self._recorder
 

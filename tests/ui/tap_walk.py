@@ -52,7 +52,7 @@ class Hop:
 
     @classmethod
     def of(cls, code: CodeType) -> Hop | None:
-        """The function of a code object; None if it is not one of the kiosk's, or not on the way."""
+        """Return the function of a code object; None if it is not one of the kiosk's, or not on the way."""
         path = Path(code.co_filename)
         if KIOSK not in path.parents or code.co_name in _OF_A_FUNCTION or code.co_qualname in _NOT_ON_THE_WAY:
             return None

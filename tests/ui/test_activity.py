@@ -101,7 +101,7 @@ NO_SIGNS = {
 
 @pytest.fixture
 def reading(make_booth: MakeBooth) -> Booth:
-    """A booth whose visitor reads what it is about."""
+    """Return a booth whose visitor reads what it is about."""
     booth = make_booth(settings=SMALL)
     booth.click("start-en")
     booth.settle()
@@ -111,7 +111,7 @@ def reading(make_booth: MakeBooth) -> Booth:
 
 @pytest.fixture
 def told(reading: Booth) -> list[WorldEvent]:
-    """What is recorded from now on, but for waits and voices."""
+    """Return what is recorded from now on, but for waits and voices."""
     events: list[WorldEvent] = []
     kinds = (happened.UserActivity, happened.PresenceConfirmed, happened.IdleTimedOut)
     reading.app.runner.on_event = lambda event, _outcome, _stage: (

@@ -45,13 +45,13 @@ class VoiceFake(Voice):
 
 @pytest.fixture
 def face() -> AvatarScreen:
-    """A face."""
+    """Return a face."""
     return AvatarScreen()
 
 
 @pytest.fixture
 def voice() -> VoiceFake:
-    """A voice."""
+    """Return a voice."""
     return VoiceFake()
 
 
@@ -63,7 +63,7 @@ def reports() -> Reports:
 
 @pytest.fixture
 def avatar(face: AvatarScreen, voice: VoiceFake, reports: Reports) -> AvatarBody:
-    """An avatar with this face and voice."""
+    """Return an avatar with this face and voice."""
     return AvatarBody(face, voice, reports)
 
 

@@ -89,7 +89,7 @@ def wait_ms(booth: Booth, ms: int, *, draws: bool = False) -> int:
 
 
 def flips(booth: Booth) -> list[happened.CardSelected]:
-    """The cards that are stored as tapped."""
+    """Return the cards that are stored as tapped."""
     return [event for event in events(booth) if isinstance(event, happened.CardSelected)]
 
 

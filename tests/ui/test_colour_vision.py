@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("qapp")
 
 
 def relative_luminance(picture: Picture) -> float:
-    """The luminance of one colour, 0 to 1."""
+    """Return the luminance of one colour, 0 to 1."""
     linear = np.where(picture <= 0.04045, picture / 12.92, ((picture + 0.055) / 1.055) ** 2.4)
     return float((linear @ np.array([0.2126, 0.7152, 0.0722])).mean())
 

@@ -26,7 +26,7 @@ Done = list[object]
 
 @pytest.fixture
 def done(booth: Booth) -> Done:
-    """What is done on the consent page, which is shown."""
+    """Return what is done on the consent page, which is shown."""
     did: Done = []
     consent = booth.app.screens.consent
     consent.ticked.connect(lambda purpose, ticked: did.append((purpose, ticked)))

@@ -24,7 +24,7 @@ def leave_in(booth: Booth, stage: Stage) -> None:
 
 @pytest.fixture
 def reading(make_booth: MakeBooth) -> Booth:
-    """A booth whose visitor reads what it is about."""
+    """Return a booth whose visitor reads what it is about."""
     booth = make_booth(settings=SMALL)
     booth.click("start-en")
     booth.settle()

@@ -20,7 +20,7 @@ MAIL, CODE = "study@university.test", "7K3M9QX"
 
 @pytest.fixture
 def debriefed(booth: Booth) -> Booth:
-    """A booth at the debrief."""
+    """Return a booth at the debrief."""
     booth.app.screens.debrief.show(PAGE)
     booth.app.screens.debrief.give_contact(MAIL)
     booth.app.screens.debrief.give_code(CODE)
@@ -30,7 +30,7 @@ def debriefed(booth: Booth) -> Booth:
 
 
 def drawn(booth: Booth) -> list[list[bool]]:
-    """The squares of the QR code as they are on the screen, its white frame included; True for a dark one."""
+    """Return the squares of the QR code as they are on the screen, its white frame included; True for a dark one."""
     item = booth.item("qr")
     squares = int(str(booth.app.screens.debrief.property("squares")))
     image: QImage = booth.app.window.grabWindow()

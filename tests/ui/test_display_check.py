@@ -46,12 +46,12 @@ class FakeScreen:
 
 
 def python(program: str) -> tuple[str, ...]:
-    """A command that runs this program."""
+    """Return a command that runs this program."""
     return (sys.executable, "-c", program)
 
 
 def alone(results: Iterator[CheckResult]) -> CheckResult:
-    """The one thing that was found."""
+    """Return the one thing that was found."""
     (found,) = results
     return found
 

@@ -45,7 +45,7 @@ ASKED = {file.stem: Questionnaire.read(file) for file in (ASSETS / "questionnair
 
 @pytest.fixture(params=["en", "es", "it", pseudo.LANGUAGE])
 def study(request: pytest.FixtureRequest, tmp_path: Path) -> StudyConfig:
-    """The study in one language."""
+    """Return the study in one language."""
     if request.param != pseudo.LANGUAGE:
         return read_study(Settings.model_validate({"languages": [request.param]}))
     whole = read_study(Settings(languages=("en",)))
@@ -56,7 +56,7 @@ def study(request: pytest.FixtureRequest, tmp_path: Path) -> StudyConfig:
 
 @pytest.fixture(params=[1.0, 1.3])
 def window(request: pytest.FixtureRequest, study: StudyConfig, qtbot: QtBot) -> Iterator[Window]:
-    """The window of that study, with its texts as large as they are usually, and as large as they can be."""
+    """Provide the window of that study, with its texts as large as they are usually, and as large as they can be."""
     (plan,) = study.plans
     if plan.language == pseudo.LANGUAGE and request.param > 1:
         pytest.skip("a language that is 40 % longer is test enough at its usual size")
@@ -70,7 +70,7 @@ def window(request: pytest.FixtureRequest, study: StudyConfig, qtbot: QtBot) -> 
 
 
 def longer(sheet: Information) -> Information:
-    """An information sheet in the made-up language."""
+    """Return an information sheet in the made-up language."""
 
     def rewritten(value: Any) -> Any:
         match value:
@@ -86,7 +86,7 @@ def longer(sheet: Information) -> Information:
 
 
 def worded(item: Item, language: str) -> Item:
-    """An item of a questionnaire, in the made-up language if it is that one."""
+    """Return an item of a questionnaire, in the made-up language if it is that one."""
     if language != pseudo.LANGUAGE:
         return item
 
@@ -104,7 +104,7 @@ def worded(item: Item, language: str) -> Item:
 
 
 def longest_hint(catalogue: Catalogue) -> str:
-    """The longest that the assistant ever says with a hint."""
+    """Return the longest that the assistant ever says with a hint."""
     card = catalogue.card("hedgehog")
     reasons = [
         wording
@@ -135,7 +135,7 @@ def painted(text: QQuickItem) -> QRectF:
 
 
 def scrolls(text: QQuickItem) -> QRectF | None:
-    """The part of the window that a text scrolls in; None if it stands still."""
+    """Return the part of the window that a text scrolls in; None if it stands still."""
     above: QQuickItem | None = text.parentItem()
     while above and not (above.inherits("QQuickFlickable") and above.property("interactive")):
         above = above.parentItem()

@@ -14,7 +14,7 @@ from kiosk.ui.event_loop import InlineExecutor, MainThreadExecutor, ThreadExecut
 
 @pytest.fixture
 def worker(qtbot: QtBot) -> Iterator[ThreadExecutor]:  # noqa: ARG001 - results land in Qt's loop
-    """A worker with its landing."""
+    """Provide a worker with its landing."""
     landing = MainThreadExecutor()
     built = ThreadExecutor(landing)
     yield built

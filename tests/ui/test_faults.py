@@ -28,20 +28,20 @@ QUICK = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_dead
 
 @pytest.fixture
 def fake() -> Iterator[FurhatFake]:
-    """A robot that speaks fast."""
+    """Provide a robot that speaks fast."""
     with FurhatFake(character_ms=0.2) as robot:
         yield robot
 
 
 @pytest.fixture
 def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
-    """A kiosk with this robot."""
+    """Return a kiosk with this robot."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **QUICK}
     return make_booth(settings=short(robot=robot))
 
 
 def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Result:
-    """A session in which the robot falls into this mode; it must be whole, and replay as it was."""
+    """Return a session in which the robot falls into this mode; it must be whole, and replay as it was."""
     rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), at)
     rehearsal.run()
     with open_repository(booth.data) as stored:

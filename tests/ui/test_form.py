@@ -24,7 +24,7 @@ Given = list[tuple[str, object]]
 
 @pytest.fixture
 def given(booth: Booth) -> Given:
-    """What the form reports, which is shown as the study would show it."""
+    """Return what the form reports, which is shown as the study would show it."""
     answers: Given = []
 
     def take(item: str, value: Answer | None) -> None:
@@ -44,7 +44,7 @@ def ask(booth: Booth, *items: Item) -> None:
 
 
 def required(kind: str) -> Item:
-    """An item of this kind that has to be answered."""
+    """Return an item of this kind that has to be answered."""
     return ITEMS[kind].model_copy(update={"required": True})
 
 

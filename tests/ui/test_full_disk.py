@@ -32,13 +32,13 @@ KEPT = [stage for stage in Stage if stage not in {*BEFORE_DECIDING, Stage.ATTRAC
 
 @pytest.fixture
 def disk() -> SmallDisk:
-    """The disk under the booth."""
+    """Return the disk under the booth."""
     return SmallDisk()
 
 
 @pytest.fixture
 def booth(make_booth: MakeBooth, disk: SmallDisk) -> Booth:
-    """A booth on a disk that can be full."""
+    """Return a booth on a disk that can be full."""
     return make_booth(settings=SMALL, opened=disk.open)
 
 

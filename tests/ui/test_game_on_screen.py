@@ -39,7 +39,7 @@ def moves(request: pytest.FixtureRequest) -> bool:
 
 @pytest.fixture
 def app(qapp: object, tmp_path: Path, moves: bool) -> Iterator[App]:  # noqa: ARG001, FBT001 - fixtures
-    """A kiosk in the middle of a game, which moves or stands still."""
+    """Provide a kiosk in the middle of a game, which moves or stands still."""
     settings = QUIET.model_copy(update={"screen": QUIET.screen.model_copy(update={"motion": moves})})
     with headless(settings, tmp_path, mode=MOVING) as opened:
         opened.screens.board.deal(4, 6, 12, "animals")
@@ -50,7 +50,7 @@ def app(qapp: object, tmp_path: Path, moves: bool) -> Iterator[App]:  # noqa: AR
 
 
 def find(app: App, name: str) -> QQuickItem:
-    """The visible item of this name."""
+    """Return the visible item of this name."""
     item = find_item(app.window.contentItem(), name)
     assert item is not None, name
     return item
@@ -71,7 +71,7 @@ def looks(app: App, name: str) -> QImage:
 
 
 def in_tray(app: App) -> list[str]:
-    """The pictures that lie in the tray, each of them once."""
+    """Return the pictures that lie in the tray, each of them once."""
     shown = [item for item in items(app.window.contentItem()) if lies_in(item, "Tray")]
     return list(dict.fromkeys(Path(i.property("source").path()).stem for i in shown if i.inherits("QQuickImage")))
 

@@ -46,7 +46,7 @@ class Stage:
         }
 
     def seen(self, jumps: int = MANY) -> list[set[str]]:
-        """What moved at each moment at which something did."""
+        """Return what moved at each moment at which something did."""
         found = []
         for _ in range(jumps):
             before = self.moving
@@ -57,7 +57,7 @@ class Stage:
 
 @pytest.fixture
 def stage(qapp: object) -> Stage:
-    """A screen that nobody plays on."""
+    """Return a screen that nobody plays on."""
     assert qapp is not None
     return Stage()
 

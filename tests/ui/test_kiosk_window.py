@@ -26,7 +26,7 @@ SCREENS = [(0, 0, 1920, 1080), (1920, 0, 1280, 720), (3200, 0, 1080, 1920), (428
 
 
 def on_screens(folder: Path, number: int, ratio: float = 1.0) -> dict[str, Any]:
-    """What happens to a booth's window on faked screens."""
+    """Return what happens to a booth's window on faked screens."""
     names = ("x", "y", "width", "height")
     screens = [
         {"name": f"screen {n}", "logicalDpi": 96, "dpr": 1} | dict(zip(names, screen, strict=True))
@@ -77,7 +77,7 @@ def test_the_window_covers_its_screen_at_any_density(tmp_path: Path, ratio: floa
 
 @pytest.fixture
 def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
-    """An empty window, shown."""
+    """Provide an empty window, shown."""
     window = QQuickWindow()
     window.resize(400, 300)
     window.show()
@@ -89,7 +89,7 @@ def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
 
 @pytest.fixture
 def resting(window: QQuickWindow, monkeypatch: pytest.MonkeyPatch) -> Iterator[CursorAutohide]:
-    """A pointer over the window that soon rests."""
+    """Provide a pointer over the window that soon rests."""
     monkeypatch.setattr(kiosk_window, "REST_MS", 20)
     watched = CursorAutohide(window)
     yield watched
@@ -143,13 +143,13 @@ class FakeDesktop:
 
 @pytest.fixture
 def desktop() -> FakeDesktop:
-    """A desktop that does as it is told."""
+    """Return a desktop that does as it is told."""
     return FakeDesktop()
 
 
 @pytest.fixture
 def held(window: QQuickWindow, desktop: FakeDesktop, monkeypatch: pytest.MonkeyPatch) -> Iterator[FullScreen]:
-    """The window, held over its screen."""
+    """Provide the window, held over its screen."""
     monkeypatch.setattr(kiosk_window, "LOOK_MS", 10)
     owner = QObject()
     full_screen = FullScreen(window, 0, owner)

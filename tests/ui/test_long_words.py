@@ -35,12 +35,12 @@ class _Joined(Transformer):
 
 
 def joined(text: str) -> str:
-    """A text without a space."""
+    """Return a text without a space."""
     return text.replace(" ", "")
 
 
 def rejoined(value: Any) -> Any:
-    """What is declared, without a space in any text of it."""
+    """Return what is declared, without a space in any text of it."""
     match value:
         case str():
             return joined(value)
@@ -53,7 +53,7 @@ def rejoined(value: Any) -> Any:
 
 @pytest.fixture
 def study(tmp_path: Path) -> StudyConfig:
-    """A study in a language whose sentences are single words."""
+    """Return a study in a language whose sentences are single words."""
     whole = read_study(Settings(languages=("en",)))
     (plan,) = whole.plans
     folder = tmp_path / "en"
@@ -109,7 +109,7 @@ def test_a_language_without_spaces_is_readable_on_every_screen(
 
 @pytest.fixture(params=["en", "es", "it"])
 def shipped(request: pytest.FixtureRequest, qtbot: QtBot) -> Iterator[Window]:
-    """The window of a study in one of the shipped languages."""
+    """Provide the window of a study in one of the shipped languages."""
     study = read_study(Settings.model_validate({"languages": [request.param]}))
     opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
     opened.show()

@@ -49,14 +49,14 @@ def of_screens(app: App) -> dict[str, object]:
 
 
 def items(item: QQuickItem) -> Iterator[QQuickItem]:
-    """An item and all below it, seen or not."""
+    """Yield an item and all below it, seen or not."""
     yield item
     for child in item.childItems():
         yield from items(child)
 
 
 def of_window(app: App) -> list[dict[str, str]]:
-    """What every item of the window looks like, in their order."""
+    """Return what every item of the window looks like, in their order."""
     lay_out(app.window)
     return [
         {"kind": re.sub(r"_QML.*", "", item.metaObject().className()), "name": item.objectName()}
@@ -112,7 +112,7 @@ class Watched(Rehearsal):
 
 
 def visitors(seed: int) -> Iterator[BehaviourProfile]:
-    """Some visitors of every kind, in any order and language."""
+    """Yield some visitors of every kind, in any order and language."""
     chance = Random(seed)
     manners = list(BehaviourKind)
     chance.shuffle(manners)

@@ -93,7 +93,7 @@ class _Marked(Transformer):
 
 
 def marked_language(folder: Path) -> Catalogue:
-    """The English sentences and names of cards, with markup in all of them."""
+    """Return the English sentences and names of cards, with markup in all of them."""
     written = folder / "en"
     written.mkdir()
     for file in (ASSETS / "sentences" / "en").glob("*.ftl"):
@@ -103,7 +103,7 @@ def marked_language(folder: Path) -> Catalogue:
 
 
 def marked(value: Any) -> Any:
-    """What is declared, with markup in every text of it."""
+    """Return what is declared, with markup in every text of it."""
     match value:
         case {"en": str(text)}:
             return {"en": f"{MARKUP} {text}"}
@@ -121,7 +121,7 @@ def marked(value: Any) -> Any:
 
 @pytest.fixture
 def study(tmp_path: Path) -> StudyConfig:
-    """A study with markup in every word."""
+    """Return a study with markup in every word."""
     whole = read_study(Settings(languages=("en",)))
     (plan,) = whole.plans
     sheet = Information.model_validate(marked(plan.information.model_dump()))
@@ -247,7 +247,7 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
 
 
 def _names_of_the_panel() -> set[str]:
-    """The messages that the panel shows as they stand."""
+    """Return the messages that the panel shows as they stand."""
     files = (QML.parent / "panel").glob("*.qml")
     return {name for file in files for name in re.findall(r'"(console-[a-z-]+)"', file.read_text("utf-8"))} | {
         f"console-counts-{name}" for name in ("dropped", "overridden", "beyond", "withdrawn")

@@ -34,7 +34,7 @@ CDLL = ctypes.CDLL
 
 
 def environment(**screen: str) -> dict[str, str]:
-    """The environment of this process, with this screen."""
+    """Return the environment of this process, with this screen."""
     return {name: value for name, value in os.environ.items() if name not in SCREENS} | screen
 
 
@@ -46,7 +46,7 @@ def run(*arguments: str, **screen: str) -> subprocess.CompletedProcess[str]:
 
 
 def lacks(*missing: str) -> type[ctypes.CDLL]:
-    """A loader for a system without these libraries; Qt's platform for X needs all of them."""
+    """Return a loader for a system without these libraries; Qt's platform for X needs all of them."""
 
     class Loader(CDLL):
         """Loads what is there."""
@@ -62,7 +62,7 @@ def lacks(*missing: str) -> type[ctypes.CDLL]:
 
 @pytest.fixture
 def study_with_pin(tmp_path: Path) -> Path:
-    """A study that may be kept up."""
+    """Return a study that may be kept up."""
     study = tmp_path / "study.toml"
     study.write_text(WITH_PIN)
     return study

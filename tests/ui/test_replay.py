@@ -32,7 +32,7 @@ SEED = 5
 
 @pytest.fixture(scope="module")
 def played() -> Driver:
-    """A whole session, of which everything is known."""
+    """Return a whole session, of which everything is known."""
     driver = Driver(whole(game={"rows": 2, "columns": 4}), SEED)
     driver.whole_session(with_memory(3))
     return driver
@@ -40,7 +40,7 @@ def played() -> Driver:
 
 @pytest.fixture
 def folder(played: Driver, tmp_path: Path) -> Path:
-    """The data folder in which it is stored."""
+    """Return the data folder in which it is stored."""
     with Recorder(tmp_path / "data") as recorder:
         recorder.begin(Provenance(played.plan, SEED, "avatar", "a test", kind=SessionKind.SIMULATED), played.events)
     return tmp_path / "data"
@@ -54,14 +54,14 @@ def steps(played: Driver) -> tuple[ReplayStep, ...]:
 
 @pytest.fixture
 def replay(played: Driver, steps: tuple[ReplayStep, ...], qtbot: QtBot) -> Iterator[Replay]:
-    """The replay, standing before the first step."""
+    """Provide the replay, standing before the first step."""
     with Replay(RunMode(WindowMode.NOWHERE, ClockMode.WALL, 32), played.plan, steps, "Session 1") as replay:
         qtbot.waitUntil(lambda: replay.window.isExposed() and replay.window.isActive())
         yield replay
 
 
 def seen(replay: Replay) -> tuple[object, ...]:
-    """What stands on the screens."""
+    """Return what stands on the screens."""
     screens = replay.screens
     return (screens.kiosk.shown, screens.board.unmatched, screens.board.closed, screens.avatar.bubble)
 

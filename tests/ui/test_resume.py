@@ -62,7 +62,7 @@ def cut_off(data: Path, stage: Stage, qtbot: QtBot, *, crash: bool) -> None:
 
 
 def read(data: Path) -> InterruptedSession:
-    """The first session, as the kiosk reads it."""
+    """Return the first session, as the kiosk reads it."""
     found = read_interrupted_session(data, 1)
     assert isinstance(found, InterruptedSession)
     return found

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="what guards it 
 
 
 def rehearsal(data: Path, wrong: str, *more: str) -> subprocess.Popen[str]:
-    """A rehearsal in which this is wrong with the first card."""
+    """Return a rehearsal in which this is wrong with the first card."""
     environment = {name: value for name, value in os.environ.items() if name != "NOTIFY_SOCKET"}
     command = [sys.executable, "-m", "tests.ui.stuck_kiosk", wrong, *more]
     return subprocess.Popen(

@@ -13,7 +13,7 @@ MOST_TO_ITS_MARK = 35
 
 @pytest.fixture
 def walked(qtbot: QtBot) -> tuple[Watch, Watch]:
-    """The walk of one tap, to its pixel and to its mark."""
+    """Return the walk of one tap, to its pixel and to its mark."""
     del qtbot
     return walks()
 

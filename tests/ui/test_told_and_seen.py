@@ -20,7 +20,7 @@ Role = QAccessible.Role
 
 
 def told(booth: Booth, name: str) -> QAccessibleInterface:
-    """What a program that reads the screen knows of an item."""
+    """Return what a program that reads the screen knows of an item."""
     found = QAccessible.queryAccessibleInterface(booth.item(name))
     assert isinstance(found, QAccessibleInterface)
     return found

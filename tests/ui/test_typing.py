@@ -44,18 +44,18 @@ Given = list[tuple[str, Answer | None]]
 
 
 def text(name: str = "remark", longest: int = 120) -> ShortText:
-    """An item that is answered by a few words."""
+    """Return an item that is answered by a few words."""
     return ShortText(id=name, kind="text", text={"en": "Remarks?"}, longest=longest)
 
 
 def whole_number(lowest: int, highest: int) -> Integer:
-    """An item that is answered by a whole number."""
+    """Return an item that is answered by a whole number."""
     return Integer(id="n", kind="integer", text={"en": "How many?"}, lowest=lowest, highest=highest, required=True)
 
 
 @pytest.fixture
 def given(booth: Booth) -> Given:
-    """What the form reports, which is shown as the study would show it."""
+    """Return what the form reports, which is shown as the study would show it."""
     answers: Given = []
 
     def take(item: str, value: Answer | None) -> None:
@@ -67,7 +67,7 @@ def given(booth: Booth) -> Given:
 
 
 def contents(booth: Booth, name: str) -> str:
-    """What stands in a field."""
+    """Return what stands in a field."""
     return str(booth.item(name).property("text"))
 
 
@@ -262,7 +262,7 @@ per_page = 8
 
 
 def study_in(folder: Path, items: str) -> Settings:
-    """A study that asks these items first."""
+    """Return a study that asks these items first."""
     (folder / "form.toml").write_text(FORM + items, "utf-8")
     study = 'languages = ["en"]\nabout_you = "form.toml"\nstages = ["about_you", "game", "thanks"]\n'
     (folder / "study.toml").write_text(
@@ -281,7 +281,7 @@ RATED = (
 
 @contextmanager
 def at_work(settings: Settings, data: Path, qtbot: QtBot) -> Iterator[Booth]:
-    """A booth with this study, which is closed at the end."""
+    """Provide a booth with this study, which is closed at the end."""
     with headless(settings, data) as app:
         qtbot.waitUntil(lambda: app.window.isExposed() and app.window.isActive())
         yield Booth(app, data)
@@ -318,7 +318,7 @@ def test_what_was_typed_is_recorded_replayed_and_exported_exactly(qtbot: QtBot, 
 
 
 def replay_app(replay: Replay) -> App:
-    """The replay, where a test looks for the window and the screens of a kiosk."""
+    """Return the replay, where a test looks for the window and the screens of a kiosk."""
     return replay  # type: ignore[return-value]  # both have a window and screens, and no more is asked of them
 
 

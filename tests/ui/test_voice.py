@@ -66,7 +66,7 @@ def voices() -> Iterator[list[EngineVoice]]:
 
 
 def engine(voices: list[EngineVoice], program: str, *arguments: str) -> EngineVoice:
-    """A voice whose engine is a small program, with short deadlines."""
+    """Return a voice whose engine is a small program, with short deadlines."""
     command = (sys.executable, "-c", program, *arguments)
     voice = EngineVoice(VoiceSettings(), "en", command, start_deadline_ms=1_500, end_grace_ms=200)
     voices.append(voice)

@@ -24,7 +24,7 @@ EVERY_40_MS = {"WATCHDOG_USEC": "40000"}
 
 @pytest.fixture
 def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
-    """An empty window that is not shown yet."""
+    """Provide an empty window that is not shown yet."""
     made = QQuickWindow()
     yield made
     made.close()

@@ -65,7 +65,7 @@ class Looking(UiDriver):
         super().click(name, across)
 
     def _moment(self, name: str) -> str:
-        """What stands there, in words; a form counts once empty, once filled in, and once with its keys."""
+        """Return what stands there, in words; a form counts once empty, once filled in, and once with its keys."""
         shown, form = self._app.screens.kiosk.shown, self._app.screens.form
         if shown != "form":
             return f"{shown}{', agreed' if name == 'agree' else ''}"

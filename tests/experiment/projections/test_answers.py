@@ -33,22 +33,22 @@ TWO = questionnaire("two", likert("a"))
 
 
 def entered(at_ms: int, stage: Stage = Stage.QUESTIONS) -> Event:
-    """A stage begins."""
+    """Return a stage begins."""
     return happened.StageEntered(at_ms=at_ms, stage=stage)
 
 
 def shown(at_ms: int, *items: str, of: str = "one") -> Event:
-    """A page comes."""
+    """Return a page comes."""
     return happened.QuestionnairePageShown(at_ms=at_ms, questionnaire=of, items=items)
 
 
 def said(at_ms: int, item: str, value: Answer | None) -> Event:
-    """An item is answered."""
+    """Return an item is answered."""
     return happened.ResponseGiven(at_ms=at_ms, item=item, value=value)
 
 
 def responses(events: Iterable[Event], questionnaires: Sequence[Questionnaire]) -> tuple[ItemResponse, ...]:
-    """What became of every item in a session of these events."""
+    """Return what became of every item in a session of these events."""
     return item_responses(SessionState.from_events(events), questionnaires)
 
 
@@ -121,7 +121,7 @@ def test_other_questionnaires_do_not_matter() -> None:
 
 
 def resumed(at_ms: int) -> list[Event]:
-    """The stage begins anew after a cut."""
+    """Return the stage begins anew after a cut."""
     return [happened.SessionResumed(at_ms=at_ms, embodiment=EmbodimentName.AVATAR), entered(at_ms)]
 
 

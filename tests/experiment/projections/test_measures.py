@@ -29,7 +29,7 @@ def flip(at_ms: int, number: int, *, matched: bool | None = None, position: Posi
 def hint(
     at_ms: int, number: int, action: ActionSpec = ActionSpec.SUG_CARD, target: Position = HERE
 ) -> happened.HintGiven:
-    """A hint for flip number so-and-so."""
+    """Return a hint for flip number so-and-so."""
     return happened.HintGiven(
         at_ms=at_ms,
         flip=number,
@@ -48,17 +48,17 @@ def hint(
 
 
 def opened(at_ms: int) -> Event:
-    """The board opens again."""
+    """Return the board opens again."""
     return happened.BoardUnlocked(at_ms=at_ms)
 
 
 def entered(stage: Stage, at_ms: int = 0) -> Event:
-    """The session goes on to a stage."""
+    """Return the session goes on to a stage."""
     return happened.StageEntered(at_ms=at_ms, stage=stage)
 
 
 def paused(since: int, until: int) -> list[Event]:
-    """The experimenter stops the session from then to then."""
+    """Return the experimenter stops the session from then to then."""
     return [happened.PauseRequested(at_ms=since), happened.PauseEnded(at_ms=until)]
 
 
@@ -66,7 +66,7 @@ DEALT = happened.BoardDealt(at_ms=0, rows=4, columns=6, cards=("owl",) * 24)
 
 
 def measured(game: list[Event]) -> Measures:
-    """The measures of a session whose game went like this."""
+    """Return the measures of a session whose game went like this."""
     return measure([entered(Stage.GAME), DEALT, *game])
 
 

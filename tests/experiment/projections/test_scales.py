@@ -37,7 +37,7 @@ Given = dict[str, int | None]
 
 
 def scored(given_ones: Given, items: tuple[str, ...] = NAMES) -> dict[str, ScaleScore]:
-    """The scales of these answers, by name."""
+    """Return the scales of these answers, by name."""
     told = [ItemResponse("social", item, given_ones.get(item)) for item in items]
     return {score.scale: score for score in scale_scores(told, [SOCIAL])}
 

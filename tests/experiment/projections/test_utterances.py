@@ -23,27 +23,27 @@ ROBOT, AVATAR = EmbodimentName.robot("furhat"), EmbodimentName.AVATAR
 
 
 def asked(number: int, at_ms: int = 0) -> happened.Event:
-    """A sentence is to be said."""
+    """Return a sentence is to be said."""
     return happened.SentenceRequested(at_ms=at_ms, utterance=number, sentence="x")
 
 
 def started(number: int, at_ms: int = 0) -> happened.SpeechStarted:
-    """A body began to say a sentence."""
+    """Return a body began to say a sentence."""
     return happened.SpeechStarted(at_ms=at_ms, utterance=number)
 
 
 def finished(number: int, at_ms: int = 0) -> happened.Event:
-    """A sentence was said to its end."""
+    """Return a sentence was said to its end."""
     return happened.SpeechFinished(at_ms=at_ms, utterance=number)
 
 
 def failed(number: int, at_ms: int = 0) -> happened.Event:
-    """A body failed to say a sentence."""
+    """Return a body failed to say a sentence."""
     return happened.SpeechFailed(at_ms=at_ms, utterance=number, why="x")
 
 
 def lost(at_ms: int = 0) -> list[happened.Event]:
-    """The robot is lost, and the avatar helps from then on."""
+    """Return the robot is lost, and the avatar helps from then on."""
     return [
         happened.RobotDisconnected(at_ms=at_ms, why="x"),
         happened.EmbodimentChanged(at_ms=at_ms, embodiment=AVATAR, why="x"),
@@ -51,12 +51,12 @@ def lost(at_ms: int = 0) -> list[happened.Event]:
 
 
 def attempts(events: list[Event]) -> list[tuple[SpeechAttempt, ...]]:
-    """The attempts at every sentence of a session that began with the robot."""
+    """Return the attempts at every sentence of a session that began with the robot."""
     return [said.attempts for said in SessionState.from_events(events, ROBOT).sentences]
 
 
 def counted(events: list[Event]) -> SpeechCounts:
-    """What became of the sentences."""
+    """Return what became of the sentences."""
     return count_speech(SessionState.from_events(events))
 
 

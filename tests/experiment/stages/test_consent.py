@@ -34,7 +34,7 @@ THREE = INFORMATION.model_copy(
 
 
 def asked_for_more() -> Driver:
-    """A session that asks for three purposes, of which two are required."""
+    """Return a session that asks for three purposes, of which two are required."""
     return driven_to(Stage.CONSENT, replace(whole(), information=THREE))
 
 

@@ -21,12 +21,12 @@ HELPFUL = always(ActionSpec.SUG_CARD)
 
 
 def practising(longest: int = 300_000) -> Driver:
-    """A practice that has just begun, in a study whose assistant helps before every flip."""
+    """Return a practice that has just begun, in a study whose assistant helps before every flip."""
     return driven_to(Stage.PRACTICE, whole(policy=HELPFUL, practice=Practice(max_duration_ms=longest)))
 
 
 def within(driver: Driver, stage: Stage) -> list[Event]:
-    """What happened in a stage, from its beginning on."""
+    """Return what happened in a stage, from its beginning on."""
     events = driver.events
     begun = next(i for i, e in enumerate(events) if isinstance(e, happened.StageEntered) and e.stage is stage)
     later = (i for i, e in enumerate(events) if isinstance(e, happened.StageEntered) and i > begun)

@@ -101,7 +101,7 @@ ANYTHING = st.one_of(
 
 
 def fits(item: Item, value: Answer) -> bool:
-    """What an item's declaration says of a value, in other words than its own."""
+    """Return what an item's declaration says of a value, in other words than its own."""
     match item.kind:
         case "likert" | "differential" | "pictures" | "slider" | "integer":
             return type(value) is int and ENDS[item.kind][0] <= value <= ENDS[item.kind][1]
@@ -115,7 +115,7 @@ def fits(item: Item, value: Answer) -> bool:
 
 
 def asking(*items: Item, seed: int = 5, **more: object) -> Driver:
-    """A session that has come to a questionnaire of these items."""
+    """Return a session that has come to a questionnaire of these items."""
     asked = questionnaire("asked", *items, **more)
     small = plan(stages=("game", "questions"), game=Game(rows=1, columns=2))
     return driven_to(Stage.QUESTIONS, replace(small, questionnaires=(asked,)), seed)
@@ -246,7 +246,7 @@ def test_a_page_has_as_many_items_as_fit_and_a_text_stands_alone(
 
 
 def shuffled(seed: int) -> list[str]:
-    """The order in which nine items come, with a text in their middle."""
+    """Return the order in which nine items come, with a text in their middle."""
     items: list[Item] = [*(likert(f"a{n}") for n in range(4)), PAGE, *(likert(f"b{n}") for n in range(4))]
     driver = asking(*items, seed=seed, order=ItemOrder.SHUFFLED)
     driver.to(Stage.OVER)

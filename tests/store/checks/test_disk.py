@@ -26,7 +26,7 @@ class Usage(NamedTuple):
 
 
 def failing(failure: Exception) -> Callable[[Path], Sequence[float]]:
-    """A disk that fails."""
+    """Return a disk that fails."""
 
     def measure(_: Path) -> Sequence[float]:
         raise failure

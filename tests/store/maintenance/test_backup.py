@@ -33,7 +33,7 @@ def into(folder: Path) -> Path:
 
 
 def events_in(copy: Path) -> list[int]:
-    """The numbers of the events of a copy, which is whole."""
+    """Return the numbers of the events of a copy, which is whole."""
     with closing(sqlite3.connect(f"{copy.as_uri()}?mode=ro&immutable=1", uri=True)) as connection:
         assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
         assert connection.execute("PRAGMA foreign_key_check").fetchall() == []

@@ -34,7 +34,7 @@ TABLES = ("allocation_list", "audit_event", "event", "participant", "session", "
 
 @pytest.fixture
 def milan(tmp_path: Path, provenance: Provenance) -> Path:
-    """A day in Milan, after which somebody withdrew."""
+    """Return a day in Milan, after which somebody withdrew."""
     folder = tmp_path / "milan"
     people = a_day(folder, provenance, "MI", seed=1)
     withdraw(folder, people[0].code)
@@ -43,7 +43,7 @@ def milan(tmp_path: Path, provenance: Provenance) -> Path:
 
 @pytest.fixture
 def girona(tmp_path: Path, provenance: Provenance) -> Path:
-    """A day in Girona."""
+    """Return a day in Girona."""
     a_day(tmp_path / "girona", provenance, "GI", seed=2)
     return tmp_path / "girona"
 
@@ -249,7 +249,7 @@ WHERE_IT_IS_NOT_TO_BE: dict[str, Callable[[Path], Path]] = {
 
 
 def link_to(folder: Path, *, made: bool = False) -> Path:
-    """A link, beside all data folders, to a folder that is there or is made."""
+    """Return a link, beside all data folders, to a folder that is there or is made."""
     if made:
         folder.mkdir()
     link = folder.parents[folder.parts[::-1].index("girona")] / "link"
@@ -294,7 +294,7 @@ def test_a_folder_beside_what_is_merged_may_have_a_longer_name(milan: Path, giro
 
 @pytest.fixture
 def nameless(tmp_path: Path, provenance: Provenance) -> list[Path]:
-    """A day at each of two kiosks without a site; at one of them a participant withdrew."""
+    """Return a day at each of two kiosks without a site; at one of them a participant withdrew."""
     hall, library = tmp_path / "the hall", tmp_path / "the=library"
     a_day(hall, provenance, seed=3)
     participant, *_ = a_day(library, provenance, seed=4)

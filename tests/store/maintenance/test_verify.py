@@ -25,7 +25,7 @@ OTHER_CODE = next(codes("MI", 12345))
 
 @pytest.fixture
 def day(folder: Path, provenance: Provenance) -> Path:
-    """A day at a booth, after which somebody withdrew."""
+    """Return a day at a booth, after which somebody withdrew."""
     people = a_day(folder, provenance, "MI")
     withdraw(folder, people[1].code)
     return folder
@@ -44,7 +44,7 @@ def tamper(folder: Path, *statements: str) -> None:
 
 
 def found(folder: Path) -> dict[Verification, list[str]]:
-    """What is found, as where and what, by check."""
+    """Return what is found, as where and what, by check."""
     told: dict[Verification, list[str]] = {}
     for flaw in verify(folder):
         told.setdefault(flaw.check, []).append(f"{flaw.where}: {flaw.what}")

@@ -28,7 +28,7 @@ OTHERS = "somebody else's answer"
 
 @pytest.fixture
 def code(folder: Path, provenance: Provenance) -> str:
-    """The code of somebody who said a good deal, between two others; copies were made before and after."""
+    """Return the code of somebody who said a good deal, between two others; copies were made before and after."""
     with Recorder(folder) as recorder:
         recorder.create_allocation_list(FOUR, 4, 7, kind=SessionKind.STUDY)
         place = recorder.next_slot(kind=SessionKind.STUDY)

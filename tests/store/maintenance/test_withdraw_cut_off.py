@@ -60,13 +60,13 @@ def pristine(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 @pytest.fixture
 def data(pristine: tuple[Path, str], tmp_path: Path) -> Path:
-    """A copy of that folder."""
+    """Return a copy of that folder."""
     return Path(shutil.copytree(pristine[0], tmp_path / "data"))
 
 
 @pytest.fixture
 def code(pristine: tuple[Path, str]) -> str:
-    """The code of the one who withdraws."""
+    """Return the code of the one who withdraws."""
     return pristine[1]
 
 
@@ -181,7 +181,7 @@ def test_a_withdrawal_that_is_cut_off_twice_is_finished(data: Path, code: str, c
 
 @pytest.fixture
 def cut_off(data: Path, code: str, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder whose copies could not be replaced."""
+    """Return a folder whose copies could not be replaced."""
 
     def full(*_: object, **__: object) -> Path:
         raise StorageError("disk full")
@@ -251,7 +251,7 @@ def test_two_withdrawals_that_were_cut_off_are_finished_together(cut_off: Path, 
 
 
 def modes(folder: Path) -> dict[str, int]:
-    """The modes of all files that hold data."""
+    """Return the modes of all files that hold data."""
     return {path.name: path.stat().st_mode & 0o777 for path in folder.rglob("recollect*.db*")}
 
 

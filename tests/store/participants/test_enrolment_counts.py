@@ -21,13 +21,13 @@ TWO = {Condition.TOM: 2}
 
 
 def counted(folder: Path, *, kind: SessionKind = SessionKind.SIMULATED) -> EnrolmentCounts:
-    """The counts of a folder."""
+    """Return the counts of a folder."""
     with open_repository(folder) as stored:
         return stored.counts(kind=kind)
 
 
 def told(cell: CountCell) -> dict[str, int]:
-    """What there is of a cell, without what there is not."""
+    """Return what there is of a cell, without what there is not."""
     return {name: number for name, number in cell.to_json().items() if number}
 
 

@@ -24,12 +24,12 @@ SEEDS = st.integers(0, 2**63 - 1)
 
 
 def first_code(seed: int, site: str = "") -> str:
-    """The code that a seed leads to."""
+    """Return the code that a seed leads to."""
     return next(codes(site, seed))
 
 
 def entered(folder: Path, provenance: Provenance, *seeds: int, site: str = "") -> list[Participant]:
-    """The people of sessions with these seeds."""
+    """Return the people of sessions with these seeds."""
     with Recorder(folder, site) as recorder:
         return [recorder.begin(replace(provenance, seed=seed), [START]) for seed in seeds]
 

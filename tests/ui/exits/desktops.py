@@ -74,7 +74,7 @@ class Kiosk:
             self.told.get_nowait()
 
     def hear(self, key: str, within_s: float) -> dict[str, Any] | None:
-        """The next thing it tells of this kind, or None if it does not in time."""
+        """Return the next thing it tells of this kind, or None if it does not in time."""
         try:
             while key not in (told := self.told.get(timeout=within_s)):
                 pass
@@ -110,7 +110,7 @@ def kiosk_on(desktop: Desktop) -> Iterator[Kiosk]:
 
 
 def _cage(folder: Path) -> tuple[dict[str, str], tuple[str, ...]]:
-    """What cage needs to run without a screen, and how it is called; it refuses to run as root."""
+    """Return what cage needs to run without a screen, and how it is called; it refuses to run as root."""
     runtime = folder / "runtime"
     runtime.mkdir(mode=0o700)
     environment = os.environ | {
@@ -131,7 +131,7 @@ def _cage(folder: Path) -> tuple[dict[str, str], tuple[str, ...]]:
 
 @contextmanager
 def _x_server(desktop: Desktop) -> Iterator[dict[str, str]]:
-    """A virtual screen, and the window manager on it."""
+    """Provide a virtual screen, and the window manager on it."""
     reading, writing = os.pipe()
     screen = "{}x{}x24".format(*SIZE)
     with ExitStack() as started:
@@ -148,7 +148,7 @@ def _x_server(desktop: Desktop) -> Iterator[dict[str, str]]:
 
 @contextmanager
 def _openbox(rules: Path, environment: dict[str, str]) -> Iterator[None]:
-    """The window manager openbox with these rules, once it is at work."""
+    """Provide the window manager openbox with these rules, once it is at work."""
     command = ["openbox", "--config-file", str(rules)]
     process = subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL)
     with _ended(process), closing(Display(environment["DISPLAY"])) as display:

@@ -187,7 +187,7 @@ class Hands:
         return active is not None and list(active.value) == [self.window.id]
 
     def samples(self) -> list[int]:
-        """The colours near the four corners of the whole screen, and between cards."""
+        """Return the colours near the four corners of the whole screen, and between cards."""
         places = [(x, y) for x in (NEAR, SIZE[0] - NEAR - 1) for y in (NEAR, SIZE[1] - NEAR - 1)]
         cards = self.kiosk.begun["places"]
         places += [_between(cards[one], cards[other]) for one, other in GAPS]
@@ -217,7 +217,7 @@ class Hands:
         return (corner.x, corner.y, shape.width, shape.height)
 
     def _over(self) -> list[int]:
-        """The windows that lie over the kiosk's."""
+        """Return the windows that lie over the kiosk's."""
         stack, ids, outermost = [], [], self.window
         # A window that comes or goes meanwhile gets another frame, or none: then neither is true any more.
         while outermost.id not in ids:
@@ -240,7 +240,7 @@ class Hands:
         return isinstance(focus, Window) and focus.id == self.window.id
 
     def _code(self, name: str) -> int:
-        """The code of a key; a key that the keyboard lacks is given a place on it."""
+        """Return the code of a key; a key that the keyboard lacks is given a place on it."""
         symbol = XK.string_to_keysym(name)
         assert symbol, f"there is no key {name}"
         code = self.display.keysym_to_keycode(symbol)

@@ -196,5 +196,5 @@ def make_assigner(qtbot: QtBot, tmp_path: Path) -> Iterator[MakeDesk]:
 
 @pytest.fixture
 def assigner(make_assigner: MakeDesk) -> Desk:
-    """A booth with all stages and a PIN."""
+    """Return a booth with all stages and a PIN."""
     return make_assigner()

@@ -93,7 +93,7 @@ class Slow:
 
 @pytest.fixture
 def slow(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> Slow:
-    """The checks of the assigner's lock."""
+    """Return the checks of the assigner's lock."""
     return Slow(assigner, monkeypatch)
 
 

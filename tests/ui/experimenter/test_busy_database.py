@@ -34,7 +34,7 @@ def wait_ms(assigner: Desk, ms: int) -> None:
 
 
 def kinds(assigner: Desk) -> list[str]:
-    """What is written down of the booth, by its kinds."""
+    """Return what is written down of the booth, by its kinds."""
     return [kind for kind, _ in assigner.notes]
 
 

@@ -29,19 +29,19 @@ LISTED = {"randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 4}
 
 
 def records(assigner: Desk) -> dict[str, Any]:
-    """What the panel tells of the records."""
+    """Return what the panel tells of the records."""
     shown: dict[str, Any] = assigner.panel.property("records")
     return shown
 
 
 def choices(assigner: Desk) -> dict[str, Any]:
-    """What the panel lets one choose."""
+    """Return what the panel lets one choose."""
     shown: dict[str, Any] = assigner.panel.property("choices")
     return shown
 
 
 def held(booth: Booth) -> str:
-    """The name of what has the keyboard."""
+    """Return the name of what has the keyboard."""
     item: QQuickItem | None = booth.app.window.activeFocusItem()
     return item.objectName() if item is not None else ""
 
@@ -220,7 +220,7 @@ def test_a_session_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_ass
 
 
 def cut_off(make_assigner: MakeDesk) -> Desk:
-    """A booth whose panel offers to go on with a session."""
+    """Return a booth whose panel offers to go on with a session."""
     assigner = make_assigner()
     assigner.go_to(Stage.QUESTIONS)
     assigner.close()

@@ -70,7 +70,7 @@ class Place:
         )
 
     def wall_ms(self) -> int:
-        """The wall's clock."""
+        """Return the wall's clock."""
         return 1_700_000_000_000 + self.clock.now_ms()
 
     def copy(self) -> Path:

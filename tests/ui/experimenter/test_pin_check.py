@@ -32,7 +32,7 @@ class Door:
         self.heard.append(right)
 
     def check(self, pin: str) -> list[object]:
-        """What is heard when a PIN is tried."""
+        """Return what is heard when a PIN is tried."""
         self.heard.clear()
         self.lock.check_pin(pin, self.tell)
         return list(self.heard)

@@ -31,7 +31,7 @@ class Ranking(Choice):
         return isinstance(answer, tuple) and sorted(answer) == sorted(self.ids)
 
     def score(self, answer: Answer) -> int | None:
-        """The place of the option that is counted."""
+        """Return the place of the option that is counted."""
         if self.counted is None or not isinstance(answer, tuple):
             return None
         return answer.index(self.counted) + 1
