@@ -170,6 +170,7 @@ class ShowResult:
     pairs: int
     moves: int
     time_ms: int
+    hints: int = 0
 
 
 @dataclass(frozen=True)

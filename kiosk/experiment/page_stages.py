@@ -233,7 +233,7 @@ class ResultStage(StageHandler):
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the figures and remark on them."""
         measures = measure(self._log(outcome))
-        outcome.effect(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms))
+        outcome.effect(do.ShowResult(measures.pairs, measures.moves, measures.completion_ms, measures.hints))
         self._speaker.say(_remark(measures), outcome, moves=measures.moves)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:

@@ -81,6 +81,7 @@ class Renderer:
         self.screens.set_language(plan.catalogue)
         self.screens.kiosk.begin(plan.languages, plan.language, plan.settings.consent)
         self.screens.debrief.give_contact(plan.settings.consent.contact)
+        self.screens.debrief.give_summary(next(iter(plan.information.about.paragraphs), ""))
         self._is_rated = False
         if self.embodiments is not None:
             self.embodiments.begin_session(plan.language)
@@ -158,8 +159,8 @@ class Renderer:
                 case do.SetExpression(mood=mood):
                     if self._body is not None:
                         self._body.express(mood)
-                case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms):
-                    screens.result.show(pairs, moves, time_ms)
+                case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms, hints=hints):
+                    screens.result.show(pairs, moves, time_ms, hints, screens.board.found)
                     screens.kiosk.show("result")
                 case do.ShowItems(items=items, number=number, of=pages, rates=rates):
                     screens.form.show(items, number, pages)

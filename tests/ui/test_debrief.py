@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
@@ -11,8 +12,10 @@ from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
 from kiosk.experiment.information import Page
+from kiosk.game import Position
 from kiosk.ui.screens.pages import QUIET_MODULES
 from tests.ui.conftest import Booth
+from tests.ui.looking import items, lies_in
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
 MAIL, CODE = "study@university.test", "7K3M9QX"
@@ -79,3 +82,35 @@ def test_without_a_code_nothing_is_said_about_withdrawing(debriefed: Booth) -> N
     debriefed.app.screens.debrief.give_code("")
     assert not debriefed.sees("qr")
     assert not debriefed.sees("code")
+
+
+def test_the_card_to_take_home_says_what_the_study_was_about(debriefed: Booth) -> None:
+    assert not debriefed.sees("summary")
+    debriefed.app.screens.debrief.give_summary("We study how a robot can help.")
+    summary = debriefed.item("summary")
+    assert summary.property("text") == "We study how a robot can help."
+    qr, go = debriefed.item("qr"), debriefed.item("continue")
+    card = [each.mapRectToScene(each.boundingRect()) for each in (summary, debriefed.item("code"), qr)]
+    assert all(place.bottom() < go.mapRectToScene(go.boundingRect()).top() for place in card)
+
+
+def test_the_result_shows_the_pairs_that_were_found_and_the_hints_only_if_there_were_any(booth: Booth) -> None:
+    screens = booth.app.screens
+    screens.board.deal(2, 2, 2, "animals")
+    for row, card in enumerate(("cat", "owl")):
+        for column in range(2):
+            screens.board.reveal(Position(row, column), card)
+        screens.board.mark_matched((Position(row, 0), Position(row, 1)))
+    screens.kiosk.show("result")
+
+    def seen() -> tuple[set[str], set[object]]:
+        shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "ResultView")]
+        pictures = {Path(item.property("source").path()).stem for item in shown if item.inherits("QQuickImage")}
+        return pictures, {item.property("text") for item in shown if item.inherits("QQuickText")}
+
+    screens.result.show(2, 3, 9_000, 4, screens.board.found)
+    pictures, words = seen()
+    assert pictures == {"cat", "owl"}
+    assert {"2", "3", "4", "Hints", screens.kiosk.property("words")["result-line"]} <= words
+    screens.result.show(2, 3, 9_000, 0, screens.board.found)
+    assert "Hints" not in seen()[1]

@@ -177,7 +177,9 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
     yield "game", "game", lambda: screens.board.deal(4, 6, 12, "animals")
     yield "long", "game", lambda: screens.board.show_progress(12, 188)
     yield "waiting", "game", lambda: screens.board.lock(BoardWait.TURNING_BACK)
-    yield "result", "result", lambda: screens.result.show(12, 188, 59 * 60_000 + 59_000)
+    folder = ASSETS / "cards" / "animals"
+    found = [file.as_uri() for file in sorted(folder.glob("*.svg"))[:12]]
+    yield "result", "result", lambda: screens.result.show(12, 188, 59 * 60_000 + 59_000, 188, found)
     for name, items in pages():
         shown = tuple(worded(item, language) for item in items)
         yield name, "form", partial(screens.form.show, shown, 10, 12)
@@ -186,6 +188,7 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
     screens.debrief.give_contact("memory-study@psychology.university.test")
     screens.debrief.give_code("WWWWWWW")
+    screens.debrief.give_summary(sheet.about.paragraphs[0])
     yield "debrief", "debrief", lambda: screens.debrief.show(sheet.debrief)
     yield "thanks", "thanks", lambda: None
 

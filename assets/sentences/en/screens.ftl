@@ -84,6 +84,8 @@ result-time =
 result-time-label = Time
 result-moves-label = Moves
 result-pairs-label = Pairs
+result-hints-label = Hints
+result-line = You found every one of these pairs. Well done!
 result-continue = Continue
 result-speech-few =
     .a = Wow, what a memory! Only { $moves } moves.
@@ -117,6 +119,7 @@ keyboard-done = Done
 
 ## Debrief
 
+debrief-take-home = To take home: photograph this card
 debrief-code = Your code
 debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.

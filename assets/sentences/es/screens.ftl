@@ -85,6 +85,8 @@ result-time =
 result-time-label = Tiempo
 result-moves-label = Jugadas
 result-pairs-label = Parejas
+result-hints-label = Pistas
+result-line = Todas estas parejas las has encontrado tú. ¡Enhorabuena!
 result-continue = Continuar
 result-speech-few =
     .a = ¡Vaya memoria! Solo { $moves } jugadas.
@@ -118,6 +120,7 @@ keyboard-done = Hecho
 
 ## Debrief
 
+debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
 debrief-code = Tu código
 debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.

@@ -89,6 +89,8 @@ result-time =
 result-time-label = Tempo
 result-moves-label = Mosse
 result-pairs-label = Coppie
+result-hints-label = Suggerimenti
+result-line = Queste coppie le hai trovate tutte tu. Complimenti!
 result-continue = Continua
 result-speech-few =
     .a = Wow, che memoria! Solo { $moves } mosse.
@@ -122,6 +124,7 @@ keyboard-done = Fatto
 
 ## Debrief
 
+debrief-take-home = Da portare a casa: fotografa questa scheda
 debrief-code = Il tuo codice
 debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.

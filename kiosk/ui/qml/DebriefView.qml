@@ -47,7 +47,7 @@ FocusScope {
             visible: view.debrief.code !== ""
             radius: Theme.radius
             color: Theme.white
-            border { color: Theme.edge; width: 3 * Theme.unit }
+            border { color: Theme.amber; width: 4 * Theme.unit }
 
             // On white even where the theme is dark: a camera needs it.
             Rectangle {
@@ -73,6 +73,22 @@ FocusScope {
                     verticalCenter: parent.verticalCenter
                 }
                 spacing: 0.3 * Theme.gap
+                PlainText {
+                    width: parent.width
+                    text: view.words["debrief-take-home"]
+                    font { pixelSize: Theme.small; bold: true }
+                    wrapMode: Text.Wrap
+                    color: Theme.deepAmber
+                }
+                PlainText {
+                    objectName: "summary"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.summary
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
                 PlainText {
                     width: parent.width
                     text: view.words["debrief-code"]

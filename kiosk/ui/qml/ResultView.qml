@@ -1,6 +1,7 @@
-// What the visitor achieved: three numbers, large.
+// What the visitor did, in pictures: the pairs, and what they took, with one kind sentence.
 pragma ComponentBehavior: Bound
 import QtQuick
+import QtQuick.Shapes
 import Recollect
 import "."
 
@@ -10,18 +11,54 @@ FocusScope {
     required property ResultScreen result
     required property var words
 
+    // The pairs in as many rows as the screen has room for.
+    readonly property int count: result.pictures.length
+    readonly property int columns: Math.max(1, Math.ceil(count / (count > 6 ? 2 : 1)))
+    readonly property int rows: Math.ceil(count / columns)
+    readonly property real slot: count === 0 ? 0 : Math.floor(Math.min(
+        (width - 6 * Theme.gap) / columns, 170 * Theme.unit,
+        (height - title.height - line.height - board.height - go.height - 8 * Theme.gap) / rows))
+    // Stands up when the screen comes, one pair after another.
+    property real shown: visible ? 1 : 0
+    Behavior on shown { enabled: view.visible; NumberAnimation { duration: 5 * Theme.motion; easing.type: Easing.OutQuad } }
+
+    component Sign: Shape {
+        width: 64 * Theme.unit
+        height: 64 * Theme.unit
+        antialiasing: true
+        transform: Scale { xScale: Theme.unit; yScale: Theme.unit }
+    }
+    component Stroke: ShapePath {
+        strokeColor: Theme.sea
+        strokeWidth: 5
+        fillColor: "transparent"
+        capStyle: ShapePath.RoundCap
+        joinStyle: ShapePath.RoundJoin
+    }
     component Figure: Column {
         id: figure
         property string value
         property string label
-        readonly property real most: (view.width - 12 * Theme.gap) / 3
-        width: Math.max(240 * Theme.unit, implicitWidth + 2 * Theme.gap)
-        PlainText {
+        default property alias sign: corner.data
+        readonly property real most: (view.width - 14 * Theme.gap) / 2
+        spacing: 0.2 * Theme.gap
+        width: Math.max(170 * Theme.unit, implicitWidth + 1.4 * Theme.gap)
+        Row {
             anchors.horizontalCenter: parent.horizontalCenter
-            text: figure.value
-            font { pixelSize: Theme.figure; bold: true }
-            color: Theme.sea
-            Accessible.ignored: true
+            spacing: 0.5 * Theme.gap
+            Item {
+                id: corner
+                anchors.verticalCenter: parent.verticalCenter
+                width: 64 * Theme.unit
+                height: 64 * Theme.unit
+            }
+            PlainText {
+                anchors.verticalCenter: parent.verticalCenter
+                text: figure.value
+                font { pixelSize: Theme.heading; bold: true }
+                color: Theme.sea
+                Accessible.ignored: true
+            }
         }
         PlainText {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -29,7 +66,7 @@ FocusScope {
             text: figure.label
             horizontalAlignment: Text.AlignHCenter
             wrapMode: Text.Wrap
-            font.pixelSize: Theme.body
+            font.pixelSize: Theme.small
             color: Theme.faintInk
             Accessible.role: Accessible.StaticText
             Accessible.name: text + ": " + figure.value
@@ -38,31 +75,123 @@ FocusScope {
 
     Column {
         anchors.centerIn: parent
-        spacing: 3 * Theme.gap
+        spacing: 1.4 * Theme.gap
 
         Line {
+            id: title
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
             text: view.words["result-title"]
             font { pixelSize: Theme.title; bold: true }
         }
-        Rectangle {
+        Line {
+            id: line
             anchors.horizontalCenter: parent.horizontalCenter
-            width: figures.width + 4 * Theme.gap
-            height: figures.height + 4 * Theme.gap
+            room: view.width - 4 * Theme.gap
+            visible: view.count > 0
+            text: view.words["result-line"]
+            font.pixelSize: Theme.body
+            color: Theme.faintInk
+        }
+        Item {
+            anchors.horizontalCenter: parent.horizontalCenter
+            visible: view.count > 0
+            width: view.slot * view.columns
+            height: view.slot * view.rows
+            Repeater {
+                model: view.result.pictures
+                Item {
+                    id: pair
+                    required property int index
+                    required property string modelData
+                    // Each has its share of the time, from left to right.
+                    readonly property real come: Math.max(0, Math.min(1, view.shown * (view.count + 3) / 3 - index / 3))
+                    x: index % view.columns * view.slot
+                    y: Math.floor(index / view.columns) * view.slot
+                    width: view.slot
+                    height: view.slot
+                    visible: come > 0
+                    scale: 0.7 + 0.3 * come
+                    Rectangle {
+                        anchors { fill: parent; margins: parent.width * 0.04 }
+                        radius: width * 0.16
+                        color: Theme.sand
+                        border { color: Theme.amber; width: 4 * Theme.unit }
+                    }
+                    // Two cards, one on the other.
+                    Repeater {
+                        model: 2
+                        Image {
+                            required property int index
+                            readonly property real away: pair.width * (index === 0 ? -0.05 : 0.05)
+                            anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
+                            width: Math.floor(pair.width * 0.72)
+                            height: width
+                            source: Qt.resolvedUrl(pair.modelData)
+                            sourceSize: Qt.size(width, height)
+                        }
+                    }
+                }
+            }
+        }
+        Rectangle {
+            id: board
+            anchors.horizontalCenter: parent.horizontalCenter
+            width: figures.width + 2 * Theme.gap
+            height: figures.height + 1.6 * Theme.gap
             radius: Theme.radius
             color: Theme.white
             border.color: Theme.edge
             border.width: 3 * Theme.unit
-            Row {
+            Grid {
                 id: figures
+                // All in one row; or where that is too narrow, two and two.
+                readonly property real wish: pairs.width + moves.width + time.width + (hints.visible ? hints.width : 0)
                 anchors.centerIn: parent
-                Figure { value: view.result.pairs; label: view.words["result-pairs-label"] }
-                Figure { value: view.result.moves; label: view.words["result-moves-label"] }
-                Figure { value: view.result.time; label: view.words["result-time-label"] }
+                columns: wish <= view.width - 6 * Theme.gap ? 4 : 2
+                rowSpacing: 0.5 * Theme.gap
+                horizontalItemAlignment: Grid.AlignHCenter
+                Figure {
+                    id: pairs
+                    value: view.result.pairs
+                    label: view.words["result-pairs-label"]
+                    Sign { // two cards, one behind the other
+                        Stroke { PathRectangle { x: 8; y: 6; width: 34; height: 42; radius: 7 } }
+                        Stroke { fillColor: Theme.amber; PathRectangle { x: 22; y: 16; width: 34; height: 42; radius: 7 } }
+                    }
+                }
+                Figure {
+                    id: moves
+                    value: view.result.moves
+                    label: view.words["result-moves-label"]
+                    Sign { // a card that is turned over
+                        Stroke { PathRectangle { x: 17; y: 20; width: 30; height: 38; radius: 7 } }
+                        Stroke { PathSvg { path: "M 10 22 A 24 16 0 0 1 54 18 M 54 18 L 43 16 M 54 18 L 56 7" } }
+                    }
+                }
+                Figure {
+                    id: time
+                    value: view.result.time
+                    label: view.words["result-time-label"]
+                    Sign { // a clock
+                        Stroke { PathAngleArc { centerX: 32; centerY: 34; radiusX: 25; radiusY: 25; sweepAngle: 360 } }
+                        Stroke { PathSvg { path: "M 32 19 V 34 L 42 40 M 26 4 H 38" } }
+                    }
+                }
+                Figure {
+                    id: hints
+                    visible: view.result.hints !== ""
+                    value: view.result.hints
+                    label: view.words["result-hints-label"]
+                    Sign { // a bubble with three dots
+                        Stroke { PathSvg { path: "M 16 8 H 48 Q 58 8 58 18 V 34 Q 58 44 48 44 H 34 L 22 57 V 44 H 16 Q 6 44 6 34 V 18 Q 6 8 16 8 Z" } }
+                        Stroke { strokeWidth: 7; PathSvg { path: "M 20 26 H 20.1 M 32 26 H 32.1 M 44 26 H 44.1" } }
+                    }
+                }
             }
         }
         BigButton {
+            id: go
             objectName: "continue"
             most: view.width - 4 * Theme.gap
             anchors.horizontalCenter: parent.horizontalCenter

@@ -169,6 +169,11 @@ class BoardScreen(QAbstractListModel):
         row, column = self._mark_row, self._mark_column
         return (None if row == _NOWHERE else row, None if column == _NOWHERE else column)
 
+    @property
+    def found(self) -> list[str]:
+        """The pictures of the pairs that are found, as addresses, in the order in which they were found."""
+        return list(self._tray)
+
     def is_marked(self, position: Position) -> bool:
         """Whether a card lies where the mark is."""
         row, column = self.highlighted

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import segno
 from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QmlElement
@@ -104,14 +106,17 @@ class ResultScreen(ReadingScreen):
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._catalogue = catalogue
-        self._pairs = self._moves = self._time = ""
+        self._pairs = self._moves = self._time = self._hints = ""
+        self._pictures: list[str] = []
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Tell the time in this language, from the next result on."""
         self._catalogue = catalogue
 
-    def show(self, pairs: int, moves: int, time_ms: int) -> None:
-        """Show a finished game."""
+    def show(self, pairs: int, moves: int, time_ms: int, hints: int = 0, pictures: Sequence[str] = ()) -> None:
+        """Show a finished game, with the pictures of its pairs as addresses; of hints nothing if there were none."""
+        self._hints = str(hints or "")
+        self._pictures = list(pictures)
         minutes, seconds = divmod(round(time_ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
         self._pairs, self._moves = str(pairs), str(moves)
         self._time = self._catalogue.text("result-time", minutes=minutes, seconds=seconds)
@@ -119,8 +124,19 @@ class ResultScreen(ReadingScreen):
 
     def clear(self) -> None:
         """Show no figures."""
-        self._pairs = self._moves = self._time = ""
+        self._pairs = self._moves = self._time = self._hints = ""
+        self._pictures = []
         self.changed.emit()
+
+    @Property(str, notify=changed)
+    def hints(self) -> str:
+        """How many hints the helper gave; empty for none."""
+        return self._hints
+
+    @Property(list, notify=changed)
+    def pictures(self) -> list[str]:
+        """The pictures of the pairs that were found, as addresses."""
+        return self._pictures
 
     @Property(str, notify=changed)
     def pairs(self) -> str:
@@ -148,7 +164,7 @@ class DebriefScreen(PageScreen):
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._catalogue = catalogue
-        self._code = self._contact = ""
+        self._code = self._contact = self._summary = ""
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
@@ -160,6 +176,11 @@ class DebriefScreen(PageScreen):
         self._contact = contact
         self.given.emit()
 
+    def give_summary(self, summary: str) -> None:
+        """Tell in a sentence or two what the study was about, for those who read the card at home."""
+        self._summary = summary
+        self.given.emit()
+
     def give_code(self, code: str) -> None:
         """Show this code; with an empty one nothing is said about withdrawing."""
         if code != self._code:
@@ -168,7 +189,7 @@ class DebriefScreen(PageScreen):
 
     def clear(self) -> None:
         """Show no page and no code."""
-        self._code = self._contact = ""
+        self._code = self._contact = self._summary = ""
         self.given.emit()
         super().clear()
 
@@ -181,6 +202,11 @@ class DebriefScreen(PageScreen):
         if "@" in self._contact:
             return f"mailto:{self._contact}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
         return f"{subject}\n{self._contact}".rstrip()
+
+    @Property(str, notify=given)
+    def summary(self) -> str:
+        """What the study was about."""
+        return self._summary
 
     @Property(str, notify=given)
     def code(self) -> str:

@@ -15,13 +15,16 @@ from tests.experiment.table import a_pair, miss, playing
 from tests.samples import ENGLISH, INFORMATION, plan, whole
 
 
-def test_the_result_tells_moves_pairs_and_time() -> None:
+def test_the_result_tells_moves_pairs_time_and_hints() -> None:
     driver = Driver(plan(), 2)
     driver.to_the_game()
     driver.play(with_memory(2))
     flips = driver.noted(happened.CardFlipped)
     measured = driver.session.measures
-    assert driver.view.result == do.ShowResult(pairs=12, moves=len(flips) // 2, time_ms=measured.completion_ms)
+    hints = len(driver.noted(happened.HintGiven))
+    assert driver.view.result == do.ShowResult(
+        pairs=12, moves=len(flips) // 2, time_ms=measured.completion_ms, hints=hints
+    )
     assert measured.completion_with_speech_ms == flips[-1].at_ms - flips[0].at_ms
     assert (measured.completion_ms or 0) < measured.completion_with_speech_ms
     assert (driver.view.screen, driver.view.mood) == ("result", Mood.HAPPY)
