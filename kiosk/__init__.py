@@ -68,5 +68,8 @@ def unwritable(what: str, error: OSError) -> UserInputError | StorageError:
 
 
 def program(*arguments: str) -> tuple[str, ...]:
-    """The command that runs ``recollect`` with these arguments in another process, from a checkout or a build."""
+    """Return the command that runs ``recollect`` with these arguments in another process.
+
+    It works from a checkout and from a build.
+    """
     return (sys.executable, *(() if getattr(sys, "frozen", False) else ("-m", "kiosk")), *arguments)

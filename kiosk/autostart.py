@@ -27,7 +27,7 @@ def autostart_check() -> Iterator[CheckResult]:
         yield CheckResult.ok(WHAT, ", ".join(reasons))
     else:
         remedy = "open it with 'recollect run --supervise', or enable the service (packaging/README.md)"
-        yield CheckResult.warning(WHAT, "nobody starts the kiosk again if it dies or hangs", remedy)
+        yield CheckResult.warning(WHAT, "nothing starts the kiosk again if it dies or hangs", remedy)
 
 
 def supervisor_runs() -> bool:

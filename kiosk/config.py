@@ -196,7 +196,7 @@ class Idle(ConfigModel):
 
 
 class Practice(ConfigModel):
-    """The game before the game: nobody helps, nothing is measured, and it may be left at any time."""
+    """The game before the game: without help or measurements, and it may be left at any time."""
 
     rows: Annotated[Lines, Field(description="Rows of its board.")] = 3
     columns: Annotated[Lines, Field(description="Columns of its board.")] = 4
@@ -301,9 +301,7 @@ class VoiceConfig(ConfigModel):
         int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks; 110 is slow.")
     ] = 150
     volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
-    sounds: Annotated[
-        bool, Field(description="Whether cards are heard: quiet sounds, never while somebody speaks.")
-    ] = True
+    sounds: Annotated[bool, Field(description="Whether cards are heard: quiet sounds, never during speech.")] = True
     device: Annotated[
         str,
         Field(
@@ -581,7 +579,10 @@ class Settings(ConfigModel):
 
     @property
     def language_codes(self) -> tuple[str, ...]:
-        """List the codes of the languages; a language that is named by a path has its folder's name as its code."""
+        """List the codes of the languages.
+
+        A language that is named by a path has its folder's name as its code.
+        """
         return tuple(code_of(name) for name in self.languages)
 
     def resolve_asset(self, kind: str, name: str) -> Path:
@@ -630,7 +631,10 @@ def is_path(name: str) -> bool:
 
 
 def code_of(name: str) -> str:
-    """Return the language code in the name of a language, which may be a path; the name itself if there is none."""
+    """Return the language code in the name of a language, which may be a path.
+
+    Without a code it is the name itself.
+    """
     last = Path(name.replace("\\", "/")).name
     return standard(last) if is_right(last) else last
 

@@ -44,7 +44,7 @@ _TELLS: Mapping[str, str] = {
 _OUT_OF_BOUNDS = frozenset({"greater_than", "greater_than_equal", "less_than_equal", "finite_number"})
 
 _SAID_OF_WHAT_IS_ABOVE = frozenset({"missing", "extra_forbidden"})
-"""What is told of the table that lacks a key or has one too many."""
+"""Errors about the table that lacks a key or has one too many."""
 
 
 _NOT_TOML: Mapping[str, str] = {
@@ -140,7 +140,10 @@ def _meant(key: str, keys: Sequence[str]) -> str:
 
 
 def bounds(metadata: Sequence[Any]) -> str:
-    """Say the bounds of a number with its unit, such as "from 80 to 300 words per minute"; empty without bounds."""
+    """Describe the bounds of a number with its unit; empty without bounds.
+
+    An example is "from 80 to 300 words per minute".
+    """
     ends = {end: getattr(each, end) for each in metadata for end in ("ge", "gt", "le") if hasattr(each, end)}
     least, most = ends.get("ge", ends.get("gt")), ends.get("le")
     unit = "".join(f" {each.name}" for each in metadata if isinstance(each, Unit))
@@ -246,7 +249,7 @@ def _entry(name: str, number: int, entry: Any) -> str:
 
 
 def _keys(model: type[BaseModel], place: Sequence[int | str]) -> tuple[str, ...]:
-    """Return the keys of the table at a place; none if there is more than one table that it could be."""
+    """Return the keys of the table at a place; none if more than one table fits."""
     models: tuple[type[BaseModel], ...] = (model,)
     for step in place:
         if isinstance(step, int):

@@ -70,7 +70,10 @@ def with_region(code: str) -> str:
 
 
 def babel_codes(code: str) -> list[str]:
-    """List the codes by which Babel knows a language, the best first and English last: it does not know them all."""
+    """List the codes by which Babel knows a language, the best first and English last.
+
+    Babel does not know every language, so there has to be one to fall back on.
+    """
     parts = _meant(code)
     tried = [] if parts is None else [(*parts[:3],), (parts.language, "", parts.region), (parts.language,)]
     codes = ["-".join(part for part in each if part) for each in tried]

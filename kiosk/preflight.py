@@ -20,7 +20,10 @@ class Severity(Enum):
 
 @dataclass(frozen=True)
 class CheckResult:
-    """What a check found out about one thing; ``remedy`` says what to do, and is empty only where all is well."""
+    """What a check found out about one thing.
+
+    ``remedy`` says what to do, and is empty only where all is well.
+    """
 
     name: str
     severity: Severity
@@ -50,7 +53,7 @@ class CheckResult:
 
 @dataclass(frozen=True)
 class Check:
-    """One look at one thing; ``look`` may block, and whoever calls it waits ``within_s`` seconds and no longer."""
+    """One look at one thing; ``look`` may block, and the caller waits at most ``within_s`` seconds."""
 
     what: str
     look: Callable[[], Iterable[CheckResult]]

@@ -1,4 +1,4 @@
-"""What a program tells whoever keeps it up, in the words of systemd's sd_notify: READY, WATCHDOG, STATUS, STOPPING.
+"""Send service notices in the words of systemd's sd_notify: READY, WATCHDOG, STATUS, STOPPING.
 
 A notice is lines of ``NAME=value``. It goes to the Unix datagram socket that NOTIFY_SOCKET names, systemd's or the
 supervisor's own; on Windows, which has none, it goes to a pipe whose handle is in PIPE. It never waits and never
@@ -25,10 +25,10 @@ Notice = dict[str, str]
 
 
 class Notifier:
-    """The telling end; where nobody wants to know, nothing is told."""
+    """The sending end; it sends nothing where no supervisor listens."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
-        """Tell whoever this environment names."""
+        """Send to the socket or pipe that this environment names."""
         self._socket: socket.socket | None = None
         self._pipe: int | None = None
         if SOCKET in environment:
@@ -40,7 +40,7 @@ class Notifier:
             self._pipe = _writer(int(environment[PIPE]))
 
     def tell(self, **notice: object) -> bool:
-        """Send one notice, and return whether there is somebody; who has heard too much already does not get it."""
+        """Send one notice, and return whether there is a receiver; one that is full does not get it."""
         lines = "\n".join(f"{name}={_one_line(value)}" for name, value in notice.items()).encode()[:NOTICE_BYTES]
         try:
             if self._socket is not None:

@@ -86,7 +86,7 @@ class Watchdog:
         """Return what it tells next, within a tick unless told otherwise; empty if that is nothing."""
         notice = self._child.hear(self._patience.tick if within_s is None else within_s)
         now = self._clock()
-        # Where everything stood still for a while, the supervisor too, nobody is to blame for having been silent.
+        # Where everything stood still for a while, the supervisor too, silence is no fault of the kiosk's.
         self._left_s -= min(now - self._looked_at, 2 * self._patience.tick)
         self._looked_at = now
         if "READY" in notice and self._up_at is None:
@@ -127,7 +127,7 @@ class ProcessGroup:
     def dead(self) -> bool:
         """Whether it has ended; what it started may still run."""
         if _POSIX and self.process.returncode is None:
-            # Left unreaped until ``close``, so that nobody else can be given the number of its group.
+            # Left unreaped until ``close``, so that the number of its group is not given to another.
             return os.waitid(os.P_PID, self.process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
         return self.process.poll() is not None
 
@@ -253,7 +253,7 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
 
 
 def _beat(writer: int) -> None:
-    # A pipe that is full, or that nobody reads any more, is no reason to stop.
+    # A pipe that is full, or without a reader is no reason to stop.
     with suppress(OSError):
         os.write(writer, bytes([BEAT]))
 
@@ -284,7 +284,7 @@ def _watch(process: int, reader: int, limits: Limits) -> str:
     last = time.monotonic()
     while (told := _read(reader, limits.tick)) != b"":
         now = time.monotonic()
-        # Where everything stood still for a while, the guard too, nobody is to blame for having been silent.
+        # Where everything stood still for a while, the guard too, silence is no fault of the process's.
         fault = watch.look(min(now - last, 2 * limits.tick), told or b"", memory_mib(process))
         last = now
         if fault:
@@ -329,11 +329,11 @@ def _read(reader: int, within_s: float) -> bytes | None:
 
 
 LEFT, REFUSED = 0, 2
-"""Exit codes of the kiosk: somebody left it; it cannot use what it was given."""
+"""Exit codes of the kiosk: it was left; it cannot use what it was given."""
 
 US_PER_S = 1_000_000
 BEAT_S = 1.0
-"""How often the supervisor tells whoever watches it that it is alive."""
+"""How often the supervisor sends a sign of life to its own watcher."""
 
 
 class SupervisorEventKind(Enum):
@@ -395,7 +395,7 @@ class Supervisor:
         self._asked_to_end = True
 
     def run(self) -> int:
-        """Keep the kiosk up until it is left; returns the exit code for whoever started the supervisor."""
+        """Keep the kiosk up until it is left; returns the exit code of the supervisor."""
         try:
             while True:
                 self._show_calm_window()
@@ -412,7 +412,10 @@ class Supervisor:
                 self._calm.close()
 
     def _run_once(self) -> int | None:
-        """Start the kiosk and see it to its end; the exit code, or nothing if it is to be started again."""
+        """Start the kiosk and wait for its end; return the exit code.
+
+        None means that it is to be started again.
+        """
         self._starts += 1
         self._happened(SupervisorEventKind.STARTED)
         try:
@@ -435,7 +438,7 @@ class Supervisor:
         return self._judge(code, watch, hung=hung)
 
     def _see_to_its_end(self, kiosk: ProcessGroup, watch: Watchdog) -> int:
-        """Returns how much memory it took when it was looked at last, in MiB."""
+        """Wait for its end, and return its memory at the last look, in MiB."""
         taken = 0
         while not (self._asked_to_end or watch.over() or taken > self._patience.memory_mib):
             self._pass_on(watch.hear())
@@ -465,7 +468,7 @@ class Supervisor:
             self._beats_at = now + BEAT_S
             self._above.tell(WATCHDOG=1)
             if self._calm is not None:
-                # Nobody waits for what it tells, but a pipe must not fill up.
+                # Its notices are not needed any more, but a pipe must not fill up.
                 self._calm.hear(0)
 
     def _judge(self, code: int, watch: Watchdog, *, hung: bool) -> int | None:
@@ -488,7 +491,7 @@ class Supervisor:
         self._happened(what, how)
 
     def _wait(self) -> None:
-        """Pause before the next start, alive to whoever watches the supervisor."""
+        """Pause before the next start, and go on sending signs of life."""
         pause = self._patience.pause(self._died_young)
         if pause:
             self._happened(SupervisorEventKind.PAUSE, away_s=pause)

@@ -247,7 +247,10 @@ def run(
 
 
 def quietly(command: Sequence[str], failure: str) -> str:
-    """Return what a command in the checkout prints; should it fail, say so in a sentence and with its last lines."""
+    """Return what a command in the checkout prints.
+
+    If it fails, say so in a sentence and with its last lines.
+    """
     done = subprocess.run(command, cwd=ROOT, capture_output=True, encoding="utf-8", errors="replace", check=False)
     if done.returncode:
         raise SetupFailed("\n".join([failure, *(done.stdout + done.stderr).strip().splitlines()[-8:]]))

@@ -25,7 +25,7 @@ HIDDEN = ("_cffi_backend", "py_nanotts", "pyttsx3.drivers.espeak", "pyttsx3.driv
 """What is imported by a name that is only known at run time."""
 EXCLUDED = (
     *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),
-    # readline is under the GPL, and nobody types into a kiosk's terminal.
+    # readline is under the GPL, and a kiosk's terminal takes no typing.
     *("readline", "tkinter", "IPython", "pytest", "_pytest", "hypothesis", "setuptools", "pkg_resources", "mypy"),
 )
 

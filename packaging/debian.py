@@ -77,7 +77,7 @@ def _control(tree: Path, architecture: str) -> str:
 
 
 def _set_modes(tree: Path) -> None:
-    """The modes that files of a system have, whatever the mask of whoever builds."""
+    """Set the modes that files of a system have, regardless of the builder's mask."""
     for path in (tree, *tree.rglob("*")):
         if not path.is_symlink():
             runs = path.is_dir() or path in {tree / PROGRAM / "recollect", tree / "usr/bin/recollect-cage"}

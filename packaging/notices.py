@@ -1,4 +1,6 @@
-"""The notices of what a build ships of others: for each a line in ``NOTICES.md``, and its licence's texts beside it.
+"""The notices for what a build ships of others.
+
+Each has a line in ``NOTICES.md``, and its licence's texts beside it.
 
 What is shipped is asked, not listed: PyInstaller tells which files went in, and Python and Debian whose they are.
 """
@@ -45,7 +47,7 @@ files of their own, so that they can be exchanged for others of the same interfa
 
 
 class NoLicence(Exception):
-    """Something is shipped whose licence nobody can read; the message says what."""
+    """Something is shipped whose licence cannot be read; the message says what."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,6 @@
-"""Takes out of a build what Recollect does not use: most of Qt's modules and plugins, and the libraries only they need.
+"""Takes out of a build what Recollect does not use.
+
+That is most of Qt's modules and plugins, and the libraries only they need.
 
 What is used is asked, not listed: Qt's own scanner tells which QML modules the screens import, and the files tell which
 libraries they need. Only the plugins are chosen here, by name.

@@ -1,4 +1,4 @@
-"""Tries the Debian package where nothing else is: a fresh Debian 12, a user who is not root, and away with it again.
+"""Tries the Debian package on a fresh Debian 12, as a user who is not root, and removes it again.
 
 ``python3 packaging/try_deb.py [FILE.deb] [--root FOLDER]``, as root, with debootstrap and the network; without FILE the
 package in ``dist``. Where it cannot be tried it says why and ends with 0. FOLDER keeps the fresh Debian for next time.

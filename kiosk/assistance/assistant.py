@@ -37,7 +37,9 @@ class Policy(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What was decided before a flip, and from what: state, gate, row of the table, action, and the hint if any.
+    """What was decided before a flip, and from what.
+
+    It holds the state, the gate, the row of the table, the action, and the hint if any.
 
     An action that needs no target is a remark: something is said, and there is no hint.
     """
@@ -63,7 +65,7 @@ def decide(
     point: Callable[[Concentration], Target],
     override: ActionSpec | None = None,
 ) -> Decision:
-    """The decision before the coming flip of ``game``, after ``last``; ``point`` is asked only if there is a hint.
+    """Decide about the coming flip of ``game``, after ``last``; ``point`` is asked only for a hint.
 
     ``override`` is taken instead of the action that gate and table come to.
     """
@@ -88,13 +90,19 @@ class Assistant:
         self._last = ActionSpec.NO_HELP
 
     def decide(self, game: Concentration) -> Decision:
-        """Decide how much to help with the coming flip of ``game``, and where to point; the game must not be over."""
+        """Decide how much to help with the coming flip of ``game``, and where to point.
+
+        The game must not be over.
+        """
         decision = decide(game, self._last, self._policy, self._mentaliser.target)
         self._last = decision.action
         return decision
 
     def finish(self, game: Concentration) -> str | None:  # noqa: ARG002 - for those that learn
-        """Close a game that is over; the sha256 of the table as it came out, or None where nothing is ever learnt."""
+        """Close a game that is over; return the sha256 of the table as it came out.
+
+        It is None where nothing is ever learnt.
+        """
         return None
 
 
@@ -265,7 +273,10 @@ class LearningTable:
         row[column] += max(-self._step, min(self._step, RATE * (sample - row[column])))
 
     def frozen(self) -> QTable:
-        """Return the table as it is now; unless something was learnt, it is the one that it began as, to the sha256."""
+        """Return the table as it is now.
+
+        Unless something was learnt, it is the one that it began as, to the sha256.
+        """
         return QTable.freeze(self._frozen.name, self.gate, self._values, self._frozen.training, self.actions)
 
 
@@ -332,7 +343,9 @@ def assistant_with(policy: QTable, mentaliser: Mentaliser, step: float) -> Assis
 
 
 def table_before_flip(policy: QTable, step: float, game: Concentration, flips: Iterable[Position]) -> Policy:
-    """Return the table as it stood when the flip after ``flips`` was decided; ``game`` is a new one, and is played.
+    """Return the table as it stood when the flip after ``flips`` was decided.
+
+    ``game`` is a new one, and is played.
 
     Where the hints pointed does not matter here: only how much help there was, and what came of it, is learnt from.
     """

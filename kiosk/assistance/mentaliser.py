@@ -92,7 +92,10 @@ class Hint:
 
 
 def points_to(row: int | None, column: int | None, place: Position) -> bool:
-    """Tell whether a hint that names this row, column or both points to a place; one that names neither does not."""
+    """Tell whether a hint that names this row, column or both points to a place.
+
+    One that names neither does not.
+    """
     return (row, column) != (None, None) and row in (None, place.row) and column in (None, place.column)
 
 

@@ -136,7 +136,10 @@ class MoveOutcome(IntEnum):
 
     @classmethod
     def of(cls, card: FlipInMove, *, last_move_matched: bool | None) -> MoveOutcome:
-        """The outcome before a flip; before any move is completed nothing has gone wrong, so it counts as correct."""
+        """Return the outcome before a flip.
+
+        Before any move is completed nothing has gone wrong, so it counts as correct.
+        """
         if card is FlipInMove.FIRST:
             return cls.F_WRONG if last_move_matched is False else cls.F_CORRECT
         return cls.S_WRONG if last_move_matched is False else cls.S_CORRECT
@@ -265,7 +268,7 @@ class PolicyError(UserInputError):
 
 @dataclass(frozen=True)
 class QTable:
-    """A frozen table of shape 48 x 4 (states x actions), the gate it was trained behind, and how it was made.
+    """A frozen table of shape 48 x 4 (states x actions), its training gate, and how it was made.
 
     With n actions it has the shape 12 n x n; ``actions`` names its columns, of which the first is no help.
 
@@ -318,7 +321,10 @@ class QTable:
 
     @classmethod
     def named(cls, name: str) -> Self:
-        """A table by the name of a shipped one, by "none", or by its path; raises PolicyError with one sentence."""
+        """Read a table by the name of a shipped one, by "none", or by its path.
+
+        Raises PolicyError with one sentence.
+        """
         return cls.blank() if name == NONE else cls.load(policy_path(name))
 
     @classmethod
@@ -339,7 +345,7 @@ class QTable:
         return cls._of(json.loads(text, object_pairs_hook=said_once))
 
     def to_json(self) -> str:
-        """Return the text of the policy file, with one line per state so that the eye can run down the columns."""
+        """Return the text of the policy file, with one line per state to read down the columns."""
         document = self._document()
         values = document.pop("values")
         head = json.dumps(document, indent=2, ensure_ascii=False).removesuffix("\n}")
@@ -380,7 +386,10 @@ class QTable:
 
 
 def said_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """JSON takes the last of two equal keys; a person who reads the file takes the first, so there may be no two."""
+    """Refuse a JSON object with two equal keys.
+
+    JSON takes the last of two equal keys, a person who reads the file takes the first.
+    """
     said: dict[str, Any] = {}
     for key, value in pairs:
         if key in said:

@@ -100,7 +100,7 @@ class Catalogue:
         """Return what a sentence may say of a card: ``$card``, its name, and ``$card-<form>`` for every form there is.
 
         A card that the catalogue does not know goes by its file's name in every form; sentences about a deck that
-        nobody has translated yet are clumsy, but nobody is left without help.
+        has no translation yet are clumsy, but no visitor is left without help.
         """
         if not self.names(name):
             self._warn(f"{CARD}-{name}", f"the card {name!r} has no name in {self.language!r}; its file's name is said")
@@ -116,7 +116,10 @@ class Catalogue:
         return (CARD, *(f"{CARD}-{form}" for form in sorted(self._forms)))
 
     def forms_of(self, name: str) -> dict[str, str]:
-        """All forms of a card; a form that it lacks is its name, and a name that it lacks is its file's."""
+        """Return all forms of a card.
+
+        A form that it lacks is its name, and a name that it lacks is its file's.
+        """
         message = f"{CARD}-{name}"
         called = self._text(message, {})
         if called is None:
@@ -131,7 +134,10 @@ class Catalogue:
         return frozenset(name for name in self.written if not name.startswith("-"))
 
     def wordings_of(self, message: str) -> int:
-        """How many wordings a message has in this catalogue; 0 for one that is a single text, or is not there."""
+        """Count the wordings of a message in this catalogue.
+
+        It is 0 for a message that is a single text, or that is not there.
+        """
         return len(self._bundle.get_message(message).attributes) if message in self else 0
 
     def __contains__(self, message: str) -> bool:
@@ -295,7 +301,10 @@ def place(hint: Hint) -> dict[str, str | int]:
 
 
 def given_with(message: str) -> frozenset[str] | None:
-    """Name the variables that a message of a hint is given, ``card`` for all of its forms; None for other messages."""
+    """List the variables that a message of a hint gets; None for other messages.
+
+    ``card`` stands for all of its forms.
+    """
     if message.startswith("reason-"):
         return frozenset({CARD})
     if message.startswith("point-"):

@@ -152,7 +152,7 @@ def run_checks(probes: Sequence[Check], tell: ProgressCallback) -> tuple[CheckRe
 def _look(number: int, probe: Check, heard: queue.SimpleQueue[_Outcome]) -> None:
     try:
         heard.put(_Outcome(number, tuple(probe.look())))
-    except Exception as fault:  # noqa: BLE001 - it is raised again by whoever waits
+    except Exception as fault:  # noqa: BLE001 - it is raised again in the thread that waits
         heard.put(_Outcome(number, (), fault))
 
 

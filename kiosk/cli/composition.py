@@ -34,7 +34,10 @@ _BUILT_FROM = Path(__file__).parents[1] / "commit.txt"
 
 
 def read_settings(study: Path | None, robot_host: str | None = None, robot_port: int | None = None) -> Settings:
-    """The settings of a study file, or the study's own without one; a robot's host or port goes before the file's."""
+    """Read the settings of a study file, or the study's own without one.
+
+    A robot's host or port goes before the file's.
+    """
     settings = Settings.read(study) if study else Settings()
     if robot_host is None and robot_port is None:
         return settings
@@ -54,7 +57,7 @@ def check_pin(settings: Settings) -> None:
 
 
 class _Private(logging.FileHandler):
-    """A log for its owner alone, which a full disk does not stop: the line is lost and the program goes on."""
+    """A log for its owner alone; on a full disk a line is lost and the program goes on."""
 
     def _open(self) -> TextIOWrapper:
         return open(
@@ -73,7 +76,10 @@ class _OwnFile(_Private, RotatingFileHandler):
 
 
 class _SharedFile(_Private):
-    """A log that another process keeps: it is opened for each line, so that the other may begin a new file."""
+    """A log that another process keeps.
+
+    It is opened for each line, so that the other may begin a new file.
+    """
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
@@ -84,7 +90,9 @@ class _SharedFile(_Private):
 
 
 class _WithoutWords(logging.Formatter):
-    """Tells where a fault arose and of what kind it is, and not its message: that may repeat what a visitor typed.
+    """Formats where a fault arose and of what kind it is, without its message.
+
+    The message may repeat what a visitor typed.
 
     The record plays the session, and the fault with it, again.
     """
@@ -118,7 +126,10 @@ def log_into(folder: Path, *, shared: bool = False) -> None:
 
 
 def log_file(folder: Path, *, shared: bool = False) -> logging.FileHandler:
-    """The log of a data folder, as ``log_into`` keeps it; raises UserInputError if it cannot be written there."""
+    """Return the log of a data folder, as ``log_into`` keeps it.
+
+    Raises UserInputError if it cannot be written there.
+    """
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         handler = _handler(folder / LOG, shared=shared, later=False)

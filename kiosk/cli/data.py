@@ -151,7 +151,7 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
 @click.option("--with-dates", is_flag=True, help="Also when each session began.")
 @click.option("--with-rehearsals", is_flag=True, help="Also rehearsals, told apart by a column.")
 @click.option("--with-trials", is_flag=True, help="Also sessions without a PIN, told apart by a column.")
-@click.option("--with-texts", is_flag=True, help="Also what people typed; it may name somebody.")
+@click.option("--with-texts", is_flag=True, help="Also what people typed; it may name a person.")
 @click.option("--with-unshared", is_flag=True, help="Also who did not agree to publishing; then keep it to yourself.")
 @json_option
 def export_command(data: Path, out: Path, *, bids: bool, as_json: bool, **also: bool) -> None:

@@ -140,7 +140,7 @@ def _moves(policy: QTable, player: SimulatedPlayer, games: int, seed: int) -> tu
 
 
 def gather_claims(games: int, seeds: int, seed: int, progress: Progress = lambda _: None) -> list[Claim]:
-    """All claims, in the order of the docs; ``progress`` is told after each of the STEPS."""
+    """All claims, in the order of the docs; ``progress`` is called after each of the STEPS."""
     claims: list[Claim] = []
     for number, step in enumerate(_STEPS, 1):
         claims += step(games, seeds, seed)

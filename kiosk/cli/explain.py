@@ -234,7 +234,7 @@ def _pointing(hint: Hint, board: Board) -> Iterator[str]:
 def _places(explanation: Explanation) -> str:
     locations = [str(explanation.board.location(position)) for position in explanation.candidates]
     if not locations:
-        return "none: nobody helps"
+        return "none: no help is given"
     return f"location {locations[0]}" if len(locations) == 1 else f"any of the locations {' '.join(locations)}"
 
 

@@ -49,7 +49,7 @@ _WORKERS = {
     "_splash": "kiosk.cli.workers:splash_command",
     "_voice": "kiosk.cli.workers:voice_command",
 }
-"""Commands that Recollect itself starts, in processes of their own, and that nobody is told of."""
+"""Commands that Recollect itself starts, in processes of their own, and that no help text lists."""
 
 _WITH_A_WINDOW = frozenset({"run", "rehearse", "replay"})
 

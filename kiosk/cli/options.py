@@ -66,7 +66,7 @@ site_option = click.option(
 
 
 class ProgressCallback(Protocol):
-    """Is told how much is done; of how much, where that was not known before."""
+    """Called with how much is done; of how much, where that was not known before."""
 
     def __call__(self, done: int, of: int | None = None, /) -> None:
         """Draw it."""

@@ -32,7 +32,7 @@ from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.window import RunMode, WindowMode, check_screen
 
 SEED_BITS = 63
-"""As many as the column holds: boards are published, and nobody shall find a seed, and with it the code, by trying."""
+"""As many as the column holds. Boards are published: seeds, and so codes, must not be found by trying."""
 
 
 @click.command("run")
@@ -95,7 +95,7 @@ def _open(
     unattended: bool,
     window: bool,
 ) -> dict[str, Any]:
-    """Open the kiosk until it is left; returns what is told of it."""
+    """Open the kiosk until it is left; returns what to report of it."""
     prepared = read_study(read_settings(study, robot_host, robot_port))
     check_robot(prepared.settings)
     if unattended:

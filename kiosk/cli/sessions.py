@@ -51,7 +51,7 @@ def sessions_command(data: Path, *, codes: bool, as_json: bool) -> None:
         visitor = "simulated" if row["simulated"] else "trial" if row["trial"] else "person"
         cells = (row["session"], *(row[key] for key in own), started, *(row[key] for key in _WORDS), visitor)
         table.add_row(*(_word(cell) for cell in cells), *(str(row[key]) for key in _COUNTS))
-    # Where nobody looks, or the window is narrow, lines may be long, but no word is cut.
+    # Without a terminal, or in a narrow window, lines may be long, but no word is cut.
     Console(width=max(Console().width, WIDTH)).print(table)
 
 

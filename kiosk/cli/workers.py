@@ -54,7 +54,7 @@ def pictures() -> None:
 @display_command.command()
 @study_option
 def frame_command(study: Path | None) -> None:
-    """Draw the kiosk where nobody sees it."""
+    """Draw the kiosk off screen."""
 
     def look() -> Iterable[CheckResult]:
         from kiosk.ui.checks import frame_check as draw

@@ -77,7 +77,7 @@ def help_in(condition: Condition, rule: TargetRule, wording: Wording, rng: Rando
 
 
 def target_rule(condition: Condition, rule: TargetRule) -> TargetRule | None:
-    """Return the rule that hints for first cards follow, if ``rule`` is the mentalised one; None where nobody helps."""
+    """Return the rule that mentalised hints for first cards follow; None for any other ``rule`` and without help."""
     if condition is Condition.NO_ASSISTANCE:
         return None
     mentalised, _ = _CELLS[condition]

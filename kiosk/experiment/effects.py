@@ -67,7 +67,10 @@ class ShowIntroduction:
 
 @dataclass(frozen=True)
 class ShowBoard:
-    """Show a board of closed cards from a deck; which card lies where is not told. A practice can be left."""
+    """Show a board of closed cards from a deck, without their places.
+
+    A practice can be left.
+    """
 
     rows: int
     columns: int

@@ -1,7 +1,7 @@
 """What happened in a session, in the past tense; every event is written before its effect is shown.
 
 World events come from outside and are what ``Session.handle`` takes. Session events are what the session concluded;
-they follow from the world events, and are recorded beside them so that nobody needs the program to read the data.
+they follow from the world events, and are recorded beside them so that the data can be read without the program.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class NotRecordedReason(Enum):
     DECLINED = "declined"
     UNDER_AGE = "under_age"
     LEFT = "left"
-    """Whoever it was left before they had decided."""
+    """The visitor left before they had decided."""
 
 
 class TextSize(Enum):
@@ -148,7 +148,7 @@ class WorldEvent(Event):
     """Something that came from outside."""
 
     by_visitor: ClassVar[bool] = False
-    """Whether it shows that somebody is there."""
+    """Whether it shows that a visitor is there."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -258,7 +258,10 @@ class CardSelected(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseGiven(WorldEvent):
-    """The visitor chose an answer to an item that is shown; the last one given counts, and None takes it back."""
+    """The visitor chose an answer to an item that is shown.
+
+    The last one given counts, and None takes it back.
+    """
 
     by_visitor = True
     item: str
@@ -276,7 +279,7 @@ class TypingActivity(WorldEvent):
 class UserActivity(WorldEvent):
     """The visitor scrolled, dragged or moved by keyboard, and did it last ``ago_ms`` milliseconds before.
 
-    It is told when the idle time ends, and so at most once in each.
+    It is sent when the idle time ends, and so at most once in each.
     """
 
     by_visitor = True
@@ -301,7 +304,7 @@ class TimerExpired(WorldEvent):
 class SpeechStarted(WorldEvent):
     """The body began to say a sentence.
 
-    Of the avatar's voice it is told what spoke: the engine or pack of clips, by the hash of all its clips, at which
+    For the avatar's voice it says what spoke: the engine or pack of clips, by the hash of all its clips, at which
     volume, and on which sound device. Of a robot's own voice nothing is known.
     """
 
@@ -372,7 +375,10 @@ class MuteChanged(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class SessionResumed(WorldEvent):
-    """A session that was cut off goes on, from the start of the stage it was in; ``embodiment`` helps from here on."""
+    """A session that was cut off goes on, from the start of its stage.
+
+    ``embodiment`` helps from here on.
+    """
 
     embodiment: EmbodimentName
 
@@ -452,7 +458,10 @@ class AssistanceDecided(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class HintGiven(SessionEvent):
-    """A hint for flip number ``flip``; ``row`` and ``column`` are what it gave away, from 0, None where it did not."""
+    """A hint for flip number ``flip``.
+
+    ``row`` and ``column`` are what it gave away, from 0; None where it did not.
+    """
 
     flip: int
     card: FlipInMove
@@ -520,7 +529,10 @@ class CardFlipped(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class PolicyUpdated(SessionEvent):
-    """The table that went on learning during this game came out of it with this hash; the file is as it was."""
+    """The table that went on learning during this game came out of it with this hash.
+
+    The file is as it was.
+    """
 
     sha256: str
 
@@ -557,7 +569,7 @@ class ThanksTimedOut(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class IdleTimedOut(SessionEvent):
-    """Nobody answered whether they are still there."""
+    """The question whether the visitor is still there was not answered."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -82,7 +82,7 @@ class Permission:
 
 _REFUSED = Permission(ActionEffect.REFUSED)
 _SAID_AGAIN = (Stage.INTRODUCTION, Stage.PRACTICE, Stage.GAME, Stage.RESULT, Stage.THANKS)
-"""Stages in which somebody speaks; until a sentence was said to its end, there is nothing to say again."""
+"""Stages with speech; until a sentence was said to its end, there is nothing to say again."""
 
 
 def _rules(rest: Permission, visited: Permission, **others: Permission) -> Mapping[Stage, Permission]:
@@ -127,7 +127,10 @@ def permission(action: Action, stage: Stage) -> Permission:
 
 
 def condition_cycle(quotas: Iterable[str]) -> tuple[Condition | None, ...]:
-    """What the condition's shortcut goes through: the list's (None), conditions that have a quota, then the others."""
+    """Return the choices that the condition's shortcut goes through.
+
+    The first is the list's (None); then come conditions with a quota, then the others.
+    """
     wanted = set(quotas)
     with_quota = (condition for condition in Condition if condition.value in wanted)
     return (None, *with_quota, *(condition for condition in Condition if condition.value not in wanted))
@@ -230,14 +233,20 @@ _PIN = re.compile(rf"[0-9]{{{LEAST},{MOST}}}", re.ASCII)
 
 
 def hash_pin(pin: str, salt: bytes) -> str:
-    """Return a PIN as the study file keeps it; raises UserInputError if it is none. ``salt`` is 16 bytes of chance."""
+    """Return a PIN as the study file keeps it.
+
+    Raises UserInputError if it is none. ``salt`` is 16 random bytes.
+    """
     if not _PIN.fullmatch(pin):
         raise UserInputError(f"a PIN has {LEAST} to {MOST} digits and nothing else")
     return f"scrypt:{salt.hex()}:{_key(pin, salt).hex()}"
 
 
 def pin_matches(pin: str, line: str) -> bool:
-    """Whether this is the PIN that the study file keeps; takes about 50 ms, as long for a wrong one as for a right."""
+    """Tell whether this is the PIN that the study file keeps.
+
+    It takes about 50 ms, as long for a wrong one as for a right.
+    """
     _, salt, key = line.split(":")
     return hmac.compare_digest(_key(pin, bytes.fromhex(salt)), bytes.fromhex(key))
 
@@ -258,7 +267,7 @@ class WrongPins:
         return min(LONGEST_WAIT_MS, _FIRST_WAIT_MS << min(self.times - 1, LONGEST_WAIT_MS.bit_length()))
 
     def left_ms(self, now_ms: int) -> int:
-        """How long that still is; a clock that was set back makes nobody wait longer than from now."""
+        """How long that still is; a clock that was set back never makes the wait longer than from now."""
         return min(self.wait_ms, max(0, self.last_ms + self.wait_ms - now_ms))
 
 

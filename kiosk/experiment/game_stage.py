@@ -1,4 +1,4 @@
-"""One game with its help: what a tap, a finished sentence or the end of a wait leads to on the board.
+"""One game with its help: what taps, finished sentences and ended waits lead to on the board.
 
 A hint holds the board from the moment it is given until it has been heard or could be read. Its mark never comes
 later than the board opens, so that no flip can be made in ignorance of it; the next flip clears it. Where the study
@@ -83,7 +83,7 @@ class GameStage(StageHandler):
     """A game on one board, helped or not."""
 
     def __init__(self, table: DealtTable, guide: HintGuide | None, timing: Timing, utterances: Iterator[int]) -> None:
-        """Without a guide nobody helps; ``utterances`` numbers the sentences of the whole session."""
+        """Without a guide there is no help; ``utterances`` numbers the sentences of the whole session."""
         self.game = Concentration(table.board)
         self._table = table
         self._guide = guide
@@ -178,7 +178,10 @@ class GameStage(StageHandler):
             self._move_completed(flip, given, outcome)
 
     def _put_away(self, given: _Given, outcome: OutcomeBuilder) -> None:
-        """Clear the hint of the flip that was just made; its sentence ends too, unless the study lets it be said."""
+        """Clear the hint of the flip that was just made.
+
+        Its sentence ends too, unless the study lets it be said.
+        """
         outcome.effect(do.ClearHighlight())
         if given.holds:
             outcome.effect(do.StopTimer(Timer.MARK), do.StopTimer(Timer.READING))
@@ -221,7 +224,10 @@ class GameStage(StageHandler):
         outcome.emit(happened.GameFinished(at_ms=outcome.at_ms))
 
     def _let_be_read(self, utterance: int, outcome: OutcomeBuilder) -> None:
-        """The hint will not be heard: give what is left of the time to read it, counted from when it was shown."""
+        """Give a hint that will not be heard what is left of its reading time.
+
+        The time counts from when it was shown.
+        """
         given = self._holding(utterance)
         if given is not None:
             given.is_read = True
@@ -318,7 +324,7 @@ class GameStage(StageHandler):
         return given is not None and not given.marked
 
     def _release_board(self, outcome: OutcomeBuilder) -> None:
-        """The hint has been taken in: see that it is marked, and open the board once it was held long enough."""
+        """Mark a hint that was taken in, and open the board once it was held long enough."""
         if self._given is None or not self._given.holds:
             return
         self._given.told = True
@@ -341,7 +347,7 @@ class GameStage(StageHandler):
 
 
 class PracticeStage(GameStage):
-    """The game before the game: nobody helps, and it ends when it is done, when it is left, or after its time."""
+    """The game before the game, without help; it ends when done, when left, or after its time."""
 
     def __init__(self, table: DealtTable, timing: Timing, speaker: SpeechWriter, longest_ms: int) -> None:
         """End by itself after so long."""
@@ -380,7 +386,10 @@ class PracticeStage(GameStage):
 
 
 def _reaction(hint: Hint, flip: Flip) -> Mood:
-    """The face after a helped second flip: glad, sad when the help was followed in vain, confused when it was not."""
+    """Return the face after a helped second flip.
+
+    It is glad, sad when the help was followed in vain, confused when it was not followed.
+    """
     if flip.matched:
         return Mood.HAPPY
     return Mood.SAD if hint.followed_by(flip.position) else Mood.CONFUSED

@@ -1,4 +1,4 @@
-"""What a study tells its visitors: what it is about, what they agree to, and what it was about. One file per language.
+"""What a study tells its visitors about itself and their consent, in one file per language.
 
 These are the texts that an ethics board approves, so they stand apart from all others and go by a version.
 """

@@ -1,4 +1,4 @@
-"""The kinds of items that a questionnaire can have: what each asks, what can answer it, how it is shown and scored."""
+"""The kinds of questionnaire items: what each asks, its answers, how it is shown and scored."""
 
 from __future__ import annotations
 
@@ -129,7 +129,10 @@ Bound = Annotated[int, Field(ge=-999_999_999, le=999_999_999)]
 
 @dataclass(frozen=True)
 class Tap:
-    """A tap on what QML calls by this object name; ``across`` is from 0 at its left to 1 at its right."""
+    """A tap on what QML calls by this object name.
+
+    ``across`` is from 0 at its left to 1 at its right.
+    """
 
     name: str
     across: float = 0.5
@@ -455,7 +458,10 @@ class ShortText(Question):
         return {"longest": self.longest}
 
     def simulate(self, chance: Random, *, last: bool) -> Iterator[Act]:
-        """Type with a real keyboard, or with the keys on the screen; at the end of a page, "Done" is not tapped."""
+        """Type with a real keyboard, or with the keys on the screen.
+
+        At the end of a page, "Done" is not tapped.
+        """
         words = chance.choice(WORDS)[: self.longest]
         yield Tap(f"text-{self.id}")
         if chance.random() < 1 / 2:

@@ -65,7 +65,10 @@ _MONTHS = tuple(
 
 
 def fold_name(name: str) -> str:
-    """Return what is left of a name where capitals, accents' encoding, ``-`` or ``_`` and a last dot do not count."""
+    """Return what other programs tell a name by.
+
+    Capitals, the encoding of accents, ``-`` or ``_`` and a last dot do not count.
+    """
     folded = unicodedata.normalize("NFC", unicodedata.normalize("NFKC", name).casefold())
     return folded.replace("-", "_").rstrip(". ")
 
@@ -76,7 +79,10 @@ def is_reserved(name: str) -> bool:
 
 
 def alike(names: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """Find the names that are written in two ways but are one for other programs, each with the first of its kind."""
+    """Find names that are written in two ways but are one for other programs.
+
+    Each comes with the first of its kind.
+    """
     first: dict[str, str] = {}
     for name in names:
         other = first.setdefault(fold_name(name), name)
@@ -85,7 +91,7 @@ def alike(names: Iterable[str]) -> Iterator[tuple[str, str]]:
 
 
 def read_as(text: str) -> str | None:
-    """Return what a spreadsheet, pandas or R takes a text for that is none of it; None if it stays that text.
+    """Return what a spreadsheet, pandas or R mistakes a text for; None if it stays that text.
 
     Plain whole numbers stay what they are, for they come out as they went in; a label that must be no number at all
     needs a letter besides.

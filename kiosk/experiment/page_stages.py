@@ -62,7 +62,7 @@ class StageHandler:
         return True
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
-        """What an event leads to within the scene."""
+        """Handle an event within the scene."""
 
 
 class SpeechWriter:
@@ -204,7 +204,7 @@ class IntroductionStage(StageHandler):
     """The assistant greets, and says what is to be done."""
 
     def __init__(self, speaker: SpeechWriter, pairs: int, *, helped: bool) -> None:
-        """Introduce a game of so many pairs, in which somebody helps or nobody does."""
+        """Introduce a game of so many pairs, with help or without."""
         self._speaker = speaker
         self._pairs = pairs
         self._helped = helped

@@ -134,7 +134,9 @@ def measure_game(state: SessionState) -> Measures:
 
 @dataclass(frozen=True)
 class WaitingShares:
-    """The share, from 0 to 1, of a game in which taps on cards wait: for a hint's sentence, and for cards to turn back.
+    """The share, from 0 to 1, of a game in which taps on cards wait.
+
+    They wait for a hint's sentence, and for cards to turn back.
 
     The game is from the moment its board was dealt to the last match, without pauses.
     """

@@ -181,7 +181,10 @@ def summed(items: Iterable[Rating]) -> tuple[object, ...]:
 
 
 def facts(item: Item, language: str) -> str:
-    """Return what an item asks and what can be answered, in a language; in none of them, what can be answered."""
+    """Return what an item asks and what can be answered, in a language.
+
+    In no language, it is what can be answered.
+    """
     match item:
         case _ if isinstance(item, Choice):
             told = (

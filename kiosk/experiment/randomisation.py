@@ -39,7 +39,7 @@ class AllocationSlot:
 def allocation_slots(
     quotas: Mapping[Condition, int], block: int, seed: int, kept: tuple[AllocationSlot, ...] = ()
 ) -> tuple[AllocationSlot, ...]:
-    """The list in which every condition comes up as often as its quota says, block by block in the quotas' ratio.
+    """Return the list with every condition as often as its quota says, block by block.
 
     ``block`` is how many slots a block has; the last one may be shorter, still in ratio. ``kept`` is an earlier list
     that this one goes on from, for quotas that were raised in the same ratio. A list that ends with a whole block is
@@ -103,7 +103,10 @@ def _rounds_left(quotas: Mapping[Condition, int], ratio: Counter[Condition], kep
 
 
 def _block(number: int, ratio: Counter[Condition], rounds: int, seed: int, first: int) -> list[AllocationSlot]:
-    """One block in chance order; each has a stream of its own, so that it does not depend on how many there are."""
+    """Return one block in chance order.
+
+    Each has a stream of its own, so that it does not depend on how many there are.
+    """
     conditions = [condition for condition, share in ratio.items() for _ in range(share * rounds)]
     Random(f"{seed}/block {number}").shuffle(conditions)
     return [AllocationSlot(at, number, condition) for at, condition in enumerate(conditions, first)]

@@ -45,7 +45,10 @@ class ReplayStep:
 
 
 def replay_events(plan: SessionConfig, seed: int, events: Sequence[Event]) -> tuple[ReplayStep, ...]:
-    """The steps of a session from its events, numbered from 1; it ends where the program of today refuses an event."""
+    """Return the steps of a session from its events, numbered from 1.
+
+    It ends where this version of the program refuses an event.
+    """
     session = Session(plan, seed)
     steps: list[ReplayStep] = []
     for index, event in enumerate(events):
@@ -120,10 +123,10 @@ class DecisionContext:
         return mentaliser.target(game) if self.target is None else mentaliser.pointing_at(self.target, game)
 
     def _undecided(self, game: Concentration) -> Decision:
-        """Return what gate and table hold where nobody asks them."""
+        """Return what gate and table hold in a condition without help."""
         if self.override not in (None, ActionSpec.NO_HELP):
             raise UserInputError(
-                f"in the condition {self.condition.value} nobody helps, so there is no action to explain"
+                f"in the condition {self.condition.value} there is no help, so there is no action to explain"
             )
         state = State.of(game, self.last)
         verdict, row = self.policy.gate.decide(game), self.policy.row(state)

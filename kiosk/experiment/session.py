@@ -38,7 +38,7 @@ from kiosk.game import Board
 
 
 class IdleTimeout:
-    """Knows whether somebody was asked if they are still there, and whether the session is paused."""
+    """Knows whether the visitor was asked if they are still there, and whether the session is paused."""
 
     def __init__(self, idle: Idle, reading_ms: Callable[[Stage], int] = lambda _: 0) -> None:
         """Ask after these times, or once a stage's text can have been read, if that takes longer."""
@@ -60,7 +60,7 @@ class IdleTimeout:
         return not (self._paused and event.by_visitor)
 
     def react(self, event: WorldEvent, stage: Stage, outcome: OutcomeBuilder) -> None:
-        """Ask, give up, pause, or start the idle time anew whenever somebody shows that they are there."""
+        """Ask, give up, pause, or start the idle time anew at every sign of the visitor."""
         match event:
             case happened.TimerExpired(timer=Timer.IDLE):
                 self._asked = True
@@ -84,7 +84,10 @@ class IdleTimeout:
                 self.restart(stage, outcome)
 
     def restart(self, stage: Stage, outcome: OutcomeBuilder, ago_ms: int = 0) -> None:
-        """Start the idle time of a stage, so long ago; in a pause its own, or anybody could park a booth."""
+        """Start the idle time of a stage, so long ago.
+
+        A pause has its own limit, or a visitor could park a booth.
+        """
         if self._paused:
             outcome.effect(do.StartTimer(Timer.PAUSE, self._idle.pause))
         else:
@@ -98,7 +101,7 @@ class IdleTimeout:
             outcome.effect(do.HidePause())
 
     def dismiss(self, outcome: OutcomeBuilder) -> None:
-        """Ask no longer whether somebody is there."""
+        """Ask no longer whether the visitor is there."""
         if self._asked:
             self._asked = False
             outcome.effect(do.HideStillThere(), do.StopTimer(Timer.STILL_THERE))
@@ -157,7 +160,7 @@ class SpeechState:
 
 
 class StageFactory:
-    """The scenes of a session, all of them made before it begins, so that what cannot be made is refused at once."""
+    """The scenes of a session, all made before it begins, so that a faulty one is refused at once."""
 
     def __init__(self, plan: SessionConfig, seed: int, log: Callable[[OutcomeBuilder], Sequence[Event]]) -> None:
         """One stream of chance for each purpose: two conditions with the same seed play the same board."""
@@ -186,7 +189,7 @@ class StageFactory:
         self._play_in(plan.condition)
 
     def play_by_chance(self) -> None:
-        """Have the game in any condition of the study: whoever is not stored shall tell nobody who comes next."""
+        """Play the game in a random condition of the study, so that an unstored visitor reveals no order."""
         listed = sorted(self._plan.settings.randomisation.target_n) or [self._plan.condition.value]
         self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
 
@@ -204,7 +207,10 @@ class StageFactory:
             scene.translate(to)
 
     def of(self, stage: Stage) -> StageHandler:
-        """Return the scene of a stage; before the first and after the last one nothing is to be seen of a session."""
+        """Return the scene of a stage.
+
+        Before the first and after the last one nothing is to be seen of a session.
+        """
         return self._scenes.get(stage, _NOTHING)
 
     def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:
@@ -365,7 +371,10 @@ class Session:
 
     @property
     def _cut_off_in(self) -> Stage:
-        """Where the session would go on if it were resumed: a crash leaves it where it was, a closed kiosk ends it."""
+        """Return where the session would go on if it were resumed.
+
+        A crash leaves it where it was, a closed kiosk ends it.
+        """
         return self._closed_in or self.stage
 
     def _go_on_after(self, event: Event, outcome: OutcomeBuilder) -> None:
@@ -407,7 +416,7 @@ class Session:
         (scene.come_back if back else scene.enter)(outcome)
 
     def _keep_from(self, stage: Stage, outcome: OutcomeBuilder) -> None:
-        """Whoever is past all that is decided beforehand has agreed to be recorded."""
+        """Record from this stage on if the visitor is past all that is decided beforehand."""
         if self.keeping is RecordingState.UNDECIDED and stage not in BEFORE_DECIDING:
             self.keeping = RecordingState.KEPT
             outcome.recording = do.StartRecording()

@@ -170,7 +170,7 @@ class SpeechAttempt:
     cut_ms: int | None = None
     """When a tap ended it."""
     heard: SpeechStarted | None = None
-    """What is told of the voice that said it."""
+    """What is known of the voice that said it."""
 
 
 @dataclass(frozen=True)
@@ -284,7 +284,7 @@ def with_stages(events: Iterable[_AnyEvent]) -> Iterator[tuple[Stage, _AnyEvent]
 
 
 def language_before_flip(events: Iterable[Event], flip: int) -> str | None:
-    """The language that a visitor had changed to when a flip (from 1) of the game was decided about; else None."""
+    """Return the changed language in which a flip (from 1) of the game was decided; else None."""
     language = None
     for stage, event in with_stages(events):
         match event:
@@ -409,7 +409,7 @@ class _Responses:
     def take(self, event: Event, pauses: Iterable[Interval]) -> None:
         match event:
             case StageEntered(stage=stage):
-                # Whoever goes back finds the answers that were given there; a stage that begins anew has none.
+                # A visitor who goes back finds the answers given there; a stage that begins anew has none.
                 if not self._goes_back:
                     self._by_stage[stage], self._shown_by_stage[stage] = {}, {}
                 self._here = self._by_stage.setdefault(stage, {})

@@ -1,4 +1,4 @@
-"""The course of a session as one table, stage x event -> what becomes of the stage; there is no other way on.
+"""The course of a session as one table: stage x event -> what becomes of the stage.
 
 Which stages there are, and in which order, is the study's; ``Course`` knows what comes after each. World events that a
 stage does not list are refused. Session events that it does not list change no stage.
@@ -157,7 +157,7 @@ BEFORE_DECIDING = frozenset({Stage.ABOUT, Stage.CONSENT, Stage.AGE})
 """Until a visitor is past these, nothing of the session is written."""
 
 _ONLY_WHEN_KEPT = frozenset({Stage.CONSENT, Stage.AGE, Stage.ABOUT_YOU, Stage.QUESTIONS, Stage.DEBRIEF})
-"""Stages that would ask, or tell, somebody about a record that there is not."""
+"""Stages that would ask, or tell, a visitor about a record that does not exist."""
 
 _WAY_BACK = (
     frozenset({Stage.ABOUT, Stage.AGE, Stage.CONSENT}),
@@ -203,7 +203,10 @@ class StageOrder:
         return cls(stages)
 
     def after(self, stage: Stage, *, kept: bool) -> Stage:
-        """The stage after this one; a session that is not ``kept`` leaves out what only makes sense with a record."""
+        """Return the stage after this one.
+
+        A session that is not ``kept`` leaves out what only makes sense with a record.
+        """
         ahead = self.stages[0 if stage is Stage.ATTRACT else self.stages.index(stage) + 1 :]
         return next((coming for coming in ahead if kept or coming not in _ONLY_WHEN_KEPT), Stage.OVER)
 
@@ -226,7 +229,10 @@ def transition(stage: Stage, event: Event) -> Transition:
 
 
 def diagram() -> str:
-    """The table as a Mermaid state diagram of the whole course; what may come in every stage stands in a note."""
+    """Return the table as a Mermaid state diagram of the whole course.
+
+    What may come in every stage stands in a note.
+    """
     course = StageOrder.of(STAGES)
     arrows = [
         f"    {stage.value} --> {coming.value}: {kind.__name__}"

@@ -45,11 +45,11 @@ class SpeechListener(Protocol):
     """Hears what becomes of an utterance, started, then finished or failed; and of the body itself."""
 
     def speech_started(self, utterance: int) -> None:
-        """The first sound is out."""
+        """Report that the first sound is out."""
         ...
 
     def speech_finished(self, utterance: int) -> None:
-        """The last sound is out."""
+        """Report that the last sound is out."""
         ...
 
     def speech_failed(self, utterance: int, why: str) -> None:
@@ -57,7 +57,7 @@ class SpeechListener(Protocol):
         ...
 
     def robot_lost(self, why: str) -> None:
-        """The robot that was to speak cannot be counted on any more."""
+        """Report that the robot that was to speak cannot be counted on any more."""
         ...
 
 
@@ -103,7 +103,7 @@ class Embodiment(Protocol):
         ...
 
     def reset(self) -> None:
-        """Nobody is here any more: keep nothing of the last visitor."""
+        """Come to rest after a session: keep nothing of the last visitor."""
         ...
 
 
@@ -114,7 +114,7 @@ class MutableSpeech:
     """Stands before the body that helps, and lets no sentence through while it is shut."""
 
     def __init__(self, body: Embodiment, listener: SpeechListener) -> None:
-        """``listener`` hears of every sentence that it will not be heard."""
+        """Report every sentence that will not be heard to ``listener``."""
         self.embodiment = body
         self._listener = listener
         self._shut = False
@@ -138,7 +138,7 @@ class MutableSpeech:
         self._shut = False
 
     def said(self, utterance: int) -> None:
-        """It is not being said any more."""
+        """Forget a sentence that is not being said any more."""
         if self._saying == utterance:
             self._saying = None
 
@@ -208,7 +208,7 @@ class FailureKind(Enum):
     DROPPED = "broke off the connection"
     ERROR = "answered with an error"
     DECLINED = "said that it did not do it"
-    GARBAGE = "answered what nobody understands"
+    GARBAGE = "gave an answer that cannot be understood"
     NO_VOICE = "has no voice of the language"
     CUT = "was told to stop"
 
@@ -244,7 +244,7 @@ class Utterance:
     """A sentence under way, which any thread may cut off."""
 
     def __init__(self, sentence: str, started: Callable[[], None], longest: int = LONGEST_TEXT) -> None:
-        """``started`` is called once, on the robot's thread, when the robot has begun or was asked to begin.
+        """Call ``started`` once, on the robot's thread, when the robot begins or is asked to.
 
         No more than ``longest`` characters are said.
         """
@@ -256,7 +256,7 @@ class Utterance:
 
     @property
     def is_cancelled(self) -> bool:
-        """Whether nobody waits for it any more."""
+        """Whether its end is not waited for any more."""
         return self._cut
 
     def cancel(self) -> None:
@@ -357,7 +357,10 @@ class InspectableRobot(RobotDriver):
 
 
 def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = "") -> RobotVoice:
-    """The wished voice, or the first of those that are nearest to the language; raises RobotError without one."""
+    """Return the wished voice, or else one nearest to the language.
+
+    Raises RobotError without one.
+    """
     if wished:
         matching = [(0, voice) for voice in voices if voice.name == wished]
     else:
@@ -436,7 +439,7 @@ class RobotListener(SpeechListener, Protocol):
     """A listener that hears of the robot's coming as well."""
 
     def robot_found(self) -> None:
-        """The robot can be counted on from now on."""
+        """Report that the robot can be counted on from now on."""
         ...
 
 
@@ -585,7 +588,7 @@ class AsyncRobotAdapter:
         self._reports.robot_found()
 
     def _lost(self, why: str) -> None:
-        """The first failure counts; what fails after it was asked of a robot that was lost already."""
+        """Report the first failure; later ones were asked of a robot that was lost already."""
         if not self._health.is_ok and not self._sought:
             return
         self._sought = False
@@ -721,7 +724,7 @@ class EmbodimentSelector:
             self._mouth.unmute()
 
     def begin_session(self, language: str) -> None:
-        """A session begins in this language: the body stays as it is, unless the robot is lost."""
+        """Begin a session in this language: the body stays as it is, unless the robot is lost."""
         self._in_session = True
         self.set_language(language)
 
@@ -743,36 +746,36 @@ class EmbodimentSelector:
         self._enter(next((body for body in (self._avatar, self._robot) if body is not None and body.name == to), None))
 
     def close(self) -> None:
-        """Let go of the robot; the avatar is let go of by whoever made it."""
+        """Let go of the robot; the avatar belongs to the caller that made it."""
         self._stop_waiting()
         if self._robot is not None:
             self._robot.close()
 
     def speech_started(self, utterance: int) -> None:
-        """The body began to say a sentence."""
+        """Pass on that the body began to say a sentence."""
         self._listener.speech_started(utterance)
 
     def speech_finished(self, utterance: int) -> None:
-        """The body has said a sentence."""
+        """Pass on that the body has said a sentence."""
         if self._mouth is not None:
             self._mouth.said(utterance)
         self._listener.speech_finished(utterance)
 
     def speech_failed(self, utterance: int, why: str) -> None:
-        """The body will not say a sentence."""
+        """Pass on that the body will not say a sentence."""
         if self._mouth is not None:
             self._mouth.said(utterance)
         self._listener.speech_failed(utterance, why)
 
     def robot_found(self) -> None:
-        """The robot can be counted on."""
+        """Use the robot that was found, or wait for the end of the session to do so."""
         self._unsettled = False
         if not self._in_session:
             self._choose()
         self._wait_for_robot(self._settings.health_check_ms)
 
     def robot_lost(self, why: str) -> None:
-        """The robot cannot be counted on; if it was helping somebody, that is an event of their session."""
+        """Record the loss in the session that the robot was helping in, or change to the avatar."""
         _log.info("%s", why)
         self._unsettled = False
         if self._in_session and self._current is self._robot:
@@ -797,14 +800,14 @@ class EmbodimentSelector:
             body.activate()
 
     def _lend_mouth(self, body: Embodiment) -> None:
-        """One mouth for whoever helps: whether it is shut outlasts a change of body."""
+        """Give the one mouth to a body: whether it is shut outlasts a change of body."""
         if self._mouth is None:
             self._mouth = MutableSpeech(body, self._listener)
             self._apply_mute()
         self._mouth.embodiment = body
 
     def _wait_for_robot(self, ms: int) -> None:
-        """After so long see to it; if somebody is playing then, as soon as they are gone."""
+        """Look at the robot after so long; during a session, as soon as it is over."""
         self._stop_waiting()
         self._wait = self._after(ms, self._see_to_robot)
 

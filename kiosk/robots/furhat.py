@@ -132,11 +132,11 @@ class _Socket(socket.socket):
         return super().recv_into(*args, **options)
 
     def end(self) -> None:
-        """Wake whoever waits for this socket."""
+        """Wake the thread that waits for this socket."""
         try:
             self.shutdown(socket.SHUT_RDWR)
         except OSError:
-            # It is closed already, or was never connected: nobody waits for it.
+            # It is closed already, or was never connected: no thread waits for it.
             return
 
 
@@ -196,7 +196,7 @@ class HttpClient:
     """A host and port that requests go to."""
 
     def __init__(self, host: str, port: int, connect_ms: int) -> None:
-        """Connecting may take ``connect_ms``. No name is looked up yet."""
+        """Take a host and port without looking a name up; connecting may take ``connect_ms``."""
         self._host = host
         self._port = port
         self._connect_s = connect_ms / MS_PER_SECOND
@@ -370,9 +370,9 @@ class Furhat(InspectableRobot):
             self._ask("/furhat/gesture", {"name": name, "blocking": "false"})
 
     def look_at(self, place: BoardPoint | None) -> None:
-        """Look at a place on the board, or at whoever is closest; raises RobotFailed.
+        """Look at a place on the board, or at the closest person; raises RobotFailed.
 
-        It may well say that there is nobody to look at: that is no failure.
+        It may answer that no person is there to look at: that is no failure.
         """
         if not self._settings.gaze:
             return
@@ -403,7 +403,7 @@ class Furhat(InspectableRobot):
         _check(f"POST {path}", *self._request("POST", path, parameters, body))
 
     def _list(self, path: str, *, named: bool = True) -> list[dict[str, Any]]:
-        """Return what it lists; entries without a name are left out, for nobody could ask for them."""
+        """Return what it lists; entries without a name are left out, as they cannot be asked for."""
         code, content = self._request("GET", path)
         listed = _json(content)
         if code != OK:

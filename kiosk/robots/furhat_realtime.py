@@ -1,4 +1,4 @@
-"""Furhat over its Realtime API (WebSocket): requests go out, and whoever waits for an answer is handed it.
+"""Furhat over its Realtime API (WebSocket): requests go out, and each waiting call gets its answer.
 
 The maker does not say how errors look: any answer that speaks of an error, to a request of ours, is one.
 """
@@ -41,7 +41,7 @@ _DROPPED: Mapping[str, Any] = MappingProxyType({"type": "dropped"})
 
 
 class _Waiter:
-    """Somebody who waits for the answers to one request; answers without a number are known by how they begin."""
+    """One wait for the answers to a request; answers without a number are known by how they begin."""
 
     def __init__(self, number: str, family: str) -> None:
         self.number = number
@@ -134,7 +134,7 @@ class FurhatRealtime(RobotDriver):
             self._send("request.gesture.start", name=WISHES[mood][0], intensity=1.0, monitor=False)
 
     def look_at(self, place: BoardPoint | None) -> None:
-        """Look at a place on the board, or at whoever is closest; raises RobotFailed."""
+        """Look at a place on the board, or at the closest person; raises RobotFailed."""
         if not self._settings.gaze:
             return
         if place is None:
@@ -144,7 +144,7 @@ class FurhatRealtime(RobotDriver):
             self._send("request.attend.location", x=x, y=y, z=z)
 
     def close(self) -> None:
-        """Close the connection; whoever waits is told."""
+        """Close the connection, and end every wait."""
         with self._lock:
             self._socket = None
             opened, self._opened = self._opened, ExitStack()
@@ -183,7 +183,7 @@ class FurhatRealtime(RobotDriver):
         Thread(target=self._listen, args=(socket,), name="robot-ears", daemon=True).start()
 
     def _listen(self, socket: ClientConnection) -> None:
-        """Hand every message to whoever waits for it, until the connection is gone."""
+        """Hand every message to the wait that it answers, until the connection is gone."""
         with suppress(WebSocketException):
             for text in socket:
                 self._hand(_message(text))

@@ -1,4 +1,7 @@
-"""The robots that a study file can name. A driver is imported only when it is asked for: that takes half a second."""
+"""The robots that a study file can name.
+
+A driver is imported only when it is asked for: that takes half a second.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,10 @@ from kiosk.robots.embodiment import RobotDriver
 
 
 def load_driver(extension: Extension) -> type[RobotDriver]:
-    """Import a driver; raises UserInputError if it is none, or does not go by the name that it is registered by."""
+    """Import a driver.
+
+    Raises UserInputError if it is none, or does not go by the name that it is registered by.
+    """
     driver = extension.load()
     if not isinstance(driver, type) or not issubclass(driver, RobotDriver):
         raise extension.broken(f"{extension.entry.value} is no class derived from kiosk.robots.embodiment.RobotDriver")

@@ -1,4 +1,4 @@
-"""A robot that is not there: it says everything at once, and fails now and then, in every way. For rehearsals."""
+"""A robot without hardware for rehearsals: it says everything at once, and fails in every way."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class FlakyRobot(RobotDriver):
         self._try("stop_speech")
 
     def express(self, mood: Mood) -> None:
-        """Show a mood to nobody."""
+        """Accept a mood that has no face to show it."""
         self._try(f"look {mood.value}")
 
     def look_at(self, place: BoardPoint | None) -> None:

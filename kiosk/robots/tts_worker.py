@@ -83,7 +83,7 @@ class TtsWorker:
         report: WorkerReport,
         commands: Commands,
     ) -> None:
-        """What the player posts is among the commands, and ``None`` ends the work."""
+        """Work through the commands until ``None`` comes; what the player posts is among them."""
         self._source = source
         self._player = player
         self._report = report
@@ -125,7 +125,7 @@ class TtsWorker:
             self._player.play(None, self._sounds[file])
 
     def _render(self, text: str) -> None:
-        """Render a text that nobody is to hear."""
+        """Render a text without playing it."""
         begun = time.monotonic()
         try:
             sound, _ = self._source.clip(text)
@@ -213,7 +213,7 @@ def _read_into(commands: Commands) -> None:
                 is_finishing = True
                 return
     finally:
-        # Whatever ends the input, a line that is no command too, ends the work: nobody is left to speak to.
+        # Whatever ends the input, a line that is no command too, ends the work: the kiosk is gone.
         if not is_finishing:
             commands.put(None)
 

@@ -53,7 +53,7 @@ def clock_check(folder: Path, now: datetime, made: datetime | None) -> Iterator[
 
 
 def newest_write(folder: Path) -> datetime | None:
-    """When anything was written last; None if nothing was, or nobody can tell."""
+    """When anything was written last; None if nothing was, or it cannot be found out."""
     if not (folder / FILE).exists():
         return None
     try:
@@ -157,7 +157,7 @@ _AS_FIXED = "put quotas, block and seed back as they are fixed; another study ne
 def allocation_check(
     folder: Path, site: str, declared: Allocation, kind: SessionKind = SessionKind.STUDY
 ) -> Iterator[CheckResult]:
-    """Whether the list that is fixed for this kind of sessions is the study file's, and how much of it is left."""
+    """Check whether the fixed list for this kind of sessions is the study file's, and what is left."""
     if not declared.target_n:
         yield CheckResult.ok(LIST, "no quotas in the study file: every visitor gets the same condition")
         return
@@ -195,7 +195,10 @@ _Look = Callable[[sqlite3.Connection], Iterator[CheckResult]]
 
 
 def _reading(folder: Path, look: _Look) -> Iterator[CheckResult]:
-    """What is found in the database; nothing where there is none, and the file's own finding says it if it is bad."""
+    """Return what is found in the database, and nothing where there is none.
+
+    A damaged file is a finding of its own.
+    """
     try:
         with closing(open_for_reading(folder)) as connection:
             yield from look(connection)
@@ -234,9 +237,11 @@ def free_space_check(folder: Path) -> Iterator[CheckResult]:
         case SpaceLevel.ENOUGH:
             yield CheckResult.ok(ROOM, words)
         case SpaceLevel.WARN:
-            yield CheckResult.warning(ROOM, words, f"make room, to {WARN_MIB} MiB: below {REFUSE_MIB} nobody can begin")
+            yield CheckResult.warning(
+                ROOM, words, f"make room, to {WARN_MIB} MiB; below {REFUSE_MIB} no session begins"
+            )
         case SpaceLevel.REFUSE:
-            yield CheckResult.error(ROOM, f"{words}, and nobody can begin", f"make room, to {WARN_MIB} MiB")
+            yield CheckResult.error(ROOM, f"{words}, and no session can begin", f"make room, to {WARN_MIB} MiB")
 
 
 def access_check(folder: Path) -> Iterator[CheckResult]:
@@ -273,7 +278,10 @@ def write_speed_check(folder: Path, measure: Callable[[Path], Sequence[float]] |
 
 
 def written_ms(place: Path) -> list[float]:
-    """How long each of some records takes, in a database of its own on the same disk that is gone afterwards, in ms."""
+    """Measure how long each of some records takes, in ms.
+
+    It writes to a database of its own on the same disk, and removes it.
+    """
     _remove_stale(place)
     times: list[float] = []
     with (

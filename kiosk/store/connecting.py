@@ -83,7 +83,10 @@ def for_writing(path: Path) -> Connection:
 
 
 def give_to_owner_of_folder(path: Path) -> None:
-    """Let a file that root has made belong to the user whose folder it lies in: their kiosk has to open it later."""
+    """Give a file that root has made to the user whose folder it is in.
+
+    Their kiosk has to open it later.
+    """
     if sys.platform == "win32" or os.geteuid() != 0:
         return
     owner = path.parent.stat()
@@ -238,7 +241,7 @@ def atomic_directory(out: Path) -> Iterator[Path]:
     """Provide a new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
 
     Raises UserInputError if it cannot be made, or if the end of the program cut off an earlier one there: it may hold
-    what people said, so somebody should know of it. Raises OSError if the disk does not take all of it.
+    what people said, so a person should know of it. Raises OSError if the disk does not take all of it.
     """
     made = out.with_name(out.name + UNFINISHED)
     if made.exists():

@@ -265,7 +265,7 @@ def lock_folder(folder: Path) -> FileLock:
     held = FileLock(folder / LOCK)
     try:
         _make(folder)
-        # Whoever reads looks at the lock for a moment, and is no reason to give up.
+        # A reader holds the lock for a moment, which is no reason to give up.
         held.acquire(timeout=LOCK_WAIT_S)
         give_to_owner_of_folder(folder / LOCK)
     except Timeout as error:
@@ -276,7 +276,7 @@ def lock_folder(folder: Path) -> FileLock:
 
 
 def in_use(folder: Path) -> bool:
-    """Whether somebody is writing in a data folder."""
+    """Whether another process is writing in a data folder."""
     try:
         if not (folder / LOCK).exists():
             return False
@@ -285,7 +285,7 @@ def in_use(folder: Path) -> bool:
     except Timeout:
         return True
     except OSError:
-        # Where the lock cannot even be looked at, nobody can be writing.
+        # Where the lock cannot even be looked at, no process can be writing.
         return False
 
 

@@ -71,7 +71,7 @@ _UNFINISHED = ".unfinished"
 _LOCK = "backup.lock"
 
 Progress = Callable[[int, int], None]
-"""Is told how much is done, of how much."""
+"""Called with how much is done, of how much."""
 
 
 def back_up(
@@ -81,7 +81,7 @@ def back_up(
     tell: Progress = lambda _done, _of: None,
     amend: Callable[[sqlite3.Connection], None] = lambda _copy: None,
 ) -> Path:
-    """Copy the database of a data folder as it is now, check the copy, and remove all but the newest ``keep``.
+    """Copy the database of a data folder, check the copy, and remove all but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
     ``amend`` may change the copy before it is checked. Raises UserInputError if there is nothing to copy or no place,

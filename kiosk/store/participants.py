@@ -25,7 +25,7 @@ ALPHABET = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
 
 CHANCE_CHARACTERS = 6
 """With the check character 7: short enough to be copied by hand. 31^6 is 887 million, so that among the thousand
-people of a large study a code that is made up belongs to nobody (1 in a million), and two hardly ever fall together
+people of a large study a made-up code belongs to no participant (1 in a million), and two hardly ever fall together
 (1 in 2000 studies), which is seen and mended when it happens."""
 
 _DIGITS_OF_A_YEAR = 4
@@ -158,10 +158,13 @@ class AllocationList:
 
 
 class AllocationLists:
-    """The lists of one site, of one kind of sessions; the last one goes on from those before and is followed."""
+    """The lists of one site, of one kind of sessions.
+
+    The last one goes on from those before and is followed.
+    """
 
     def __init__(self, connection: sqlite3.Connection, site: str, *, kind: SessionKind) -> None:
-        """Whoever calls ``fix`` has a transaction open."""
+        """Open the lists; callers of ``fix`` have a transaction open."""
         self._connection = connection
         self._whose = {"site": site, "kind": int(kind)}
 

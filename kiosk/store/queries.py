@@ -40,7 +40,7 @@ _SUMMARISED = (
     *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "RemarkGiven", "BoardUnlocked"),
     *("PauseRequested", "PauseEnded", "SessionEnded"),
 )
-"""What is told of a session at a glance follows from these."""
+"""The overview of a session follows from these."""
 
 LARGEST = 2**63 - 1
 """The largest whole number that SQLite knows."""
@@ -89,7 +89,7 @@ class SessionRepository:
     """The sessions of one data folder."""
 
     def __init__(self, database: sqlite_utils.Database, *, in_use: bool) -> None:
-        """``in_use``: somebody is writing, so that a session without an end may still get one."""
+        """``in_use``: a kiosk is writing, so that a session without an end may still get one."""
         self._database = database
         self._unended = None if in_use else Status.INTERRUPTED
 
@@ -118,7 +118,7 @@ class SessionRepository:
         return [_event(record) for record in self.records(number)]
 
     def story(self, number: int) -> list[Event]:
-        """Every event of a session that it came to by itself: without the ends that were put to it after a crash."""
+        """Return every event of a session, without the ends that were added after a crash."""
         return [_event(record) for record in self.records(number) if record["origin"] != "recovery"]
 
     def plan(self, number: int) -> SessionConfig:
@@ -195,7 +195,10 @@ class SessionRepository:
         )
 
     def _status(self, number: int) -> Status | None:
-        """How a session ended: only its very last event says so, as one that was cut off may have been gone on with."""
+        """Return how a session ended.
+
+        Only its very last event says so, as one that was cut off may have gone on.
+        """
         for row in self._database["event"].rows_where("session = ?", [number], order_by="seq DESC", limit=1):
             if row["type"] == SessionEnded.__name__:
                 return Status(json.loads(row["payload"])["status"])
@@ -204,7 +207,10 @@ class SessionRepository:
 
 @contextmanager
 def open_repository(folder: Path) -> Iterator[SessionRepository]:
-    """The archive of a data folder; raises UserInputError if there is none that can be read, or not all of it."""
+    """Open the archive of a data folder.
+
+    Raises UserInputError if there is none that can be read completely.
+    """
     with closing(open_for_reading(folder)) as connection:
         try:
             yield SessionRepository(sqlite_utils.Database(connection), in_use=in_use(folder))

@@ -1,4 +1,4 @@
-"""How rows are written, and how a session that was cut off gets its end; whoever asks has a transaction open."""
+"""How rows are written, and how a session that was cut off ends; callers have a transaction open."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ class Recorder:
     def create_allocation_list(
         self, quotas: Mapping[Condition, int], block: int, seed: int | None, *, kind: SessionKind
     ) -> tuple[AllocationSlot, ...]:
-        """Fix the site's list before its first visitor, or find the very one fixed, or a longer one for raised quotas.
+        """Fix the site's list before its first visitor, or find it; raised quotas make it longer.
 
         Without a seed one is drawn and stored. Raises UserInputError if another list is fixed or there is none, and
         StorageError if the disk does not take it. It waits for another program, as opening does.
@@ -200,7 +200,7 @@ class Recorder:
             return self._lists(kind=kind).create(quotas, block, seed)
 
     def next_slot(self, *, kind: SessionKind) -> AllocationSlot | None:
-        """The first slot of the site's list whose game nobody completed; None if all are consumed, or none is fixed.
+        """Return the first slot of the site's list without a completed game; None without one.
 
         It is computed from what is stored and nothing else. It only reads, so a program that writes is no hindrance.
         """
@@ -262,7 +262,7 @@ class Recorder:
     # Outside sessions
 
     def count_visit(self, why: NotRecordedReason, *, kind: SessionKind) -> None:
-        """Count somebody who played without being stored; nothing else of them is kept, not even when."""
+        """Count a visitor who played without being stored; nothing else of them is kept, not even when."""
         with self._transaction():
             insert(self._connection, "visit", {"why": why.value, "kind": int(kind)})
 

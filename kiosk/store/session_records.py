@@ -1,6 +1,6 @@
 """The sessions that are exported, one after another, each with all that can still be read of it.
 
-What an older program wrote and this one cannot read is left out piece by piece: a plan, an event. The rest is told.
+What an older program wrote and this one cannot read is left out piece by piece: a plan, an event. The rest is exported.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _ABOUT_THE_RECORD = ("seq", "at_ms", "origin", "type")
 
 @dataclass(frozen=True)
 class EventRecord:
-    """One event as it was written, the stage that it fell into, and what this program makes of it, if anything."""
+    """One event as it was written, its stage, and how this program reads it, if it can."""
 
     seq: int
     at_ms: int
@@ -85,11 +85,11 @@ class SessionRecord:
 
     @property
     def publishable(self) -> bool:
-        """Whether nobody said no to publishing: it was agreed to, or not asked, or there is nobody to say no."""
+        """Whether publishing was not refused: it was agreed to, or not asked, or the session is simulated."""
         consent = self.state.consent
         if self.kind is SessionKind.SIMULATED or consent is None or PUBLISHING in consent.purposes:
             return True
-        # Where the sheet cannot be read, nobody knows what was offered.
+        # Where the sheet cannot be read, it is unknown what was offered.
         offered = self.plan.information.consent.purposes if self.plan else None
         return offered is not None and PUBLISHING not in {purpose.id for purpose in offered}
 

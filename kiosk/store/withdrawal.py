@@ -54,7 +54,7 @@ class Withdrawal:
 
 
 def find_withdrawal(folder: Path, code: str) -> Withdrawal:
-    """Return what would go with this code; raises UserInputError if nobody has it, or if a kiosk is writing there."""
+    """Return what would go with this code; raises UserInputError if it is unknown, or a kiosk is writing there."""
     with closing(open_for_reading(folder)) as connection:
         if in_use(folder):
             raise UserInputError(f"a kiosk is writing in {folder}: close it first, then withdraw")
@@ -62,7 +62,7 @@ def find_withdrawal(folder: Path, code: str) -> Withdrawal:
 
 
 def withdraw(folder: Path, code: str) -> Withdrawal:
-    """Take out whoever has this code, and replace the copies of the database by a fresh one; returns what went.
+    """Remove the participant with this code, and replace the database copies; returns what went.
 
     A withdrawal that was cut off before is finished. Raises UserInputError if no participant has the code, or if
     another program uses the data; nothing is deleted then. Raises StorageError if the disk did not do all of it; the
@@ -120,7 +120,7 @@ def _found(connection: sqlite3.Connection, folder: Path, code: str) -> Withdrawa
     if row is not None:
         session, site, number = row
         return Withdrawal(session, participant_name(site, number), None, 0, copies, cut_off=True)
-    raise UserInputError(f"nobody in {folder} has the code {code}")
+    raise UserInputError(f"no participant in {folder} has the code {code}")
 
 
 def _sha256(code: str) -> str:

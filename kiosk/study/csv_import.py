@@ -122,7 +122,7 @@ class CsvTable:
 
 
 def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
-    """Return the lines of a table from that of its columns on, and the number of the one after it in a spreadsheet."""
+    """Return the lines of a table from its column names on, and their spreadsheet line number."""
     text = _text(name, file)
     header, *_ = text.splitlines() or [""]
     told = _SEPARATOR.fullmatch(header.strip())
@@ -291,7 +291,10 @@ class _Reading:
         return given, used
 
     def _read(self, row: CsvRow, key: str, columns: Sequence[str], reading: Callable[[str], Any] | None) -> Any:
-        """The value of one field, from its cell or, for words, from that of every language; None if it is none."""
+        """Return the value of one field; None if there is none.
+
+        Words come from the cells of every language.
+        """
         if key == "options":
             return self._options(row, columns)
         if reading is None:
@@ -326,7 +329,10 @@ class _Reading:
         return told
 
     def _column(self, place: Sequence[int | str]) -> str:
-        """The column in which a fault of an item stands; the only one of an item as a whole is about its ends."""
+        """Return the column in which a fault of an item stands.
+
+        The only fault of an item as a whole is about its ends.
+        """
         match place:
             case ():
                 return "lowest"

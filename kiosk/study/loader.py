@@ -80,7 +80,10 @@ ONE_NAME = "are one name where capitals, - and _ do not count, as in file names 
 
 
 def unclear_names(asked: Sequence[tuple[Path, Questionnaire]]) -> Iterator[str]:
-    """A sentence for every name, or two, that would be lost or misread on the way to a reader; each names the files."""
+    """Yield a sentence for every name that a reader would lose or misread.
+
+    Each names the files.
+    """
     yield from _between("questionnaires", [(each.id, file) for file, each in asked])
     yield from _between("items", [(item.id, file) for file, each in asked for item in each.items])
     yield from _between("scales", [(scale, file) for file, each in asked for scale in each.scales])
@@ -231,7 +234,10 @@ class _Look:
     # What there is
 
     def catalogues(self, actions: Sequence[ActionSpec]) -> dict[str, Catalogue]:
-        """The sentences of every language; each says all that the model language says, and what the actions need."""
+        """Return the sentences of every language.
+
+        Each says all that the model language says, and what the actions need.
+        """
         found: dict[str, Catalogue] = {}
         model = Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE)
         for name in self._settings.languages:
@@ -379,7 +385,7 @@ class _Look:
     # What does not fit
 
     def check_practice(self) -> None:
-        """Nobody sees the pictures of the game before it."""
+        """Refuse a practice that shows the pictures of the game before it."""
         settings = self._settings
         if "practice" in settings.stages and settings.practice.deck == settings.game.deck:
             self._blame("practice.deck", f"the game has the pictures {settings.game.deck!r} too; choose others")
@@ -419,9 +425,9 @@ SHIPPED_TEXT = "study"
 """The information sheets that come as an example."""
 
 _WITHOUT = {
-    "consent": "without the stage 'consent', nobody is asked before their session is stored",
-    "age": "without the stage 'age', nobody is asked whether they are old enough",
-    "debrief": "without the stage 'debrief', nobody sees the code with which to withdraw",
+    "consent": "without the stage 'consent', visitors are not asked before their session is stored",
+    "age": "without the stage 'age', visitors are not asked whether they are old enough",
+    "debrief": "without the stage 'debrief', visitors do not see the code with which to withdraw",
 }
 
 PAIR_MS = 15_000
@@ -444,9 +450,9 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
         yield "consent.text: the information sheets are the shipped example; an ethics board approves those of a study"
     purposes = {purpose.id for plan in study.plans for purpose in plan.information.consent.purposes}
     if "consent" in settings.stages and PUBLISHING not in purposes:
-        yield f"consent.text: no purpose is named {PUBLISHING!r}, so nobody is left out of a data set for publishing"
+        yield f"consent.text: no purpose is named {PUBLISHING!r}, so nothing is left out of a data set for publishing"
     if Condition.NO_ASSISTANCE in _given(study):
-        yield "in the condition 'no_assistance' nobody helps, but the introduction promises help to everybody"
+        yield "in the condition 'no_assistance' there is no help, but the introduction promises it to everybody"
     if not settings.consent.contact:
         yield "consent.contact is empty, so visitors are not told whom to write to"
 

@@ -1,4 +1,4 @@
-"""The keys of a study file as people read them: an example and a page of reference, made of the declarations."""
+"""The keys of a study file for people: an example and a reference page, made of the declarations."""
 
 from __future__ import annotations
 

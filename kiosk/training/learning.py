@@ -217,7 +217,10 @@ DECIDED = 1
 
 
 class LearnerState(NamedTuple):
-    """What is learnt and how, as the rules read it; values, mean and visits have an entry per state and action."""
+    """What is learnt and how, as the rules read it.
+
+    Values, mean and visits have an entry per state and action.
+    """
 
     plan: Ints
     gamma: Floats
@@ -287,7 +290,10 @@ def learn_episode(table: GameTable, lesson: LearnerState, episode: int) -> None:
 
 @compiled_rule
 def learn_episodes(table: GameTable, lesson: LearnerState, first: int, stop: int) -> None:
-    """The episodes from ``first`` up to ``stop``; in the last half the mean of the values goes along."""
+    """Learn from the episodes from ``first`` up to ``stop``.
+
+    In the last half the mean of the values goes along.
+    """
     half = lesson.plan[EPISODES] // 2
     for episode in range(first, stop):
         learn_episode(table, lesson, episode)

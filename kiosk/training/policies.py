@@ -1,4 +1,4 @@
-"""Policy files: those that are shipped, writing one whole or not at all, and what can be said about a table.
+"""Policy files: those that are shipped, writing one atomically, and claims about a table.
 
 What a table must do to be the paper's policy stands here as checks; how well it does so is for simulation.
 """
@@ -42,7 +42,10 @@ def write_policy(path: Path, content: str | bytes) -> None:
 
 
 def visits(policy: QTable) -> dict[State, int]:
-    """How often each state asked for a decision in training, for those that did; empty where the file does not say."""
+    """Count how often each state asked for a decision in training.
+
+    States that never did are left out; it is empty where the file does not say.
+    """
     counts = policy.training.get("visits", {})
     return {state: counts[state.label] for state in policy.states if state.label in counts}
 
@@ -95,7 +98,10 @@ class PolicyClaim:
 
 
 def policy_claims(policy: QTable, hint_rate_first: float, hint_rate_second: float) -> tuple[PolicyClaim, ...]:
-    """Return the paper's four sentences as checks of a table behind its gate, and of the hint rates it has in play."""
+    """Return the paper's four sentences as checks of a table behind its gate.
+
+    They are also checks of the hint rates it has in play.
+    """
     levels = {
         phase: _level(policy, [s for s in policy.states if s.game is phase and _known(policy, s)]) for phase in Phase
     }

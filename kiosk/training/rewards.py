@@ -93,7 +93,10 @@ def hints(flip: RewardFlip) -> int:
 
 @compiled_rule
 def retrieved(flip: RewardFlip) -> float:
-    """How much of a match was the player's own: all of it without a hint, a share of it with one, none with two."""
+    """Return the player's own share of a match.
+
+    It is all of it without a hint, a share of it with one, none with two.
+    """
     if hints(flip) == 0:
         return 1.0
     if hints(flip) == CARDS_IN_A_PAIR or flip.action == SUG_CARD:
@@ -103,7 +106,10 @@ def retrieved(flip: RewardFlip) -> float:
 
 @compiled_rule
 def weighed(flip: RewardFlip) -> float:
-    """Return the paper's formulas: a / nf on a first card, a / (nf g) without help on a second, a nf g with help."""
+    """Return the paper's formulas for a first card and for a second with and without help.
+
+    They are a / nf on a first card, a / (nf g) without help on a second, a nf g with help.
+    """
     if flip.second == 0:
         return WEIGHTS[flip.action] / flip.nf
     if flip.action == NO_HELP:
@@ -113,7 +119,9 @@ def weighed(flip: RewardFlip) -> float:
 
 @compiled_rule
 def released(flip: RewardFlip, matched: int, purse: Floats) -> float:
-    """A purse that grows on first cards and is paid out in full; the paper's formula for a match with one hint at most.
+    """Return a purse that grows on first cards and is paid out in full.
+
+    For a match with one hint at most it is the paper's formula.
 
     A match, or a miss after a first-card hint, sets the purse back.
     """

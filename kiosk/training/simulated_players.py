@@ -118,7 +118,9 @@ class ChancePlayer:
 
 @dataclass(frozen=True, slots=True)
 class MemoryPlayer:
-    """Remembers each card seen with chance (1 - d)^age, age in flips; takes a recalled pair, else looks at a new card.
+    """Remembers each card seen with chance (1 - d)^age, age in flips.
+
+    It takes a recalled pair, else looks at a new card.
 
     ``forgetting``: d, or the range from which it is drawn anew for every game. ``lapse``: the chance to turn up any
     closed card, whatever is recalled or hinted.
@@ -332,7 +334,10 @@ def mark_wrong(game: Ints) -> int:
 
 @compiled_rule
 def recalled(game: Ints, lead: int, target: int) -> int:
-    """The card, where the help points, that the memory player knows to be right, or one of a pair; or NOWHERE."""
+    """Return the card, where the help points, that the memory player knows to be right.
+
+    It may also be one of a known pair; else it is NOWHERE.
+    """
     first = game[FIRST]
     for place in range(CARDS):
         mate = game[MATE + place]
@@ -364,7 +369,10 @@ def text_match(game: Ints, player: Ints, odds: Floats) -> bool:
 
 @compiled_rule
 def surely(game: Ints, player: Ints, odds: Floats, lead: int, target: int) -> int:
-    """The card that the player takes for certain, with this lead (a line, or no help) or without it; or NOWHERE."""
+    """Return the card that the player takes for certain; NOWHERE without one.
+
+    The lead is a line, or no help.
+    """
     if player[KIND] == MEMORY:
         return recalled(game, lead, target)
     if game[FIRST] == NOWHERE:
@@ -375,7 +383,10 @@ def surely(game: Ints, player: Ints, odds: Floats, lead: int, target: int) -> in
 
 @compiled_rule
 def mark_half(game: Ints) -> int:
-    """Toss a coin and mark the closed cards seen before, or those never seen; all of them if there are none."""
+    """Toss a coin and mark the closed cards seen before, or those never seen.
+
+    All are marked if there are none.
+    """
     seen = below(game, 2)
     number = 0
     for place in range(CARDS):

@@ -159,7 +159,7 @@ def play_all(table: GameTable, q: Floats, tallies: Ints) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """A mean, the standard deviation (ddof = 1), and a normal 95 % interval of the mean: mean +- 1.96 sd / sqrt(n)."""
+    """A mean, the standard deviation (ddof = 1), and a normal 95 % interval: mean +- 1.96 sd / sqrt(n)."""
 
     mean: float
     sd: float
@@ -305,7 +305,9 @@ def record(table: GameTable, q: Floats, log: Ints) -> int:
 
 
 class RecordedGame(NamedTuple):
-    """A simulated game flip by flip: the mate of every place, and of each flip the place, the action, and its target.
+    """A simulated game flip by flip.
+
+    It has the mate of every place, and of each flip the place, the action, and its target.
 
     ``forgetting`` is the d of the memory player who played it.
     """

@@ -20,7 +20,10 @@ MENTALISED = [TargetRule.MOST_FLIPPED, TargetRule.MOST_RECENT]
 
 
 def played(board: Board, taps: Iterable[int]) -> tuple[Concentration, list[Position]]:
-    """A game in which these places were tapped, as far as that is allowed and some card stays closed; and its flips."""
+    """Return a game in which these places were tapped, and its flips.
+
+    Taps that are not allowed are left out, and some card stays closed.
+    """
     game, flips = Concentration(board), []
     for tap in taps:
         if len(game.found) >= len(board.cards) - 2:

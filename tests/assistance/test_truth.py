@@ -135,7 +135,7 @@ PLACES = {"en": ("row", "column"), "it": ("riga", "colonna"), "es": ("fila", "co
 
 
 def check_reason(reason: str, language: str, asked: Asked) -> None:
-    """The reason claims nothing that the list of flips does not bear out, and names no place."""
+    """Check that the list of flips bears out the reason, and that it names no place."""
     counts = (asked.other, asked.target)
     assert bool(re.search(NEVER[language], reason)) == (0 in counts), (reason, counts)
     said_to_be_often = asked.target if asked.second else max(counts)
@@ -150,7 +150,7 @@ def check_reason(reason: str, language: str, asked: Asked) -> None:
 
 
 def check_place(sentence: str, language: str, asked: Asked) -> None:
-    """The figures in the sentence are the target's row and column, as far as the action gives them away."""
+    """Check that the sentence's figures are the target's row and column, if the action gives them away."""
     row, column = PLACES[language]
     target, action = asked.hint.target.position, asked.hint.action
     expected = []

@@ -247,7 +247,7 @@ def refused(
         ({"colour": "red"}, "there is no key 'colour'"),
         (
             {"condition": "no_assistance", "action": "sug_row"},
-            "in the condition no_assistance nobody helps, so there is no action to explain",
+            "in the condition no_assistance there is no help, so there is no action to explain",
         ),
     ],
 )

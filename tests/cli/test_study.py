@@ -144,9 +144,9 @@ def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recol
     assert said.code == 0
     cautions = json.loads(said.out)["cautions"]
     assert [caution.split(":")[0] for caution in cautions] == [
-        "without the stage 'consent', nobody is asked before their session is stored",
-        "without the stage 'age', nobody is asked whether they are old enough",
-        "without the stage 'debrief', nobody sees the code with which to withdraw",
+        "without the stage 'consent', visitors are not asked before their session is stored",
+        "without the stage 'age', visitors are not asked whether they are old enough",
+        "without the stage 'debrief', visitors do not see the code with which to withdraw",
         "consent.text",
         "consent.contact is empty, so visitors are not told whom to write to",
         "the deck 'toys' has cards without a name in 'en'",
@@ -160,7 +160,7 @@ def test_a_purpose_for_publishing_under_another_name_is_told_of(tmp_path: Path, 
     study = tmp_path / "study.toml"
     study.write_text("[consent]\ntext = 'sheets'\ncontact = 'the lab'\n", "utf-8")
     assert json.loads(recollect("study", "check", study, "--json").out)["cautions"] == [
-        "consent.text: no purpose is named 'share', so nobody is left out of a data set for publishing"
+        "consent.text: no purpose is named 'share', so nothing is left out of a data set for publishing"
     ]
 
 
@@ -168,7 +168,7 @@ def test_a_condition_without_help_is_told_of_as_help_is_promised(tmp_path: Path,
     study = tmp_path / "study.toml"
     study.write_text("[randomisation]\ntarget_n = { tom = 2, no_assistance = 2 }\n", "utf-8")
     cautions = json.loads(recollect("study", "check", study, "--json").out)["cautions"]
-    assert any("promises help to everybody" in caution for caution in cautions)
+    assert any("the introduction promises it to everybody" in caution for caution in cautions)
 
 
 def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(tmp_path: Path, recollect: Recollect) -> None:

@@ -312,7 +312,10 @@ class Driver:
 
 
 def driven_to(stage: Stage, plan: SessionConfig | None = None, seed: int = 5, voice: Voice = Voice.SPEAKS) -> Driver:
-    """A session that has just reached this stage, of all that there are unless the plan has others; a small game."""
+    """Return a session that has just reached this stage, of all stages unless the plan has others.
+
+    The game is small.
+    """
     driver = Driver(plan or whole(game=Game(rows=2, columns=3)), seed, voice)
     driver.to(stage)
     return driver

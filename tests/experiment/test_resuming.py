@@ -49,7 +49,7 @@ def an_eventful_session(plan: SessionConfig, seed: int) -> list[WorldEvent]:
 
 
 def pause_for_a_moment(driver: Driver) -> None:
-    """The experimenter stops the session, and lets it go on unless it came to its end meanwhile."""
+    """Stop the session as the experimenter, and let it go on unless it ended meanwhile."""
     driver.pause()
     driver.spend(1500)
     if driver.view.paused:
@@ -57,13 +57,13 @@ def pause_for_a_moment(driver: Driver) -> None:
 
 
 def say_it_again(driver: Driver) -> None:
-    """The experimenter has the last sentence repeated, if there is one that was said."""
+    """Have the last sentence repeated, if there is one that was said."""
     if driver.view.bubble and driver.view.speaking is None:
         driver.repeat()
 
 
 def practise(driver: Driver) -> None:
-    """The visitor tries the practice for a while."""
+    """Try the practice for a while."""
     if driver.stage is Stage.PRACTICE:
         driver.flip(driver.view.closed[0])
         driver.flip(driver.view.closed[-1])

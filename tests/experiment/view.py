@@ -65,7 +65,7 @@ class View:
         return next((said.why for said in self.kept if isinstance(said, do.DiscardRecording)), None)
 
     def hear(self, event: WorldEvent) -> None:
-        """What the body reports as finished or failed is not said any more; what is resumed has not ended."""
+        """Note that the body finished or failed a sentence, or that a session was resumed."""
         if isinstance(event, SpeechFinished | SpeechFailed) and event.utterance == self.speaking:
             self.speaking = None
         if isinstance(event, SessionResumed):

@@ -44,7 +44,7 @@ ANSWERS |= {"Q1": 1, "q1": 2, "T-1": 3, "T_1": 4}
 
 
 def answered(about_you: Questionnaire, *after: Questionnaire, seed: int = 1, given: dict[str, int] = ANSWERS) -> Driver:
-    """A participant who answered all of it, as a kiosk before these names were refused would have recorded it."""
+    """Record a participant who answered all of it, as a kiosk would before these names were refused."""
     driver = Driver(replace(study_plan(), about_you=about_you, questionnaires=after), seed)
     for stage in (Stage.ABOUT_YOU, Stage.QUESTIONS):
         driver.to(stage)

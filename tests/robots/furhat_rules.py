@@ -30,7 +30,7 @@ class Refused(Exception):
     """The request is not one that a Furhat takes."""
 
     def __init__(self, code: int, message: str) -> None:
-        """The code of the answer, and its message."""
+        """Keep the code of the answer, and its message."""
         super().__init__(message)
         self.code = code
 

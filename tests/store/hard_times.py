@@ -114,7 +114,7 @@ def die_in_a_checkpoint(folder: str, seed: int) -> None:
 
 
 def logged_pages(log: Path) -> list[int]:
-    """The numbers of the pages that stand in a write-ahead log, in the order in which a checkpoint writes them."""
+    """Return the numbers of the pages in a write-ahead log, in the order of a checkpoint."""
     content = log.read_bytes()
     starts = range(WAL_HEADER, len(content), FRAME_HEADER + PAGE)
     return sorted({int.from_bytes(content[start : start + 4]) for start in starts})

@@ -44,7 +44,7 @@ def made(folder: Path) -> Path:
 
 
 def with_steps(monkeypatch: pytest.MonkeyPatch, *steps: Migration) -> None:
-    """A later program, which knows more steps."""
+    """Act as a later program, which knows more steps."""
     monkeypatch.setattr(database, "MIGRATIONS", (*MIGRATIONS, *steps))
     monkeypatch.setattr(database, "SCHEMA", len(MIGRATIONS) + len(steps))
 

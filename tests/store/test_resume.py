@@ -37,7 +37,7 @@ def status(folder: Path, number: int = 1) -> Status | None:
 
 
 def cut_off(folder: Path, provenance: Provenance) -> None:
-    """A session that has no end, and one more that has."""
+    """Store a session that has no end, and one more that has."""
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START, happened.ContinuePressed(at_ms=70)])
     with Recorder(folder) as recorder:

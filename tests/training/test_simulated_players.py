@@ -27,7 +27,7 @@ SIGMAS = 4.0
 
 
 def alone(player: SimulatedPlayer, seed: int = 1) -> Spread:
-    """Moves without any help."""
+    """Simulate games without any help, and return their moves."""
     return simulate_games(QTable.blank(), player, TargetRule.RANDOM, GAMES, seed).moves
 
 

@@ -35,17 +35,17 @@ class Guest(Rehearsal):
 
 
 def fault() -> None:
-    """A fault of ours."""
+    """Raise a fault of ours."""
     raise RuntimeError("a fault on purpose")
 
 
 def fault_soon(*_: object) -> None:
-    """A fault in the event loop itself, not in whatever Python is at just now."""
+    """Raise a fault in the event loop itself, not in whatever Python is at just now."""
     QTimer.singleShot(0, fault)
 
 
 def endless(*_: object) -> None:
-    """A loop without an end."""
+    """Loop without an end."""
     while True:
         pass
 

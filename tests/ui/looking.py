@@ -162,7 +162,10 @@ def contrast(one: QColor, other: QColor) -> float:
 
 
 def strongest_change(before: QImage, after: QImage, where: QRect | None = None) -> float:
-    """The greatest contrast between a pixel and the same one later, in a place: of light alone, whatever the hue."""
+    """Return the greatest contrast between a pixel and the same one later, in a place.
+
+    It is one of light alone, whatever the hue.
+    """
     one, other = (FLARE + _light(_pixels(picture, where) / 255) for picture in (before, after))
     return float(np.max(np.maximum(one, other) / np.minimum(one, other)))
 

@@ -41,7 +41,7 @@ class Keyboard(UiDriver):
             self._choose()
 
     def double_click(self, name: str, across: float = 0.5) -> None:
-        """A keyboard has no such thing."""
+        """Press the key once: a keyboard has no double click."""
         self.click(name, across)
 
     def _tap(self, place: QPoint) -> None:
@@ -95,7 +95,7 @@ class Keyboard(UiDriver):
         self.press(Qt.Key.Key_Return if self.pressed % 2 else Qt.Key.Key_Space)
 
     def _press_instead(self, key: str) -> None:
-        """What a key on the screen does, a real one does as well."""
+        """Press the real key that does what a key on the screen does."""
         match key:
             case "delete":
                 self.press(Qt.Key.Key_Backspace)

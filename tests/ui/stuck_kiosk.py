@@ -25,19 +25,19 @@ Timer {
 
 
 def fault(*_: object) -> None:
-    """A fault of ours."""
+    """Raise a fault of ours."""
     raise KeyError("unicorn")
 
 
 def with_pythons_lock(*_: object) -> None:
-    """A binding without an end, asked for by Python, which waits for it."""
+    """Evaluate a binding without an end from Python, which waits for it."""
     engine = QJSEngine()
     engine.installExtensions(QJSEngine.Extension.ConsoleExtension)
     engine.evaluate("console.log('stuck'); for (;;) {}")
 
 
 def without_pythons_lock(*_: object) -> None:
-    """The same out of Qt's own event loop."""
+    """Evaluate the same out of Qt's own event loop."""
     kept.append(engine := QQmlEngine())
     kept.append(component := QQmlComponent(engine))
     component.setData(ENDLESS, "")

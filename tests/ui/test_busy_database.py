@@ -64,7 +64,7 @@ class Other:
 
 @pytest.fixture
 def other_of() -> Iterator[Callable[[Booth], Other]]:
-    """Opens the database of a booth as another program does."""
+    """Open the database of a booth as another program does."""
     with ExitStack() as opened:
         yield lambda booth: opened.enter_context(closing(Other(booth.data)))
 

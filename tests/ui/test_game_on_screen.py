@@ -192,7 +192,7 @@ def test_beside_a_robot_the_board_has_the_whole_width_and_the_sentence_stands_be
 
 
 def renderer(app: App) -> Renderer:
-    """Shows what a session asks for, without one."""
+    """Show what a session asks for, without one."""
     return Renderer(app.screens, app.clock, lambda _: None)
 
 

@@ -49,7 +49,7 @@ def logging_into(folder: Path) -> Iterator[Path]:
 
 
 def raise_with(words: str) -> None:
-    """A fault of ours that repeats what it was given."""
+    """Raise a fault of ours that repeats what it was given."""
     nothing: dict[str, str] = {}
     try:
         nothing[words]

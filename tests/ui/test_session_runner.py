@@ -26,7 +26,7 @@ def refuse(self: Recorder, events: Sequence[Event]) -> None:  # noqa: ARG001 - t
 
 
 def refuse_to_begin(self: Recorder, session: Provenance, events: Sequence[Event]) -> None:  # noqa: ARG001 - as above
-    """The same where a session is to be stored."""
+    """Stand in for a recorder that cannot store a session."""
     raise StorageError("the session could not be stored: the disk is full")
 
 

@@ -73,7 +73,7 @@ class Looking(UiDriver):
         return f"form: {kinds}{', keys' if name.startswith('key-') else ', filled in' if form.given else ''}"
 
     def _look_at_what_lacks(self, moment: str) -> None:
-        """The same with something that has to be done first."""
+        """Look at the same screen with something that has to be done first."""
         screens = self._app.screens
         if moment == "consent":
             screens.consent.show_missing(

@@ -28,7 +28,10 @@ class PrintingRobot(RobotDriver):
         self._delay_s = PrintingOptions.model_validate(settings.options).delay_ms / 1000
 
     def connect(self) -> Capabilities:
-        """It is always there. A robot on the network raises RobotError here when it does not answer."""
+        """Find the robot, which is always there.
+
+        A robot on the network raises RobotError here when it does not answer.
+        """
         return Capabilities(voices=(), gestures=(), voice=None)
 
     def say(self, saying: Utterance) -> None:

@@ -146,13 +146,17 @@ def test_everybody_may_withdraw(folder: Path, provenance: Provenance) -> None:
 
 def test_nobody_withdraws_twice(folder: Path, code: str) -> None:
     withdraw(folder, code)
-    with pytest.raises(UserInputError, match=f"nobody in .* has the code {code}"):
+    with pytest.raises(UserInputError, match=f"no participant in .* has the code {code}"):
         withdraw(folder, code)
 
 
 @pytest.mark.parametrize(
     ("typed", "words"),
-    [("2222222", "nobody in .* has the code 2222222"), ("2222223", "is mistyped"), ("hello", "no participant's code")],
+    [
+        ("2222222", "no participant in .* has the code 2222222"),
+        ("2222223", "is mistyped"),
+        ("hello", "no participant's code"),
+    ],
 )
 def test_a_code_that_nobody_has_is_refused_and_nothing_goes(folder: Path, code: str, typed: str, words: str) -> None:
     assert typed != code

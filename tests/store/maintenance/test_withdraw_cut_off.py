@@ -41,7 +41,10 @@ Cut = Callable[..., int]
 
 @pytest.fixture(scope="module")
 def pristine(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """A folder as a kiosk that was killed leaves it, with copies, one of them unfinished; and a visitor's code."""
+    """Return a folder as a killed kiosk leaves it, and a visitor's code.
+
+    It has copies, one of them unfinished.
+    """
     place = tmp_path_factory.mktemp("pristine")
     folder, left = place / "data", place / "left"
     person = Provenance(plan(), 4, "avatar", "abc123", kind=SessionKind.STUDY)
@@ -201,7 +204,7 @@ def test_an_unfinished_withdrawal_is_told_by_verify_and_by_check(cut_off: Path) 
 
 
 def test_only_the_same_code_finishes_a_withdrawal_by_name(cut_off: Path, code: str) -> None:
-    with pytest.raises(UserInputError, match=r"nobody in .* has the code 2222222"):
+    with pytest.raises(UserInputError, match=r"no participant in .* has the code 2222222"):
         withdraw(cut_off, "2222222")
     gone = withdraw(cut_off, code.lower())
     assert (gone.session, gone.participant, gone.cut_off, gone.started_at) == (2, "2", True, None)

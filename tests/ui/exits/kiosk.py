@@ -67,7 +67,7 @@ class Fingers:
     """Fingers on the window."""
 
     def __init__(self, app: App) -> None:
-        """A touch screen that nobody touches yet."""
+        """Add a touch screen that is not touched yet."""
         self._window = app.window
         self._device: QPointingDevice = QTest.createTouchDevice()
 

@@ -312,7 +312,7 @@ def test_what_the_disk_does_not_take_is_not_done_and_said(assigner: Desk, monkey
 
 
 def refuse_to_write(*_: object) -> None:
-    """A disk that takes nothing."""
+    """Refuse to write, as a full disk does."""
     raise StorageError("what happened could not be written: disk I/O error")
 
 
