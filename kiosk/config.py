@@ -329,6 +329,82 @@ class Screen(ConfigModel):
     )
 
 
+_TEXT_COLOURS = ("#22313F", "#4A5A68", "#8A4B00")
+"""What is written on the background, besides what has the accent's colour."""
+_BOX = "#FFFBF2"
+"""What is written on buttons, and the colour of boxes in which the accent's colour is written."""
+_LEAST_CONTRAST = 4.5
+"""WCAG 2.2, level AA."""
+_SRGB_LINEAR, _SRGB_OFFSET, _SRGB_GAMMA = 0.04045, 0.055, 2.4
+
+
+def contrast(one: str, other: str) -> float:
+    """Return the contrast of two colours such as ``#22313F``, 1 to 21, by WCAG 2.2."""
+    darker, lighter = sorted((_luminance(one), _luminance(other)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def _luminance(colour: str) -> float:
+    shares = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
+    red, green, blue = (
+        share / 12.92 if share <= _SRGB_LINEAR else ((share + _SRGB_OFFSET) / (1 + _SRGB_OFFSET)) ** _SRGB_GAMMA
+        for share in shares
+    )
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def _mixed(colour: str, end: int, share: float) -> str:
+    """Return a colour that is so far on its way to black (0) or white (255)."""
+    parts = (int(colour[at : at + 2], 16) for at in (1, 3, 5))
+    return "#" + "".join(f"{round(part + (end - part) * share):02X}" for part in parts)
+
+
+def _passing(colour: str, end: int, others: tuple[str, ...]) -> str | None:
+    """Return the colour closest to this one, on the way to black or white, that stands out from all the others."""
+    tried = (_mixed(colour, end, step / 50) for step in range(51))
+    return next((each for each in tried if min(contrast(each, other) for other in others) >= _LEAST_CONTRAST), None)
+
+
+class Look(ConfigModel):
+    """The lab's own look: its name and logo on the start screen, and two of the colours."""
+
+    name: Annotated[
+        str, Field(max_length=60, description="The lab's name, on the start screen and on the card to take home.")
+    ] = ""
+    logo: Annotated[
+        str, Field(max_length=MOST_CHARACTERS, description="The path of the lab's logo, an SVG file; empty: none.")
+    ] = ""
+    accent: Annotated[
+        str, Field(description="The colour of buttons and titles; at 4.5:1 against light boxes and the background.")
+    ] = "#1F5F6B"
+    background: Annotated[
+        str, Field(description="The colour behind everything, on which dark text is read at 4.5:1.")
+    ] = "#FBF6EC"
+
+    @field_validator("accent", "background")
+    @classmethod
+    def _be_a_colour(cls, colour: str) -> str:
+        if not re.fullmatch(r"#[0-9A-Fa-f]{6}", colour):
+            raise ValueError(f"{colour!r} is no colour such as '#1F5F6B'")
+        return colour
+
+    @model_validator(mode="after")
+    def _be_readable(self) -> Self:
+        self._check("background", self.background, 255, _TEXT_COLOURS, "the texts on it")
+        self._check("accent", self.accent, 0, (_BOX, self.background), "what it is written on")
+        return self
+
+    def _check(self, key: str, colour: str, end: int, others: tuple[str, ...], what: str) -> None:
+        least = min(contrast(colour, other) for other in others)
+        if least < _LEAST_CONTRAST:
+            passing = _passing(colour, end, others)
+            # Rounded down: 4.49 is not to be read as 4.5.
+            raise ValueError(
+                f"{key}: the contrast of {colour!r} to {what} is {int(least * 10) / 10}:1, and must be 4.5:1; "
+                f"{passing!r} would pass"
+            )
+
+
 NO_ROBOT = "none"
 """The kind of robot of a study in which the avatar helps alone."""
 
@@ -513,6 +589,7 @@ class Settings(ConfigModel):
     voice: VoiceConfig = VoiceConfig()
     robot: RobotConfig = RobotConfig()
     screen: Screen = Screen()
+    look: Look = Look()
     shortcuts: Keys = Keys()
     experimenter: ExperimenterConfig = ExperimenterConfig()
 

@@ -159,6 +159,7 @@ def read_study(settings: Settings) -> StudyConfig:
     condition = look.at("assistance.condition", partial(Condition.from_name, settings.assistance.condition))
     decks = {key: look.deck(key, board) for key, board in _boards(settings)}
     look.check_practice()
+    look.check_logo()
     if look.faults or condition is None or policy is None:
         raise UserInputError(*look.faults)
     for language, catalogue in catalogues.items():
@@ -230,6 +231,15 @@ class _Look:
         digest = _hash_of_files(there)
         source = Source(key, name, place.path, place.is_shipped, digest, unused=place.unused, pictures=there)
         self.sources.append(source)
+
+    def check_logo(self) -> None:
+        """See that the lab's logo is there."""
+        name = self._settings.look.logo
+        file = self._settings.beside(name)
+        if name and not (file.is_file() and file.suffix.lower() == ".svg"):
+            self._blame("look.logo", f"there is no SVG file {file}")
+        elif name:
+            self._drawn("look.logo", name, Located(file), (file,))
 
     # What there is
 

@@ -101,6 +101,12 @@ class Window:
                 "motion": MOTION_MS if moving else 0,
                 "highContrast": settings.screen.contrast == "high",
                 "boardOnRight": settings.screen.board_side == "right",
+                "accent": settings.look.accent,
+                "background": settings.look.background,
+                "labName": settings.look.name,
+                "labLogo": QUrl.fromLocalFile(str(settings.beside(settings.look.logo).absolute()))
+                if settings.look.logo
+                else QUrl(),
             }
         )
         self._engine.load(QUrl.fromLocalFile(str(QML)))

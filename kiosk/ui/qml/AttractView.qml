@@ -10,13 +10,17 @@ FocusScope {
     required property AttractScreen attract
     required property url cardBack
     required property url cardShadow
+    required property string labName
+    required property url labLogo
 
+    // The lab stands above everything, if it says who it is.
+    readonly property real head: lab.visible ? lab.height + Theme.gap : 0
     // All in two rows; where the screen is narrow, in three.
     readonly property int columns: Math.ceil(attract.layout.length / (width > height ? 2 : 3))
     readonly property int rows: Math.ceil(attract.layout.length / columns)
     // The words take what they need; the cards have the rest.
     readonly property real cardSize: Math.max(60 * Theme.unit,
-        Math.min(width / (1.12 * columns + 0.7), (height - words.height - 5 * Theme.gap) / (1.12 * rows)))
+        Math.min(width / (1.12 * columns + 0.7), (height - head - words.height - 5 * Theme.gap) / (1.12 * rows)))
     // A card was turned, in the middle of this item; the helper looks at it.
     signal looked(place: point)
     readonly property bool several: attract.ways.length > 1
@@ -59,6 +63,33 @@ FocusScope {
         }
     }
 
+    Row {
+        id: lab
+        objectName: "lab"
+        anchors { left: parent.left; leftMargin: 1.5 * Theme.gap; top: parent.top; topMargin: Theme.gap }
+        visible: view.labName !== "" || logo.visible
+        spacing: 0.7 * Theme.gap
+        Image {
+            id: logo
+            objectName: "logo"
+            visible: source.toString() !== ""
+            height: 84 * Theme.unit
+            width: Math.min(implicitWidth, 360 * Theme.unit)
+            fillMode: Image.PreserveAspectFit
+            source: view.labLogo
+            // By its height alone: how wide it is, the picture says.
+            sourceSize.height: height
+            Accessible.ignored: true
+        }
+        PlainText {
+            anchors.verticalCenter: parent.verticalCenter
+            width: Math.min(implicitWidth, view.width - 3 * Theme.gap - (logo.visible ? logo.width + lab.spacing : 0))
+            wrapMode: Text.Wrap
+            text: view.labName
+            font { pixelSize: Theme.body; bold: true }
+            color: Theme.sea
+        }
+    }
     Line {
         objectName: "trial"
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: 0.5 * Theme.gap }
@@ -127,7 +158,7 @@ FocusScope {
     }
     Column {
         id: words
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - height - cards.height - 1.5 * Theme.gap) / 2 }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - 1.5 * Theme.gap) / 2 }
         spacing: Theme.gap
 
         Line {

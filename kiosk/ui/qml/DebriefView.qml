@@ -10,6 +10,7 @@ FocusScope {
     required property DebriefScreen debrief
     required property KioskScreen kiosk
     required property var words
+    required property string labName
 
     // Whole pixels for each square, so that their edges are sharp.
     readonly property int square: Math.max(2, Math.round(290 * Theme.unit / Math.max(1, debrief.squares)))
@@ -75,7 +76,7 @@ FocusScope {
                 spacing: 0.3 * Theme.gap
                 PlainText {
                     width: parent.width
-                    text: view.words["debrief-take-home"]
+                    text: view.words["debrief-take-home"] + (view.labName === "" ? "" : " · " + view.labName)
                     font { pixelSize: Theme.small; bold: true }
                     wrapMode: Text.Wrap
                     color: Theme.deepAmber

@@ -30,6 +30,10 @@ Window {
     property ReplayControls replay: null
     required property bool highContrast
     required property bool boardOnRight
+    required property color accent
+    required property color background
+    required property string labName
+    required property url labLogo
 
     readonly property bool wide: width >= height
     // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
@@ -56,6 +60,8 @@ Window {
     Binding { target: Theme; property: "textSize"; value: root.texts }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
+    Binding { target: Theme; property: "accent"; value: root.accent }
+    Binding { target: Theme; property: "background"; value: root.background }
 
     Item {
         id: stage
@@ -73,6 +79,8 @@ Window {
             attract: root.attract
             cardBack: root.cardBack
             cardShadow: root.cardShadow
+            labName: root.labName
+            labLogo: root.labLogo
             onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
         AboutView {
@@ -143,6 +151,7 @@ Window {
             visible: root.kiosk.screen === "debrief"
             focus: visible && root.kiosk.bare
             debrief: root.debrief
+            labName: root.labName
             kiosk: root.kiosk
             words: root.kiosk.words
         }

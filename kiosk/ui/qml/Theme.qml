@@ -13,14 +13,16 @@ QtObject {
 
     // The study's palette, or one in which everything that is read stands out at 7:1 and nothing is pale.
     property bool highContrast: false
-    readonly property color paper: highContrast ? "#FFFFFF" : "#FBF6EC"
+    property color accent: "#1F5F6B"
+    property color background: "#FBF6EC"
+    readonly property color paper: highContrast ? "#FFFFFF" : background
     readonly property color white: highContrast ? "#FFFFFF" : "#FFFBF2"
     readonly property color sand: highContrast ? "#FFD54A" : "#E9D8B4"
     readonly property color edge: highContrast ? "#000000" : sand
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"
-    readonly property color sea: highContrast ? "#0A3A44" : "#1F5F6B"
-    readonly property color lightSea: highContrast ? "#000000" : "#2E7784"
+    readonly property color sea: highContrast ? "#0A3A44" : accent
+    readonly property color lightSea: highContrast ? "#000000" : Qt.colorEqual(accent, "#1F5F6B") ? "#2E7784" : Qt.darker(accent, 1.15)
     readonly property color amber: highContrast ? "#FFB000" : "#F2A33A"
     readonly property color deepAmber: highContrast ? "#5A2D00" : "#8A4B00"
     // How much of a card is still to be seen when it is found for good, and while a tap on it would not count.
