@@ -324,6 +324,13 @@ class Screen(ConfigModel):
     contrast: Annotated[
         Literal["normal", "high"], Field(description="Whether colours differ as usual, or as much as they can.")
     ] = "normal"
+    keyboard: Annotated[
+        Literal["touch", "always", "never"],
+        Field(
+            description="When the keys on the screen come: for fields that are touched, for those that are clicked "
+            "too, or never."
+        ),
+    ] = "touch"
     board_side: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = (
         "left"
     )

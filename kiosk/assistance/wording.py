@@ -15,6 +15,7 @@ from fluent.runtime.resolver import Pattern
 from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
 
 from kiosk import UserInputError
+from kiosk.assistance.keyboards import KeyRows, key_rows
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ActionSpec
 from kiosk.config import ASSETS, read_text
@@ -127,6 +128,12 @@ class Catalogue:
         attributes = self._bundle.get_message(message).attributes
         told = {f"{CARD}-{form}": self._format(pattern, {}) for form, pattern in attributes.items()}
         return dict.fromkeys(self.forms, called) | {form: text for form, text in told.items() if text is not None}
+
+    @property
+    def key_rows(self) -> KeyRows:
+        """The keys on the screen: the rows of its message ``keyboard-rows``, or those shipped for its language."""
+        own = self._text("keyboard-rows", {}) or ""
+        return key_rows(self.language, own.split())
 
     @property
     def messages(self) -> frozenset[str]:

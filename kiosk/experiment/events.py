@@ -419,6 +419,13 @@ class QuestionnairePageShown(SessionEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class SkippedItemsShown(SessionEvent):
+    """Items that the visitor had left out were pointed out; those that are not required may be left the next time."""
+
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class SentenceRequested(SessionEvent):
     """The body was asked to say a sentence that is no hint; a hint's sentence stands in HintGiven."""
 

@@ -12,7 +12,7 @@ from random import Random
 from typing import Annotated, Any, ClassVar, Literal, Self
 from unicodedata import category
 
-from pydantic import AfterValidator, BeforeValidator, Field, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, Strict, field_validator, model_validator
 
 from kiosk.config import ConfigModel
 from kiosk.language_codes import standard
@@ -200,7 +200,8 @@ class BaseItem(ConfigModel):
 class Question(BaseItem):
     """An item that is answered; ``scale`` names what it belongs to, if it is summed with others."""
 
-    required: bool = False
+    required: Annotated[bool, Strict()] | Literal["once"] = False
+    """Whether the visitor has to answer; an item that is asked for ``"once"`` is pointed out, and may then be left."""
     scale: Name | None = None
 
 

@@ -359,6 +359,7 @@ class QuestionnaireStage(StageHandler):
         self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
         self._number = 0
         self._answers: dict[tuple[str, str], Answer] = {}
+        self._pointed_out: set[tuple[str, str]] = set()
 
     @property
     def characters(self) -> int:
@@ -372,6 +373,7 @@ class QuestionnaireStage(StageHandler):
         """Show the first page; nothing is answered."""
         self._number = 0
         self._answers.clear()
+        self._pointed_out.clear()
         self._show(outcome)
 
     def come_back(self, outcome: OutcomeBuilder) -> None:
@@ -420,6 +422,8 @@ class QuestionnaireStage(StageHandler):
     def _go_on(self, outcome: OutcomeBuilder) -> None:
         missing = tuple(item.id for item in self._sheet.items if self._lacks(item))
         if missing:
+            self._pointed_out |= {(self._sheet.questionnaire, item) for item in missing}
+            outcome.emit(happened.SkippedItemsShown(at_ms=outcome.at_ms, items=missing))
             outcome.effect(do.ShowValidationErrors(missing))
         elif self._number + 1 < len(self._sheets):
             self._number += 1
@@ -428,7 +432,12 @@ class QuestionnaireStage(StageHandler):
             outcome.emit(happened.QuestionnairesCompleted(at_ms=outcome.at_ms))
 
     def _lacks(self, item: Item) -> bool:
-        return not isinstance(item, TextPage) and item.required and effective_answer(self._answer(item)) is None
+        """Whether an item is still to be answered: it is required, or it was not pointed out yet."""
+        if isinstance(item, TextPage) or effective_answer(self._answer(item)) is not None:
+            return False
+        if item.required == "once":
+            return (self._sheet.questionnaire, item.id) not in self._pointed_out
+        return item.required
 
     def _show(self, outcome: OutcomeBuilder) -> None:
         names = tuple(item.id for item in self._sheet.items)

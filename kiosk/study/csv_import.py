@@ -20,7 +20,7 @@ from tomlkit.items import Array, InlineTable, Table
 
 from kiosk import UserInputError, unwritable
 from kiosk.errors import error_message, validation_errors, validation_messages
-from kiosk.experiment.items import BaseItem
+from kiosk.experiment.items import BaseItem, Question
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
 from kiosk.language_codes import is_right, standard
 
@@ -43,11 +43,21 @@ _NO = dict.fromkeys(
 
 def field_reader(field_: FieldInfo) -> Callable[[str], Any] | None:
     """How the cell of a field is read; None if it is words, with a column for each language."""
+    if field_.annotation == Question.model_fields["required"].annotation:
+        return _requirement
     kinds = [each for each in get_args(field_.annotation) if each is not NoneType] or [field_.annotation]
     kind = get_args(kinds[0])[0] if hasattr(kinds[0], "__metadata__") else kinds[0]
     if (get_origin(kind) or kind) in {dict, tuple} or get_origin(field_.annotation) in {dict, tuple}:
         return None
     return {int: _number, bool: _yes_or_no}.get(kind, str)
+
+
+def _requirement(cell: str) -> bool | str:
+    if cell.lower() == "once":
+        return "once"
+    if cell.lower() not in _YES | _NO:
+        raise ValueError(f"it must be yes, no or once, but it is {cell!r}")
+    return (_YES | _NO)[cell.lower()]
 
 
 def _number(cell: str) -> int:

@@ -334,7 +334,7 @@ class Rehearsal:
         items = self._app.screens.form.shown
         if self._manner is not BehaviourKind.HASTY:
             return items
-        return tuple(item for item in items if getattr(item, "required", False))
+        return tuple(item for item in items if getattr(item, "required", False) is True)
 
     def _will_practise(self) -> bool:
         if self._practises is None:

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from enum import Enum
-from functools import partial
+from functools import cache, partial
 from random import Random
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QGuiApplication, QKeyEvent
+from PySide6.QtGui import QGuiApplication, QKeyEvent, QPointingDevice
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
@@ -22,6 +22,7 @@ from kiosk.game import Position
 LEFT = Qt.MouseButton.LeftButton
 NO_KEY = Qt.KeyboardModifier.NoModifier
 MOST_SCROLLS = 50
+_FIELDS = ("text-", "number-")
 
 
 Aside = Callable[[], AbstractContextManager[None]]
@@ -40,11 +41,36 @@ class UiDriver:
         self._aside = aside
 
     def click(self, name: str, across: float = 0.5) -> None:
-        """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1)."""
-        self._tap(self._reach(name, across))
+        """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1).
+
+        A field to type into is touched, so that the keys on the screen come; a key on another layer is looked for.
+        """
+        if name.startswith("key-"):
+            self._turn_to(name)
+        if name.startswith(_FIELDS):
+            self._touch(self._reach(name, across))
+        else:
+            self._tap(self._reach(name, across))
+
+    def _turn_to(self, key: str) -> None:
+        """Turn to the layer of the keys on the screen that has this one."""
+        for layer in ("key-letters", "key-accents", "key-signs"):
+            if self.is_visible(key):
+                return
+            if self.is_visible(layer):
+                self._tap(self._reach(layer, 0.5))
+
+    def _touch(self, place: QPoint) -> None:
+        glass = touch_screen()
+        QTest.touchEvent(self._window, glass).press(0, place, self._window).commit()
+        QTest.touchEvent(self._window, glass).release(0, place, self._window).commit()
 
     def double_click(self, name: str, across: float = 0.5) -> None:
         """Do it twice, as fast as a double click."""
+        if name.startswith(_FIELDS):
+            self.click(name, across)
+            self.click(name, across)
+            return
         QTest.mouseDClick(self._window, LEFT, NO_KEY, self._reach(name, across))
 
     def tap_anywhere(self, chance: Random) -> None:
@@ -88,6 +114,12 @@ class UiDriver:
         if outside and _scroller(item) is None:
             raise UiTimeout(f"{name!r} lies outside the window")
         return item
+
+
+@cache
+def touch_screen() -> QPointingDevice:
+    """The glass; Qt keeps every device that it was ever told of."""
+    return QTest.createTouchDevice()
 
 
 def lay_out(window: QQuickWindow) -> None:

@@ -100,6 +100,7 @@ class Window:
                 "textSize": settings.screen.text_size,
                 "motion": MOTION_MS if moving else 0,
                 "highContrast": settings.screen.contrast == "high",
+                "screenKeys": settings.screen.keyboard,
                 "boardOnRight": settings.screen.board_side == "right",
                 "accent": settings.look.accent,
                 "background": settings.look.background,

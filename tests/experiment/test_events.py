@@ -131,7 +131,7 @@ def test_a_record_can_be_read_without_the_program() -> None:
             Timer,
             "turn_back mark reading speech_deadline hold mood finish practice thanks pause idle still_there",
         ),
-        (Status, "completed abandoned stopped interrupted"),
+        (Status, "completed abandoned stopped withdrawn interrupted"),
         (NotRecordedReason, "declined under_age left"),
         (PracticeEnd, "found left time"),
         (EmbodimentKind, "avatar robot"),

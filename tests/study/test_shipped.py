@@ -60,7 +60,7 @@ def test_the_answers_about_robots_are_the_five_of_the_study() -> None:
     robots = questionnaire.items[2]
     assert robots.kind == "single"
     assert robots.ids == ("none", "stories", "fairs", "owns", "works")
-    assert [question.id for question in questionnaire.questions if question.required] == []
+    assert [question.id for question in questionnaire.questions if question.required is True] == []
 
 
 def test_the_form_about_trust_has_a_slider_beside_its_scale() -> None:

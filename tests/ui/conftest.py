@@ -27,7 +27,7 @@ from kiosk.store.recorder import Recorder
 from kiosk.ui.app import App
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
-from kiosk.ui.simulated_visitor import BehaviourProfile, find_item, item_centre, lay_out
+from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
 from tests.ui.headless import headless, short
 
 
@@ -56,8 +56,11 @@ class Booth:
         return find_item(self.app.window.contentItem(), name) is not None
 
     def click(self, name: str, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
-        """Click with the mouse in the middle of an item, once the screen takes input."""
+        """Click in the middle of an item, once the screen takes input; fields to type into are touched."""
         self.settle()
+        if name.startswith(("text-", "number-", "key-")) and button is Qt.MouseButton.LeftButton:
+            UiDriver(self.app.window).click(name)
+            return
         QTest.mouseClick(self.app.window, button, Qt.KeyboardModifier.NoModifier, item_centre(self.item(name)))
 
     def press(self, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from functools import cache
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QPointingDevice
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout
+from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout, touch_screen
+
+__all__ = ["Finger", "Keyboard", "touch_screen"]
 
 MOST_STOPS = 80
 """No screen has more places for the keyboard."""
@@ -145,12 +145,4 @@ class Finger(UiDriver):
             self.click("key-space" if letter == " " else f"key-{letter.lower()}")
 
     def _tap(self, place: QPoint) -> None:
-        glass = touch_screen()
-        QTest.touchEvent(self._window, glass).press(0, place, self._window).commit()
-        QTest.touchEvent(self._window, glass).release(0, place, self._window).commit()
-
-
-@cache
-def touch_screen() -> QPointingDevice:
-    """Return the glass; Qt keeps every device that it was ever told of."""
-    return QTest.createTouchDevice()
+        self._touch(place)

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QDeadlineTimer, Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickItem
+from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from kiosk.assistance.keyboards import key_rows
 from kiosk.config import ASSETS
 from kiosk.experiment.items import Answer
 from kiosk.experiment.questionnaire import Item, Questionnaire
-from kiosk.ui.simulated_visitor import UiDriver, find_item
+from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
+from tests.ui.reaching import Finger
 
 ITEMS: dict[str, Item] = {
     item.kind: item for item in Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml").items
@@ -141,8 +145,10 @@ def test_a_number_that_cannot_be_is_not_sent_and_has_to_be_mended(booth: Booth, 
     booth.click("continue")
     assert given == []
     assert booth.app.screens.form.property("missing") == ["alone"]
+    assert booth.app.screens.form.property("wrong") == ["alone"]
+    assert shown(booth, "item-alone", "Please type a whole number from 0 to 12.")
     booth.click("number-alone")
-    press(booth, Qt.Key.Key_Backspace)
+    UiDriver(booth.app.window).type("9")
     booth.click("continue")
     assert given == [("alone", 9), ("", "continued")]
 
@@ -227,12 +233,11 @@ def test_a_text_that_was_refused_is_sent_again_with_the_way_on(booth: Booth) -> 
 
 @pytest.mark.usefixtures("given")
 def test_the_way_on_says_whether_something_is_left_out(booth: Booth) -> None:
-    ask(booth, ITEMS["differential"], ITEMS["text"])
-    assert booth.item("continue").property("words") == "Skip"
-    booth.click("text-remark")
-    UiDriver(booth.app.window).type("x")
+    ask(booth, ITEMS["differential"], required("likert"))
     assert booth.item("continue").property("words") == "Next"
-    ask(booth, required("likert"))
+    booth.app.screens.form.show_missing((ITEMS["differential"].id,))
+    assert booth.item("continue").property("words") == "Go on without it"
+    booth.app.screens.form.show_missing((ITEMS["differential"].id, ITEMS["likert"].id))
     assert booth.item("continue").property("words") == "Next"
     booth.app.screens.form.show((ITEMS["page"],), 1, 2)
     assert booth.item("continue").property("words") == "Next"
@@ -277,4 +282,74 @@ def test_a_page_in_another_language_is_in_that_language(booth: Booth) -> None:
     ask(booth, ITEMS["differential"])
     assert shown(booth, "item-clear", ITEMS["differential"].text["it"])
     assert find_item(booth.app.window.contentItem(), "continue") is not None
-    assert booth.item("continue").property("words") == "Salta"
+    assert booth.item("continue").property("words") == "Avanti"
+
+
+def test_plus_and_minus_run_while_they_are_held_and_answer_once_when_let_go(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"])
+    window, field = booth.app.window, booth.item("number-alone")
+    place = item_centre(booth.item("more-alone"))
+    QTest.mousePress(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+    deadline = QDeadlineTimer(5_000)
+    while field.property("text") in {"", "0", "1"} and not deadline.hasExpired():
+        QGuiApplication.processEvents()
+    assert given == []
+    QTest.mouseRelease(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+    assert given == [("alone", int(field.property("text")))]
+    assert int(field.property("text")) >= 2
+
+
+def test_a_number_that_is_clicked_is_selected_and_the_next_digit_takes_its_place(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"])
+    booth.app.screens.form.show_answer("alone", 12)
+    booth.click("number-alone")
+    booth.click("key-7")
+    booth.click("key-done")
+    assert given == [("alone", 7)]
+
+
+def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Booth) -> None:
+    ask(booth, ITEMS["integer"])
+    place = item_centre(booth.item("number-alone"))
+    QTest.mouseClick(booth.app.window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+    assert not booth.sees("key-1")
+    booth.click("number-alone")
+    assert booth.sees("key-1")
+    assert item_centre(booth.item("number-alone")) == place
+
+
+def test_one_press_of_a_digit_answers_each_scale_in_turn(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["likert"], ITEMS["differential"], ITEMS["pictures"])
+    press(booth, Qt.Key.Key_3, Qt.Key.Key_1, Qt.Key.Key_5, RETURN)
+    answered = [(ITEMS[kind].id, value) for kind, value in (("likert", 3), ("differential", 1), ("pictures", 5))]
+    assert given == [*answered, ("", "continued")]
+
+
+def test_a_digit_that_the_scale_does_not_have_answers_nothing(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["pictures"])
+    press(booth, Qt.Key.Key_9)
+    assert given == []
+
+
+@pytest.mark.parametrize("text", ["jörg.weiß@example.org", "Ångström", "C++ & 5 €", "ñandú; 50 %"])
+def test_mail_addresses_accents_and_signs_are_typed_with_the_keys_on_the_screen(
+    booth: Booth, given: Given, text: str
+) -> None:
+    ask(booth, ITEMS["text"])
+    booth.click("text-remark")
+    finger = Finger(booth.app.window)
+    finger.type(text)
+    finger.click("key-done")
+    assert given == [("remark", text)]
+
+
+@pytest.mark.parametrize(("language", "letters"), [("el", "αθήνα"), ("uk", "київ"), ("de", "größe"), ("nb", "ærfugl")])
+def test_a_language_has_its_own_letters_on_the_first_layer(language: str, letters: str) -> None:
+    rows = key_rows(language)
+    assert set(letters) <= set("".join(rows.letters))
+    assert rows.missing([letters]) == ()
+
+
+def test_letters_without_a_key_are_found_and_own_rows_bring_them() -> None:
+    assert key_rows("en").missing(["Ελλάδα"]) == tuple("άαδελ")
+    assert key_rows("xx", ["άαδελ"]).missing(["Ελλάδα"]) == ()

@@ -101,8 +101,10 @@ result-speech-many =
 
 form-progress = Page { $number } of { $all }
 form-next = Next
-form-skip = Skip
+form-skip = Go on without it
 form-missing = Please answer this one first.
+form-skipped = You left this one out. You may leave it.
+form-wrong-number = Please type a whole number from { $lowest } to { $highest }.
 form-refused = This holds a line break or another character that cannot be stored. Please type it again.
 form-range = from { $lowest } to { $highest }
 form-none = Nothing is chosen yet
@@ -116,6 +118,9 @@ keyboard-shift = Capitals
 keyboard-delete = Delete
 keyboard-space = Space
 keyboard-done = Done
+keyboard-letters = Letters
+keyboard-accents = Letters with accents
+keyboard-signs = Signs
 
 ## Debrief
 

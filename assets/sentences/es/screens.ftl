@@ -102,8 +102,10 @@ result-speech-many =
 
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
-form-skip = Saltar
+form-skip = Seguir sin responder
 form-missing = Responde primero a esta pregunta, por favor.
+form-skipped = Has dejado esta pregunta. Puedes omitirla.
+form-wrong-number = Escribe un número entero de { $lowest } a { $highest }.
 form-refused = Contiene un salto de línea u otro carácter que no se puede guardar. Escríbelo de nuevo, por favor.
 form-range = de { $lowest } a { $highest }
 form-none = Aún no se ha elegido nada
@@ -117,6 +119,9 @@ keyboard-shift = Mayúsculas
 keyboard-delete = Borrar
 keyboard-space = Espacio
 keyboard-done = Hecho
+keyboard-letters = Letras
+keyboard-accents = Letras con acento
+keyboard-signs = Signos
 
 ## Debrief
 

@@ -106,8 +106,10 @@ result-speech-many =
 
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
-form-skip = Salta
+form-skip = Continua senza
 form-missing = Rispondi prima a questa domanda, per favore.
+form-skipped = Hai lasciato questa domanda. Puoi anche saltarla.
+form-wrong-number = Scrivi un numero intero da { $lowest } a { $highest }.
 form-refused = Contiene un a capo o un altro carattere che non si può salvare. Scrivilo di nuovo, per favore.
 form-range = da { $lowest } a { $highest }
 form-none = Non è ancora scelto nulla
@@ -121,6 +123,9 @@ keyboard-shift = Maiuscole
 keyboard-delete = Cancella
 keyboard-space = Spazio
 keyboard-done = Fatto
+keyboard-letters = Lettere
+keyboard-accents = Lettere accentate
+keyboard-signs = Segni
 
 ## Debrief
 

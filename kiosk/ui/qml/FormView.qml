@@ -13,14 +13,50 @@ FocusScope {
     required property var words
 
     readonly property bool alone: form.items.length === 1
+    readonly property real lift: {
+        if (keyboard.field === null || keyboard.numbers)
+            return 0
+        const above = view.height - keyboard.height - Theme.gap
+        const top = keyboard.field.mapToItem(group, 0, 0).y + group.y
+        const needed = Math.max(0, top + keyboard.field.height - above)
+        // The way on as well, as far as the field stays in view.
+        return Math.max(needed, Math.min(Math.max(0, top - Theme.gap), group.y + group.height - above))
+    }
     readonly property bool dense: form.items.length > 4
 
-    Keys.onPressed: event => pane.turn(event)
+    // One press of a digit answers the scale that has the keyboard, or else the first that is not answered, and goes on
+    // to the next.
+    function answer(digit: int): bool {
+        const open = index => (view.form.answers[view.form.items[index].id] ?? null) === null
+        let at = -1
+        for (let i = 0; i < boxes.count && at < 0; i++)
+            if ((boxes.itemAt(i) as FormItem).activeFocus)
+                at = i
+        for (let i = 0; i < boxes.count && at < 0; i++)
+            if (open(i))
+                at = i
+        if (at < 0 || !(boxes.itemAt(at) as FormItem).takes(digit))
+            return false
+        const next = boxes.itemAt(at + 1) as FormItem
+        if (next)
+            next.take()
+        else
+            go.button.forceActiveFocus(Qt.TabFocusReason)
+        view.form.rate(view.form.items[at].id, digit)
+        return true
+    }
+
+    Keys.onPressed: event => {
+        const digit = event.text === "" ? 0 : "1234567890".indexOf(event.text) + 1
+        event.accepted = digit > 0 && answer(digit)
+        if (!event.accepted)
+            pane.turn(event)
+    }
 
     Item {
         id: place
         objectName: "ground"
-        anchors { left: parent.left; right: parent.right; top: parent.top; bottom: keyboard.visible ? keyboard.top : parent.bottom }
+        anchors.fill: parent
 
         // To tap beside everything is to have done with typing.
         TapHandler { onTapped: go.button.forceActiveFocus() }
@@ -29,7 +65,9 @@ FocusScope {
             id: group
             anchors.centerIn: parent
             width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
-            spacing: (view.dense || keyboard.visible ? 0.8 : view.alone ? 2 : 0.9) * Theme.gap
+            // The keys move nothing, unless they would cover what is typed into.
+            transform: Translate { y: -view.lift }
+            spacing: (view.dense ? 0.8 : view.alone ? 2 : 0.9) * Theme.gap
 
             PlainText {
                 id: progress
@@ -85,7 +123,8 @@ FocusScope {
     }
     ScreenKeyboard {
         id: keyboard
-        anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
+        form: view.form
+        wayOn: group.y + group.height - go.height
         words: view.words
         onDone: go.button.forceActiveFocus(Qt.MouseFocusReason)
     }

@@ -34,6 +34,7 @@ Window {
     required property color background
     required property string labName
     required property url labLogo
+    required property string screenKeys
 
     readonly property bool wide: width >= height
     // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
@@ -58,6 +59,7 @@ Window {
                          : Math.min(root.width / 1080, root.room / 1920)
     }
     Binding { target: Theme; property: "textSize"; value: root.texts }
+    Binding { target: Theme; property: "screenKeys"; value: root.screenKeys }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
     Binding { target: Theme; property: "accent"; value: root.accent }
@@ -66,7 +68,9 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
-        width: root.wide && !root.whole ? root.width * 0.715 : root.width
+        // A form that nobody looks on at stands in the middle.
+        readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
+        width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
         height: root.wide ? root.room - root.said : root.room * 0.64
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare

@@ -8,6 +8,8 @@ QtObject {
     property real textSize: 1
     // Whether whoever is there works by keyboard: what has it then shows so, on a screen that only just came too.
     property bool byKeyboard: false
+    // When the keys on the screen come: "touch", "always" or "never".
+    property string screenKeys: "touch"
     // How long anything takes to move, in ms; 0 without motion.
     property int motion: 0
 

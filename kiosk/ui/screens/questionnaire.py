@@ -10,6 +10,7 @@ from typing import Any
 from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QJSValue, QmlElement
 
+from kiosk.assistance.keyboards import capital
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.items import (
     Answer,
@@ -29,6 +30,7 @@ from kiosk.ui.input import before, fitting
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
     """An item as QML shows it; ``scale`` tells where the pictures of a scale are."""
     shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
+    shown["required"] = not isinstance(item, TextPage) and item.required is True
     shown |= item.view(catalogue.language) | {
         "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""
     }
@@ -38,6 +40,7 @@ def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) ->
         shown["pictures"] = [QUrl.fromLocalFile(str(file)).toString() for file in files]
     if isinstance(item, Integer):
         shown["range"] = catalogue.text("form-range", lowest=item.lowest, highest=item.highest)
+        shown["wrong"] = catalogue.text("form-wrong-number", lowest=item.lowest, highest=item.highest)
     return shown
 
 
@@ -160,16 +163,31 @@ class FormScreen(QObject):
         return list(self._missing)
 
     @Property(list, notify=marked)
+    def wrong(self) -> list[str]:
+        """The fields in which something stands that cannot be an answer, and was left or sent."""
+        return [item for item in self._missing if item in self._drafts and self._is_wrong(item)]
+
+    @Property("QVariantMap", notify=changed)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
+    def keys(self) -> dict[str, list[str]]:
+        """The rows of the keys on the screen: letters, accents and signs."""
+        rows = self._catalogue.key_rows
+        return {"letters": list(rows.letters), "accents": list(rows.accents), "signs": list(rows.signs)}
+
+    @Slot(str, result=str)
+    def capital(self, letter: str) -> str:
+        """The letter as a key types it in capitals."""
+        return capital(letter, self._catalogue.language)
+
+    @Property(list, notify=marked)
     def refused(self) -> list[str]:
         """The fields in which a character stands that cannot be kept."""
         return [item for item, text in self._drafts.items() if not can_be_kept(text)]
 
     @Property(bool, notify=marked)
     def skips(self) -> bool:
-        """Whether to go on is to leave out everything on this page, and one may."""
-        asked = [item for item in self._items if not isinstance(item, TextPage)]
-        untouched = not self._answers and not any(self._drafts.values())
-        return bool(asked) and untouched and not any(item.required for item in asked)
+        """Whether to go on is to leave out what was pointed out."""
+        left = {item.id: item.required for item in self._items if not isinstance(item, TextPage)}
+        return bool(self._missing) and not any(left[name] is True or self._is_wrong(name) for name in self._missing)
 
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
@@ -239,7 +257,11 @@ class FormScreen(QObject):
     @Slot(str)
     def finish(self, item: str) -> None:
         """The visitor has done with typing, for now."""
-        if item not in self._drafts or self._is_wrong(item):
+        if item not in self._drafts:
+            return
+        if self._is_wrong(item):
+            self._missing = tuple(dict.fromkeys((*self._missing, item)))
+            self.marked.emit()
             return
         typed = self._typed(item)
         if typed != self._answers.get(item):

@@ -70,6 +70,33 @@ def test_a_question_may_be_passed_over() -> None:
     assert driver.view.ended is Status.COMPLETED
 
 
+def test_an_item_that_is_asked_for_once_is_pointed_out_and_may_then_be_left() -> None:
+    asked = questionnaire(
+        "asked",
+        *(likert(name).model_copy(update={"required": how}) for name, how in (("a", "once"), ("b", False))),
+        per_page=2,
+    )
+    driver = Driver(replace(plan(stages=("questions", "game"), game=Game(rows=2, columns=2)), questionnaires=(asked,)))
+    driver.start()
+    driver.go_on()
+    assert driver.view.missing == ("a",)
+    assert driver.noted(happened.SkippedItemsShown)[-1].items == ("a",)
+    driver.go_on()
+    assert driver.stage is Stage.GAME
+    assert len(driver.noted(happened.SkippedItemsShown)) == 1
+
+
+def test_what_has_to_be_answered_is_pointed_out_each_time() -> None:
+    asked = questionnaire("asked", likert("a").model_copy(update={"required": True}))
+    driver = Driver(replace(plan(stages=("questions", "game"), game=Game(rows=2, columns=2)), questionnaires=(asked,)))
+    driver.start()
+    for count in (1, 2):
+        driver.go_on()
+        assert driver.view.missing == ("a",)
+        assert len(driver.noted(happened.SkippedItemsShown)) == count
+    assert driver.stage is Stage.QUESTIONS
+
+
 # Kinds of items
 
 

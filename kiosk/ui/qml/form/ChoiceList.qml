@@ -82,8 +82,9 @@ Flow {
             }
             background: Rectangle {
                 radius: Theme.radius
-                color: option.on || option.hovered ? Theme.sand : Theme.white
-                border { color: Theme.sea; width: (option.on ? 5 : 3) * Theme.unit }
+                // Only what is chosen is filled; the pointer over it changes the edge alone.
+                color: option.on ? Theme.sand : Theme.white
+                border { color: Theme.sea; width: (option.on ? 5 : option.hovered ? 4 : 2) * Theme.unit }
                 FocusRing {
                     around: option
                     reach: 7 * Theme.unit

@@ -37,6 +37,10 @@ Rectangle {
         else if (number)
             number.text = text
     }
+    // Whether a digit is an answer to it.
+    function takes(digit: int): bool {
+        return box.ways[item.kind] === points && digit <= item.points
+    }
     function take() {
         (guest.active ? guest : way).forceActiveFocus(Qt.TabFocusReason)
     }
@@ -69,7 +73,8 @@ Rectangle {
         PlainText {
             width: parent.width
             visible: box.missed
-            text: box.words[box.refused ? "form-refused" : "form-missing"]
+            text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
+                : box.words[box.item.required ? "form-missing" : "form-skipped"]
             horizontalAlignment: box.alone ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: Theme.small; bold: true }
             wrapMode: Text.Wrap

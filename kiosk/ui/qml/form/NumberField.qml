@@ -23,9 +23,19 @@ Row {
     signal done()
     signal entered(Item field)
 
+    function press(button: Step, by: int) {
+        // To let go of a button that ran is no step more.
+        if (button.ran && !button.pressed) {
+            button.ran = false
+            return
+        }
+        step(by)
+        button.ran = button.pressed
+        if (!button.pressed)
+            done()
+    }
     function step(by: int) {
         field.text = form.step(item, field.text, by)
-        done()
     }
 
     spacing: 0.6 * Theme.gap
@@ -41,6 +51,15 @@ Row {
         width: field.height
         height: field.height
         focusPolicy: Qt.StrongFocus
+        // A number that runs while a button is held is an answer when the button is let go.
+        autoRepeat: true
+        property bool ran: false
+        onPressedChanged: {
+            if (pressed)
+                ran = false
+            else if (ran)
+                number.done()
+        }
         scale: down ? 0.94 : 1
         Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
         Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
@@ -50,8 +69,8 @@ Row {
         }
         background: Rectangle {
             radius: width / 2
-            color: button.hovered ? Theme.sand : Theme.white
-            border { color: Theme.sea; width: 3 * Theme.unit }
+            color: button.down ? Theme.sand : Theme.white
+            border { color: Theme.sea; width: (button.hovered ? 4 : 3) * Theme.unit }
             FocusRing {
                 around: button
                 reach: 7 * Theme.unit
@@ -62,7 +81,7 @@ Row {
     Step {
         objectName: `less-${number.item}`
         Accessible.name: `${number.label} ${number.less}`
-        onClicked: number.step(-1)
+        onClicked: number.press(this, -1)
     }
     TypedField {
         id: field
@@ -82,14 +101,14 @@ Row {
         onEditingFinished: number.done()
         onPointed: number.entered(field)
         onNegated: text = number.form.negate(number.item, text)
-        Keys.onUpPressed: number.step(1)
-        Keys.onDownPressed: number.step(-1)
+        Keys.onUpPressed: { number.step(1); number.done() }
+        Keys.onDownPressed: { number.step(-1); number.done() }
     }
     Step {
         objectName: `more-${number.item}`
         up: true
         Accessible.name: `${number.label} ${number.more}`
-        onClicked: number.step(1)
+        onClicked: number.press(this, 1)
     }
     PlainText {
         anchors.verticalCenter: parent.verticalCenter

@@ -105,9 +105,10 @@ Item {
                 }
                 background: Rectangle {
                     radius: scale.pictured ? Theme.radius : width / 2
-                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : point.hovered ? Theme.sand : Theme.white
+                    // Only what is chosen is filled; the pointer over it changes the edge alone.
+                    color: point.on ? (scale.pictured ? Theme.sand : Theme.sea) : Theme.white
                     border.color: Theme.sea
-                    border.width: (point.on && scale.pictured ? 8 : 3) * Theme.unit
+                    border.width: (point.on && scale.pictured ? 8 : point.hovered ? 5 : 3) * Theme.unit
                     FocusRing {
                         around: point
                         reach: 8 * Theme.unit

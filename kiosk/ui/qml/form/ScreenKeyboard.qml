@@ -1,27 +1,44 @@
-// Letters, accents and digits for a booth without a keyboard. It types into the field that it is told, and keeps no text.
+// Keys for a booth without a keyboard. They type into the field that they are told, keep no text, and move nothing: a
+// number's stand beside it, and letters at the bottom.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
+import Recollect
 import ".."
 
 Rectangle {
     id: keyboard
 
     property TypedField field: null
+    required property FormScreen form
     required property var words
+    // Where the way on is, which a number's keys leave free.
+    property real wayOn: Infinity
     signal done()
 
     property bool capitals: false
+    property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    readonly property var rows: numbers ? [field?.minus ? "-1234567890" : "1234567890"] : ["1234567890", "qwertyuiop", "asdfghjklñ", "zxcvbnmç'-", "àáèéìíòóùúü", ".,?!¿¡"]
-    readonly property real keyWidth: Math.min(96 * Theme.unit, (width - 2 * Theme.gap - 12 * gap) / (numbers ? 14.4 : 11))
-    readonly property real keyHeight: 60 * Theme.unit
+    readonly property var rows: numbers ? ["123", "456", "789", field?.minus ? "-0" : "0"] : form.keys[shown]
+    readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
+    readonly property real room: parent.width
+    readonly property real keyWidth: numbers ? 84 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? 72 : 60) * Theme.unit
+    // Where the field is, to stand beside it.
+    readonly property real beside: field === null ? 0 : field.mapToItem(parent, 0, field.height / 2).y - height / 2
 
+    width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
+    x: parent.width - width
+    y: numbers ? Math.max(0, Math.min(parent.height - height, wayOn - height - Theme.gap, beside)) : parent.height - height
+    radius: numbers ? Theme.radius : 0
     color: Theme.sand
     visible: field !== null
-    onVisibleChanged: capitals = false
+    onFieldChanged: {
+        capitals = false
+        shown = "letters"
+    }
 
     // Between the keys nothing happens, and nothing below is reached.
     MouseArea { anchors.fill: parent; Accessible.ignored: true }
@@ -33,9 +50,10 @@ Rectangle {
         property bool pressedIn: false
         Accessible.name: words
         focusPolicy: Qt.NoFocus
+        autoRepeat: objectName === "key-delete"
         width: Math.max(keyboard.keyWidth, implicitWidth)
         height: keyboard.keyHeight
-        horizontalPadding: 14 * Theme.unit
+        horizontalPadding: (keyboard.longest > 11 && words.length === 1 ? 2 : 14) * Theme.unit
         scale: down ? 0.94 : 1
         contentItem: Text {
             textFormat: Text.PlainText
@@ -48,8 +66,16 @@ Rectangle {
         background: Rectangle {
             radius: 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
-            border { color: Theme.edge; width: 2 * Theme.unit }
+            border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
         }
+    }
+    component LayerKey: ScreenKey {
+        id: key
+        required property string leads
+        objectName: `key-${leads}`
+        visible: !keyboard.numbers && keyboard.shown !== leads
+        Accessible.name: keyboard.words[`keyboard-${leads}`]
+        onClicked: keyboard.shown = leads
     }
 
     Column {
@@ -60,52 +86,79 @@ Rectangle {
             model: keyboard.rows
             Row {
                 id: row
-                required property int index
                 required property string modelData
-                anchors.horizontalCenter: parent.horizontalCenter
+                anchors.horizontalCenter: parent?.horizontalCenter
                 spacing: keyboard.gap
-                ScreenKey {
-                    visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
-                    objectName: "key-shift"
-                    words: keyboard.words["keyboard-shift"]
-                    pressedIn: keyboard.capitals
-                    checkable: true
-                    checked: pressedIn
-                    onCheckedChanged: if (checked !== pressedIn) checked = Qt.binding(() => keyboard.capitals)
-                    onClicked: keyboard.capitals = !keyboard.capitals
-                }
                 Repeater {
-                    model: row.modelData.length
+                    model: Array.from(row.modelData)
                     ScreenKey {
-                        required property int index
-                        readonly property string letter: row.modelData.charAt(index)
-                        objectName: "key-" + letter
-                        words: keyboard.capitals ? letter.toUpperCase() : keyboard.numbers && letter === "-" ? "−" : letter
+                        required property string modelData
+                        objectName: "key-" + modelData
+                        words: keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
                         onClicked: {
-                            keyboard.field.type(keyboard.numbers ? letter : words)
+                            keyboard.field.type(keyboard.numbers ? modelData : words)
                             keyboard.capitals = false
                         }
                     }
                 }
-                ScreenKey {
-                    visible: !keyboard.numbers && row.index === keyboard.rows.length - 1
-                    objectName: "key-space"
-                    width: Math.max(1.6 * keyboard.keyWidth, implicitWidth)
-                    words: keyboard.words["keyboard-space"]
-                    onClicked: keyboard.field.type(" ")
-                }
-                ScreenKey {
-                    visible: row.index === keyboard.rows.length - 1
-                    objectName: "key-delete"
-                    words: keyboard.words["keyboard-delete"]
-                    onClicked: keyboard.field.wipe()
-                }
-                ScreenKey {
-                    visible: row.index === keyboard.rows.length - 1
-                    objectName: "key-done"
-                    words: keyboard.words["keyboard-done"]
-                    onClicked: keyboard.done()
-                }
+            }
+        }
+        Flow {
+            id: others
+            readonly property real wish: keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
+            anchors.horizontalCenter: parent.horizontalCenter
+            width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
+            readonly property real implicitRow: {
+                let sum = -spacing
+                for (const child of children)
+                    sum += child.visible ? child.width + spacing : 0
+                return sum + 1
+            }
+            spacing: keyboard.gap
+            ScreenKey {
+                visible: !keyboard.numbers && keyboard.shown !== "signs"
+                objectName: "key-shift"
+                words: keyboard.words["keyboard-shift"]
+                pressedIn: keyboard.capitals
+                checkable: true
+                checked: pressedIn
+                onCheckedChanged: if (checked !== pressedIn) checked = Qt.binding(() => keyboard.capitals)
+                onClicked: keyboard.capitals = !keyboard.capitals
+            }
+            LayerKey { leads: "letters"; words: keyboard.form.keys.letters[1].slice(0, 3) }
+            LayerKey { leads: "accents"; words: keyboard.form.keys.accents[0].slice(1, 4) }
+            LayerKey { leads: "signs"; words: "#+=" }
+            ScreenKey {
+                visible: !keyboard.numbers && keyboard.shown !== "signs"
+                objectName: "key-@"
+                words: "@"
+                onClicked: keyboard.field.type("@")
+            }
+            ScreenKey {
+                visible: !keyboard.numbers
+                objectName: "key-space"
+                width: Math.max(2.2 * keyboard.keyWidth, implicitWidth)
+                words: keyboard.words["keyboard-space"]
+                onClicked: keyboard.field.type(" ")
+            }
+            ScreenKey {
+                visible: !keyboard.numbers && keyboard.shown !== "signs"
+                objectName: "key-."
+                words: "."
+                onClicked: keyboard.field.type(".")
+            }
+            ScreenKey {
+                objectName: "key-delete"
+                width: keyboard.numbers ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
+                words: keyboard.words["keyboard-delete"]
+                onClicked: keyboard.field.wipe()
+            }
+            ScreenKey {
+                objectName: "key-done"
+                width: keyboard.numbers ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
+                words: keyboard.words["keyboard-done"]
+                pressedIn: true
+                onClicked: keyboard.done()
             }
         }
     }

@@ -14,7 +14,7 @@ TextField {
     property bool digits: false
     property bool minus: false          // whether a number may be negative
     property int longest: 32767         // in characters; some take two places of Qt's own count
-    // By mouse or touch: whoever comes by keyboard has one.
+    // By touch, or by mouse where the study says so: whoever comes by keyboard has one.
     signal pointed()
     // The minus key on the screen was pressed.
     signal negated()
@@ -22,6 +22,8 @@ TextField {
     // What the keys on the screen do. A number grows and shrinks at its end: they have no arrows, and a finger that
     // fell before a digit could never delete it.
     function type(letters: string) {
+        if (selectedText !== "")
+            remove(selectionStart, selectionEnd)
         if (digits && letters === "-")
             negated()
         else
@@ -53,7 +55,23 @@ TextField {
     inputMethodHints: digits ? (minus ? Qt.ImhFormattedNumbersOnly : Qt.ImhDigitsOnly) | Qt.ImhNoPredictiveText : Qt.ImhNoPredictiveText
     Accessible.name: label
     Accessible.description: hint
-    onPressed: pointed()
+    // The keys come when the finger is lifted: they may move the field, and it would be lifted beside it.
+    property bool touched: false
+    function lifted() {
+        // What is typed next takes the place of the number that stands there.
+        if (digits)
+            Qt.callLater(selectAll)
+        if (Theme.screenKeys === "always" || (Theme.screenKeys === "touch" && touched))
+            pointed()
+    }
+    // A click that the system made of a touch is one as well.
+    onPressed: event => touched = touch.active || event.source !== Qt.MouseEventNotSynthesized
+    onReleased: lifted()
+    PointHandler {
+        id: touch
+        acceptedDevices: PointerDevice.TouchScreen
+        onActiveChanged: if (active) field.touched = true
+    }
 
     Text {
         anchors { fill: parent; leftMargin: field.leftPadding; rightMargin: field.rightPadding }
