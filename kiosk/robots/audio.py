@@ -143,9 +143,10 @@ _PEAK = 0.89
 """No sample is made larger than this, of full scale."""
 _BLOCK_S, _STEP_S = 0.4, 0.1
 _ABSOLUTE_GATE, _RELATIVE_GATE = -70.0, -10.0
-_QUIET_DB = -40.0
-"""What is so far below a clip's peak is silence at its ends."""
-_MARGIN_MS = 20
+_ONSET_DB, _QUIET_DB = -32.0, -40.0
+"""What is so far below a clip's peak is silence, at its beginning and at its end."""
+_LEAD_MS, _MARGIN_MS = 3, 20
+"""How much of it stays: at the beginning just enough to fade in, for a sentence is to be heard at once."""
 
 
 def loudness_lufs(clip: Clip) -> float:
@@ -195,17 +196,17 @@ def levelled(clip: Clip) -> Clip:
 
 def trimmed(clip: Clip) -> Clip:
     """Cut silence off both ends, and let the ends fade so that clips join without a click."""
-    step = clip.rate // 100
+    step = clip.rate // 1000
     frames = np.abs(clip.values[: len(clip.samples) // step * step]).reshape(-1, step).max(axis=1)
-    heard = np.flatnonzero(frames > frames.max(initial=0) * 10 ** (_QUIET_DB / 20))
-    if not len(heard):
+    peak = frames.max(initial=0)
+    onset, heard = (np.flatnonzero(frames > peak * 10 ** (level / 20)) for level in (_ONSET_DB, _QUIET_DB))
+    if not len(onset):
         return Clip(clip.samples[:0], clip.rate)
-    margin = clip.rate * _MARGIN_MS // 1000
-    values = clip.values[max(0, heard[0] * step - margin) : (heard[-1] + 1) * step + margin].copy()
-    fade = min(len(values) // 2, clip.rate * FADE_MS // 1000)
-    ramp = np.linspace(0, 1, fade)
-    values[:fade] *= ramp
-    values[len(values) - fade :] *= ramp[::-1]
+    lead, margin = (clip.rate * ms // 1000 for ms in (_LEAD_MS, _MARGIN_MS))
+    values = clip.values[max(0, onset[0] * step - lead) : (heard[-1] + 1) * step + margin].copy()
+    rise, fall = (min(len(values) // 2, clip.rate * ms // 1000) for ms in (_LEAD_MS, FADE_MS))
+    values[:rise] *= np.linspace(0, 1, rise)
+    values[len(values) - fall :] *= np.linspace(1, 0, fall)
     return Clip.of(values, clip.rate)
 
 

@@ -178,13 +178,14 @@ class TtsWorker:
             self._report("failed", id=number, why=str(error) or type(error).__name__)
             return
         self._saying = number
+        # It is heard first, and looked at while the device still waits for its first samples.
+        self._player.play(number, sound)
         self._told = {
             "duration_ms": sound.duration_ms,
             "loudness": loudness_steps(sound),
             "shapes": mouth_shapes(sound),
             "by": by | {"device": self._player.device},
         }
-        self._player.play(number, sound)
 
 
 class WorkerReport:

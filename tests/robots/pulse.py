@@ -41,7 +41,11 @@ class PulseServer:
 
     def start(self) -> None:
         """Start it, and wait until it answers."""
-        modules = ("module-null-sink sink_name=booth rate=48000", f"module-native-protocol-unix socket={self._socket}")
+        # Without norewinds it may take two seconds of sound ahead, and then none for as long.
+        modules = (
+            "module-null-sink sink_name=booth rate=48000 norewinds=1",
+            f"module-native-protocol-unix socket={self._socket}",
+        )
         command = [_program("pulseaudio"), "-n", "--exit-idle-time=-1", "--daemonize=no", "--use-pid-file=no"]
         self._server = subprocess.Popen(
             [*command, *(part for module in modules for part in ("-L", module))],
