@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from PySide6.QtGui import QImage
+
 from tests.golden import story
 from tests.golden.story import recollect
 
@@ -28,7 +30,13 @@ def test_a_rehearsal_prints_one_object_and_the_list_of_sessions_has_the_same(tmp
 
 def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
     shots = tmp_path / "shots"
-    recollect("rehearse", "--headless", "--seed", "1", "--data", str(tmp_path / "data"), "--shots", str(shots))
+    here = ("--data", str(tmp_path / "data"), "--shots", str(shots))
+    recollect("rehearse", "--headless", "--seed", "1", "--language", "es", "--layout", "upright", *here)
+    assert [sheet.name for sheet in shots.glob("contact-*")] == ["contact-es-upright.png"]
+    sheet = QImage(str(shots / "contact-es-upright.png"))
+    assert sheet.width() > 8 * 150
+    assert sheet.height() > 3 * 270
+    assert len(json.loads(recollect("sessions", "--data", str(tmp_path / "data"), "--json"))) == 1
     taken = {picture.stem[3:] for picture in shots.glob("*.png")}
     assert taken >= {"attract", "introduction", "board", "card", "turning-back", "speaking", "pair", "result"}
     assert taken >= {

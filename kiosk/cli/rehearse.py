@@ -12,6 +12,7 @@ from math import isfinite
 from pathlib import Path
 from random import Random
 from statistics import mean
+from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
@@ -41,13 +42,16 @@ from kiosk.supervisor import guarded
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import (
+    LAYOUTS,
     ProcessUsage,
     Rehearsal,
     Screenshots,
     day_summary,
     draw_visitors,
+    layout_of,
     make_folder,
     rehearse_day,
+    resize,
 )
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, UiTimeout
@@ -102,7 +106,17 @@ leaves_option = click.option(
     type=click.Path(path_type=Path, dir_okay=False),
     help="Draw each visitor's memory from this file, which recollect calibrate wrote.",
 )
-@click.option("--shots", type=click.Path(path_type=Path), help="Save a picture of every moment in this folder.")
+@click.option(
+    "--shots",
+    type=click.Path(path_type=Path),
+    help="Save a picture of every moment in this folder, and contact sheets of the session: with --headless one for "
+    "each language (or that of --language) and layout.",
+)
+@click.option(
+    "--layout",
+    type=click.Choice(tuple(LAYOUTS)),
+    help="With --headless --shots: write the contact sheets of this layout only.",
+)
 @rehearsal_data_option
 @study_option
 @robot_host_option
@@ -118,6 +132,7 @@ def rehearse(
     sessions: int,
     people: Path | None,
     shots: Path | None,
+    layout: str | None,
     data: Path,
     study: Path | None,
     robot_host: str | None,
@@ -143,6 +158,7 @@ def rehearse(
         return
     if shots is not None:
         make_folder(shots)
+    sheets = _sheets(prepared, language, layout) if shots is not None and headless else ()
     language = language or prepared.languages[0]
     character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
     fixed = Condition.from_name(condition or prepared.settings.assistance.condition)
@@ -163,8 +179,46 @@ def rehearse(
         if app.stop_requested:
             raise click.Abort
         begun = recorder.sessions_begun
+        shown = layout_of(app.window.size())
+    if shots is not None and pictures is not None:
+        if layout in (None, shown):
+            pictures.sheet.save(shots / f"contact-{language}-{shown}.png")
+        for other, how in sheets:
+            if (other, how) != (language, shown):
+                _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed)
     told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
+
+
+def _sheets(study: StudyConfig, language: str | None, layout: str | None) -> tuple[tuple[str, str], ...]:
+    """List the languages and layouts of which there is a contact sheet."""
+    languages = study.languages if language is None else (language,)
+    return tuple((each, how) for each in languages for how in LAYOUTS if layout in (None, how))
+
+
+def _shoot_sheet(
+    study: StudyConfig,
+    mode: RunMode,
+    origin: RunContext,
+    character: BehaviourProfile,
+    layout: str,
+    shots: Path,
+    seed: int,
+) -> None:
+    """Rehearse the session once more in another language or layout, for its contact sheet alone; it is not kept."""
+    with (
+        TemporaryDirectory() as unkept,
+        guarded() as beat,
+        _recorder(Path(unkept), mode) as recorder,
+        App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
+    ):
+        resize(app.window, layout)
+        pictures = Screenshots(app.window, None, app.clock, 0)
+        with _stuck_in_words():
+            Rehearsal(app, seed, pictures, character).run()
+        if app.stop_requested:
+            raise click.Abort
+    pictures.sheet.save(shots / f"contact-{character.language}-{layout}.png")
 
 
 def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:

@@ -16,7 +16,8 @@ from time import monotonic
 from typing import Any
 
 import psutil
-from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtCore import QCoreApplication, QObject, QSize, Qt, QTimer
+from PySide6.QtGui import QImage, QPainter
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable
@@ -88,11 +89,66 @@ def make_folder(folder: Path) -> None:
         raise unwritable(f"the folder for the pictures, {folder}, cannot be made", error) from error
 
 
+LAYOUTS = {"wide": (1920, 1080), "upright": (1080, 1920)}
+"""Sizes of the window, in pixels, by their names."""
+_THUMB, _CAPTION, _IN_A_ROW = 480, 30, {"wide": 4, "upright": 8}
+
+
+def layout_of(size: QSize) -> str:
+    """Name the layout of a window of this size."""
+    return "wide" if size.width() >= size.height() else "upright"
+
+
+def resize(window: QQuickWindow, layout: str) -> None:
+    """Give a window that is on no screen the size of a layout, at once."""
+    window.resize(*LAYOUTS[layout])
+    QCoreApplication.processEvents()
+
+
+class ContactSheet:
+    """Small pictures of a session in one picture, in their order, each with its name."""
+
+    def __init__(self) -> None:
+        """Begin with no picture."""
+        self._taken: list[tuple[str, QImage]] = []
+
+    def add(self, name: str, picture: QImage) -> None:
+        """Add a picture; only a small copy is kept."""
+        height = _THUMB * 9 // 16
+        self._taken.append((name, picture.scaledToHeight(height, Qt.TransformationMode.SmoothTransformation)))
+
+    def save(self, file: Path) -> None:
+        """Write all of them into one PNG file; raises UserInputError or StorageError."""
+        if not self._taken:
+            return
+        small = self._taken[0][1].size()
+        columns = min(len(self._taken), _IN_A_ROW[layout_of(small)])
+        wide, high = small.width() + _CAPTION, small.height() + 2 * _CAPTION
+        rows = -(-len(self._taken) // columns)
+        sheet = QImage(columns * wide + _CAPTION, rows * high + _CAPTION, QImage.Format.Format_RGB32)
+        sheet.fill(Qt.GlobalColor.white)
+        painter = QPainter(sheet)
+        font = painter.font()
+        font.setPixelSize(_CAPTION * 2 // 3)
+        painter.setFont(font)
+        for number, (name, picture) in enumerate(self._taken):
+            x, y = _CAPTION + number % columns * wide, _CAPTION + number // columns * high
+            painter.drawImage(x, y, picture)
+            painter.drawText(x, y + small.height() + _CAPTION * 4 // 5, name)
+        painter.end()
+        if not sheet.save(str(file)):
+            raise unwritten(file)
+
+
 class Screenshots:
     """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
 
-    def __init__(self, window: QQuickWindow, folder: Path, clock: Clock, settle_ms: int) -> None:
-        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more."""
+    def __init__(self, window: QQuickWindow, folder: Path | None, clock: Clock, settle_ms: int) -> None:
+        """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more.
+
+        Without a folder they are only put on the sheet.
+        """
+        self.sheet = ContactSheet()
         self._window = window
         self._folder = folder
         self._clock = clock
@@ -118,9 +174,10 @@ class Screenshots:
             self._clock.after(self._settle_ms, lambda: self._save(name))
 
     def _save(self, name: str) -> None:
-        file = self._folder / name
-        if not self._window.grabWindow().save(str(file)):
-            raise unwritten(file)
+        picture = self._window.grabWindow()
+        self.sheet.add(Path(name).stem, picture)
+        if self._folder is not None and not picture.save(str(self._folder / name)):
+            raise unwritten(self._folder / name)
 
 
 def unwritten(picture: Path) -> UserInputError | StorageError:
