@@ -7,7 +7,8 @@ import re
 import subprocess
 import sys
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -143,23 +144,29 @@ def test_any_number_of_workers_gives_the_same_numbers_and_a_killed_run_goes_on(p
         power.run(job(plan, sizes=(21,)), tmp_path / "one")
 
 
-def test_a_dask_cluster_of_two_workers_gives_the_same_numbers(plan: Path, tmp_path: Path) -> None:
+@contextmanager
+def running_cluster(folder: Path, workers: int) -> Iterator[str]:
+    """A Dask scheduler of this machine with so many workers; its address."""
     here = [sys.executable, "-m"]
-    address = tmp_path / "scheduler.json"
+    address = folder / "scheduler.json"
     scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
-    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--nworkers", "2"]
+    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--nworkers", str(workers)]
     with ExitStack() as stack:
         for words in (scheduler, worker):
             started = subprocess.Popen(
-                [*words, "--scheduler-file", str(address)], cwd=tmp_path, stderr=subprocess.DEVNULL
+                [*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL
             )
             stack.callback(started.wait)
             stack.callback(started.terminate)
-            deadline = time.monotonic() + 60
+            deadline = time.monotonic() + 180
             while not address.exists() and time.monotonic() < deadline:
                 time.sleep(0.05)
-        host = json.loads(address.read_text())["address"]
-        asked = ("plan", "power", str(plan), "--n", "20", "--studies", "100", "--json")
+        yield json.loads(address.read_text())["address"]
+
+
+def test_a_dask_cluster_of_two_workers_gives_the_same_numbers(plan: Path, tmp_path: Path) -> None:
+    asked = ("plan", "power", str(plan), "--n", "20", "--studies", "100", "--json")
+    with running_cluster(tmp_path, 2) as host:
         told = json.loads(run(*asked, "--scheduler", host, "--store", str(tmp_path / "cluster")))
     alone = json.loads(run(*asked, "--workers", "1", "--store", str(tmp_path / "alone")))
     assert told["rows"] == alone["rows"]
