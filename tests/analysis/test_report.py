@@ -57,7 +57,7 @@ def export(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def written(export: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Everything that a report writes into a folder, with the paper."""
     out = tmp_path_factory.mktemp("report") / "out"
-    run("report", str(export), "--out", str(out), "--paper")
+    (out.parent / "printed.txt").write_text(run("report", str(export), "--out", str(out), "--paper"))
     return out
 
 
@@ -90,6 +90,20 @@ def test_a_report_has_every_form_of_its_content(written: Path) -> None:
     }
     assert {"flow.svg", "effects.svg", "values-flips.svg"} <= {path.name for path in (written / "figures").iterdir()}
     assert json.loads((written / "results.json").read_text("utf-8"))["status"] == "EXPLORATORY"
+
+
+def test_the_worked_example_of_the_page_is_what_the_commands_print(written: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "report.md").read_text("utf-8")
+    example = page.split("$ recollect report example")[1].split("```")[0].split("\n", 1)[1]
+    printed = (written.parent / "printed.txt").read_text().splitlines()[:-1]
+    assert example.splitlines()[:-1] == printed
+    results = json.loads((written / "results.json").read_text("utf-8"))
+    flips = next(row for row in results["comparisons"] if row["measure"] == "flips")
+    lines = {line["name"]: line for line in flips["lines"]}
+    told = [*flips["mean"], lines["welch"]["statistic"], lines["welch"]["df"], lines["hedges_g"]["estimate"]]
+    told += [lines["hedges_g"]["low"], lines["hedges_g"]["high"]]
+    words = page.split("<!-- numbers -->")[1].split("<!-- /numbers -->")[0]
+    assert re.findall(r"-?\d+\.\d+", words)[: len(told)] == [f"{value:.2f}" for value in told]
 
 
 def test_a_page_asks_for_nothing_outside_and_no_id_occurs_twice(written: Path) -> None:
