@@ -192,15 +192,21 @@ ENGINES: dict[str, type[PicoEngine | HibariEngine | SystemEngine]] = {
 _PACKAGES = {"hibari": "hibari", "pico": "py_nanotts", "system": "pyttsx3"}
 
 
-def create_engine(language: str, rate: int, name: str = "") -> SpeechEngine:
+_SLOW = {"hibari"}
+"""Engines that take longer for a sentence than the kiosk waits: they make packs, and do not speak live."""
+
+
+def create_engine(language: str, rate: int, name: str = "", *, is_live: bool = False) -> SpeechEngine:
     """Start the engine of this name or, without one, the best that speaks the language.
+
+    With ``is_live`` only those are taken that render a sentence while a visitor waits for it.
 
     Raises whatever an engine raises if none can be started; its ``voice`` is None if none speaks the language.
     """
     if name:
         return ENGINES[name](language, rate)
     for each in ("hibari", "pico"):
-        if find_spec(_PACKAGES[each]) is not None:
+        if not (is_live and each in _SLOW) and find_spec(_PACKAGES[each]) is not None:
             with contextlib.suppress(ImportError, OSError):
                 engine = ENGINES[each](language, rate)
                 if engine.voice is not None:

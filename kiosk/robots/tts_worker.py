@@ -45,7 +45,15 @@ class SpeechSource:
         self.engine = create_engine(language, rate, speaker if speaker in ENGINES else "")
         if self.pack is None and self.engine.voice is not None:
             self.pack = VoicePack.read_if_there(cache_folder(language, self.engine.name, rate))
+            if self.pack is None and not speaker:
+                self._take_live_engine(rate)
         self.rate = self.engine.rate if self.pack is None else self.pack.rate
+
+    def _take_live_engine(self, rate: int) -> None:
+        """Take the best engine that is quick enough without a pack, with the pack rendered from that one."""
+        self.engine = create_engine(self.language, rate, is_live=True)
+        if self.engine.voice is not None:
+            self.pack = VoicePack.read_if_there(cache_folder(self.language, self.engine.name, rate))
 
     @property
     def voice(self) -> str | None:

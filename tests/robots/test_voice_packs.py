@@ -11,7 +11,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.cli.voice import spoken_texts
-from kiosk.config import Settings
+from kiosk.config import ASSETS, Settings
 from kiosk.robots import tts_worker
 from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, mouth_shapes, trimmed
 from kiosk.robots.tts_worker import SpeechSource
@@ -57,6 +57,11 @@ def test_loudness_is_that_of_the_standards_reference_signal() -> None:
     assert loudness_lufs(Clip(np.zeros(rate, np.int16), rate)) == -np.inf
 
 
+@pytest.mark.parametrize("sound", sorted((ASSETS / "sounds").glob("*.wav")), ids=lambda file: file.stem)
+def test_every_sound_of_the_board_is_as_loud_as_the_voice(sound: Path) -> None:
+    assert loudness_lufs(levelled(Clip.read(sound))) == pytest.approx(TARGET_LUFS, abs=0.1)
+
+
 @pytest.mark.parametrize("level", [0.01, 0.1, 0.5])
 @pytest.mark.parametrize("seconds", [0.1, 2])
 def test_clips_of_any_level_and_length_become_equally_loud(level: float, seconds: float) -> None:
@@ -94,6 +99,22 @@ def test_what_a_pack_lacks_is_rendered_and_told_apart(pack: VoicePack, monkeypat
     _, by = SpeechSource("en", 150, str(pack.folder)).clip("Something else.")
     assert by["pack"] == ""
     assert pack.missing([REASON, f"{REASON} {PLACE}", "Something else."]) == ("Something else.",)
+
+
+def test_an_engine_that_is_too_slow_to_speak_live_speaks_only_from_its_pack(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    class Slow(Engine):
+        name = "slow"
+
+    def engines(_language: str, _rate: int, _name: str = "", *, is_live: bool = False) -> Engine:
+        return Engine() if is_live else Slow()
+
+    monkeypatch.setattr(tts_worker, "create_engine", engines)
+    monkeypatch.setattr(tts_worker, "cache_folder", lambda _language, name, _rate: tmp_path / name)
+    assert SpeechSource("en", 150).clip(REASON)[1]["engine"] == "tones"
+    render_pack(Slow(), "en", [REASON], tmp_path / "slow", lambda _: None)
+    assert SpeechSource("en", 150).spoken_by["engine"] == "slow"
 
 
 def test_a_clip_that_was_changed_is_not_played_as_if_it_were_of_its_pack(
