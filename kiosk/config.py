@@ -204,6 +204,72 @@ class Practice(ConfigModel):
     max_duration_ms: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
 
 
+class ConditionConfig(ConfigModel):
+    """A condition: which cards hints are about, what is said with them, and which table and times hold.
+
+    `[conditions.NAME]` declares one, under a name of small letters, digits and `_`. These names need no declaration:
+    tom, notom, mentalised_unexplained, random_explained and no_assistance. The first two are the study's.
+    """
+
+    target_rule: Annotated[
+        Literal["mentalised", "most_flipped", "most_recent", "random", "none"],
+        Field(
+            description="Which card a hint for a first card is about: by what the visitor has seen, as `target_rule` "
+            "of [assistance] or one of the two says, or any closed card; none: there is no help."
+        ),
+    ] = "mentalised"
+    explanation: Annotated[bool, Field(description="Whether a hint says what the visitor has seen of its pair.")] = True
+    location: Annotated[
+        bool,
+        Field(description="Whether a hint says where to look; without it, it only reminds of the pair."),
+    ] = True
+    policy: Annotated[
+        str, Field(description="Another Q-table than that of [assistance], by its name or path; empty: the same.")
+    ] = ""
+    timing: Annotated[dict[str, int], Field(description="Keys of [timing] that are different in this condition.")] = {}
+
+    @property
+    def helps(self) -> bool:
+        """Whether there is any help."""
+        return self.target_rule != "none"
+
+    @property
+    def reminds(self) -> bool:
+        """Whether its hints name no place."""
+        return self.helps and not self.location
+
+    @field_validator("timing")
+    @classmethod
+    def _check_the_times(cls, timing: dict[str, int]) -> dict[str, int]:
+        try:
+            Timing.model_validate(timing)
+        except ValidationError as error:
+            raise ValueError(validation_messages(error, timing, Timing)[0]) from error
+        return timing
+
+    @model_validator(mode="after")
+    def _say_something(self) -> Self:
+        if self.helps and not (self.explanation or self.location):
+            raise ValueError("a hint without an explanation and without a location says nothing; set one of them")
+        return self
+
+
+PAPER_CONDITIONS = {
+    "tom": ConditionConfig(),
+    "notom": ConditionConfig(target_rule="random", explanation=False),
+}
+"""The paper's two."""
+
+KNOWN_CONDITIONS = PAPER_CONDITIONS | {
+    "mentalised_unexplained": ConditionConfig(explanation=False),
+    "random_explained": ConditionConfig(target_rule="random"),
+    "no_assistance": ConditionConfig(target_rule="none", explanation=False, location=False),
+}
+"""What is known without a declaration: the cells of the 2 x 2 design, and no assistance."""
+
+_CONDITION = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
 class Allocation(ConfigModel):
     """Who gets which condition: permuted blocks, from a list that is fixed before the first visitor."""
 
@@ -264,10 +330,7 @@ class AssistanceConfig(ConfigModel):
     ] = "Memo"
     condition: Annotated[
         str,
-        Field(
-            description="Which help visitors get where nothing is allocated: tom, notom, mentalised_unexplained, "
-            "random_explained or no_assistance."
-        ),
+        Field(description="Which help visitors get where nothing is allocated: the name of a condition."),
     ] = "tom"
     policy: Annotated[str, Field(description="The frozen Q-table: a name in policies/, or a path.")] = "default"
     target_rule: Annotated[
@@ -589,6 +652,9 @@ class Settings(ConfigModel):
     game: Game = Game()
     practice: Practice = Practice()
     assistance: AssistanceConfig = AssistanceConfig()
+    conditions: Annotated[
+        dict[str, ConditionConfig], Field(max_length=MOST_ENTRIES, description="The conditions, by their names.")
+    ] = PAPER_CONDITIONS
     randomisation: Allocation = Allocation()
     consent: ConsentConfig = ConsentConfig()
     timing: Timing = Timing()
@@ -619,6 +685,32 @@ class Settings(ConfigModel):
     def name(self) -> str:
         """What to call them in a refusal."""
         return f"the {self.file_kind} {self._file}" if self._file else "the study"
+
+    @field_validator("conditions")
+    @classmethod
+    def _name_conditions(cls, declared: dict[str, ConditionConfig]) -> dict[str, ConditionConfig]:
+        for name, condition in declared.items():
+            if not _CONDITION.fullmatch(name):
+                raise ValueError(
+                    f"{name!r} is no name of a condition: it has small letters, digits and _ only, at most 40, and "
+                    "begins with a letter"
+                )
+            known = KNOWN_CONDITIONS.get(name)
+            if known is not None and known != condition.model_copy(update={"policy": "", "timing": {}}):
+                raise ValueError(f"{name!r} has a meaning of its own; give a condition that is different another name")
+        return declared
+
+    @property
+    def all_conditions(self) -> dict[str, ConditionConfig]:
+        """Every condition by its name: what is declared, and what is known without that."""
+        return KNOWN_CONDITIONS | self.conditions
+
+    def condition(self, name: str) -> ConditionConfig:
+        """Return the condition of a name; raises UserInputError with all the names there are."""
+        there = self.all_conditions
+        if name not in there:
+            raise UserInputError(f"there is no condition {name!r}; there are {', '.join(there)}")
+        return there[name]
 
     @model_validator(mode="after")
     def _name_things_once(self) -> Self:

@@ -23,6 +23,7 @@ from kiosk.analysis.data import load_study, load_table
 from kiosk.analysis.memory_likelihood import Array, MoveLikelihood, PlayedGame, move_likelihood
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec, QTable, find_action
+from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
 from kiosk.experiment.condition import Condition
 from kiosk.training.simulated_players import PEOPLE_FORMAT, PopulationPlayer
 
@@ -64,6 +65,7 @@ class PlayedStudy:
 
     sessions: tuple[PlayedSession, ...]
     policies: dict[str, QTable]
+    conditions: dict[str, ConditionConfig]
     rule: TargetRule
     left_out: int
 
@@ -71,7 +73,8 @@ class PlayedStudy:
 def read_games(folder: Path) -> PlayedStudy:
     """Read the games of an exported data set; raises UserInputError for a folder that is none, or has too few games.
 
-    A game that was not finished counts as far as it went; a participant without any flip in the game is left out.
+    A game that was not finished counts as far as it went. A participant without any flip in the game is left out, and
+    so is one whose hints named no place, which simulated players cannot follow.
     """
     load_study(folder)
     tables = {name: load_table(folder, name, columns) for name, columns in _TABLES.items()}
@@ -82,22 +85,25 @@ def read_games(folder: Path) -> PlayedStudy:
     actions = dict(zip(_keys(tables["hints"]), tables["hints"].text("action"), strict=True))
     sessions = []
     rows = [people.text(name) for name in ("participant_id", "condition", "policy_sha256")]
+    conditions = _conditions(folder)
     for who, condition, sha256 in zip(*rows, strict=True):
         board = boards.get(who)
-        if board is None or not flips.get((who, board.number)):
+        if condition not in conditions:
+            raise UserInputError(f"{folder} does not say what the condition {condition!r} is")
+        if board is None or not flips.get((who, board.number)) or conditions[condition].reminds:
             continue
         played = tuple(
             (board.place(cell), *_hint(board, hints, actions, (who, board.number, number)))
             for number, cell in sorted(flips[who, board.number].items())
         )
         game = PlayedGame(board.mates, board.columns, played)
-        sessions.append(PlayedSession(who, Condition.from_name(condition), sha256, game))
+        sessions.append(PlayedSession(who, Condition(condition), sha256, game))
     if len(sessions) < LEAST_SESSIONS:
         raise UserInputError(
             f"{folder} holds {len(sessions)} games; a calibration needs at least {LEAST_SESSIONS}, as it measures how "
             "people differ"
         )
-    return PlayedStudy(tuple(sessions), _policies(folder), _rule(folder), len(people) - len(sessions))
+    return PlayedStudy(tuple(sessions), _policies(folder), conditions, _rule(folder), len(people) - len(sessions))
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +168,18 @@ def _hint(board: _Board, hints: Any, actions: Any, key: tuple[str, str, int]) ->
 def _policies(folder: Path) -> dict[str, QTable]:
     tables = (QTable.load(file) for file in sorted((folder / "materials" / "policies").glob("*.json")))
     return {table.sha256: table for table in tables}
+
+
+def _conditions(folder: Path) -> dict[str, ConditionConfig]:
+    """What the conditions came to, from the study's settings as they were exported."""
+    found = dict(KNOWN_CONDITIONS)
+    for file in sorted((folder / "materials" / "settings").glob("*.json")):
+        try:
+            declared = json.loads(file.read_text("utf-8")).get("conditions", {})
+            found |= {name: ConditionConfig.model_validate(each) for name, each in declared.items()}
+        except (OSError, ValueError, AttributeError) as error:
+            raise UserInputError(f"{file} does not say what the conditions are: {error}") from error
+    return found
 
 
 def _rule(folder: Path) -> TargetRule:

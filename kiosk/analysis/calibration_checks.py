@@ -112,8 +112,8 @@ def check_calibration(
         seen = [_Facts.of(game) for game in cell.games]
         drawn = record_games(cell.policy, player, cell.rule, studies * len(cell.games), seed + number)
         simulated = [_Facts.of(_as_played(game)) for game in drawn]
-        predicted += _predicted(cell.condition.value, seen, simulated, _MEASURES)
-        flips[cell.condition.value] = ([each.flips for each in seen], [each.flips for each in simulated])
+        predicted += _predicted(cell.condition.name, seen, simulated, _MEASURES)
+        flips[cell.condition.name] = ([each.flips for each in seen], [each.flips for each in simulated])
         curves.append((seen, simulated))
         progress(number + 1, len(cells) + 1)
     predicted += _memory_curve(curves, studies)
@@ -125,13 +125,13 @@ def check_calibration(
 def _cells(study: PlayedStudy) -> list[_Cell]:
     sizes = Counter((session.condition, session.policy_sha256) for session in study.sessions)
     return [
-        _cell(study, condition, sha256) for condition, sha256 in sorted(sizes, key=lambda key: (key[0].value, key[1]))
+        _cell(study, condition, sha256) for condition, sha256 in sorted(sizes, key=lambda key: (key[0].name, key[1]))
     ]
 
 
 def _cell(study: PlayedStudy, condition: Condition, sha256: str) -> _Cell:
-    games = tuple(each.game for each in study.sessions if each.condition is condition and each.policy_sha256 == sha256)
-    rule = target_rule(condition, study.rule)
+    games = tuple(each.game for each in study.sessions if each.condition == condition and each.policy_sha256 == sha256)
+    rule = target_rule(study.conditions[condition.name], study.rule)
     if rule is None:
         return _Cell(condition, QTable.blank(), TargetRule.RANDOM, games)
     if sha256 not in study.policies:

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from kiosk import UserInputError, why
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.export.columns import CODEBOOK_VERSION
 from kiosk.export.layouts import PLANS, file_of, plan_file
 
@@ -138,8 +138,7 @@ class ExportedStudy:
 
 def in_order(conditions: Sequence[str]) -> tuple[str, ...]:
     """The different conditions in the order of the design, unknown names last."""
-    order = [condition.value for condition in Condition]
-    return tuple(sorted(set(conditions), key=lambda name: (order.index(name) if name in order else len(order), name)))
+    return tuple(condition.name for condition in in_design_order(map(Condition, conditions)))
 
 
 def load_study(folder: Path) -> ExportedStudy:

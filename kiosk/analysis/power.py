@@ -103,7 +103,7 @@ def run_block(job: PowerJob, block: int) -> list[list[list[float]]]:
 def _arm(job: PowerJob, name: str, games: int, rng: np.random.Generator, *, first: bool) -> dict[str, Array]:
     """The measures of many participants of one arm."""
     plan = StudyPlan.model_validate_json(job.plan, strict=False)
-    where = target_rule(Condition(plan.conditions[1] if job.null else name), TargetRule(job.rule))
+    where = target_rule(Condition(plan.conditions[1] if job.null else name).known, TargetRule(job.rule))
     policy = QTable.from_json(job.policy) if where else QTable.blank()
     seed = int(rng.integers(2**62))
     played = simulate_games(policy, PopulationPlayer(**job.people), where or TargetRule.RANDOM, games, seed)

@@ -39,10 +39,10 @@ from kiosk.experiment.events import Stage
 CONFIRMATORY, EXPLORATORY = "CONFIRMATORY", "EXPLORATORY"
 
 CELLS = {
-    Condition.TOM.value: (1, 1),
-    Condition.NOTOM.value: (0, 0),
-    Condition.MENTALISED_UNEXPLAINED.value: (1, 0),
-    Condition.RANDOM_EXPLAINED.value: (0, 1),
+    Condition.TOM.name: (1, 1),
+    Condition.NOTOM.name: (0, 0),
+    Condition.MENTALISED_UNEXPLAINED.name: (1, 0),
+    Condition.RANDOM_EXPLAINED.name: (0, 1),
 }
 """The 2 x 2 design: whether the target is mentalised, and whether a reason is given."""
 FACTORS = ("mentalised target", "reason given")

@@ -24,11 +24,11 @@ from kiosk.experiment.events import Stage
 from kiosk.export.participants import FlowQuantity
 
 COLOURS = {
-    Condition.TOM.value: "#0072B2",
-    Condition.NOTOM.value: "#D55E00",
-    Condition.MENTALISED_UNEXPLAINED.value: "#009E73",
-    Condition.RANDOM_EXPLAINED.value: "#AA4499",
-    Condition.NO_ASSISTANCE.value: "#555555",
+    Condition.TOM.name: "#0072B2",
+    Condition.NOTOM.name: "#D55E00",
+    Condition.MENTALISED_UNEXPLAINED.name: "#009E73",
+    Condition.RANDOM_EXPLAINED.name: "#AA4499",
+    Condition.NO_ASSISTANCE.name: "#555555",
 }
 """Okabe and Ito's colours, which differ also for people who do not see all of them."""
 MARKERS = ("o", "s", "^", "D", "v")

@@ -68,7 +68,7 @@ def simulate_participants(
     """
     number = 0
     for at, cell in enumerate(cells):
-        where = target_rule(cell.condition, rule)
+        where = target_rule(cell.condition.known, rule)
         table = policy if where is not None else QTable.blank()
         rng = np.random.default_rng([seed, at])
         game_seed = int(rng.integers(2**62))
@@ -195,7 +195,7 @@ def _tables(people: Sequence[SimulatedParticipant], policy: QTable) -> dict[str,
 
 def _participant(person: SimulatedParticipant, policy: QTable) -> dict[str, Any]:
     fixed = {
-        "condition": person.condition.value,
+        "condition": person.condition.name,
         "allocation_source": "list",
         "status": "completed",
         "last_stage": "thanks",

@@ -63,11 +63,13 @@ class Target:
     mate_seen: int
     reason: HintReason
     candidates: tuple[Position, ...]
+    is_located: bool = True
+    """Whether its place may be given away; a hint that may not only reminds of the pair."""
 
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """One act of help with the coming flip: the action says how much of the target is given away."""
+    """One act of help with the coming flip: the action says how much of the target is given away, if any is."""
 
     action: ActionSpec
     card: FlipInMove
@@ -77,17 +79,22 @@ class Hint:
     @property
     def row(self) -> int | None:
         """The row that is pointed at, from 0, or None if the action does not name one."""
-        given = self.action.precision in (Precision.ROW, Precision.CARD)
+        given = self.target.is_located and self.action.precision in (Precision.ROW, Precision.CARD)
         return self.target.position.row if given else None
 
     @property
     def column(self) -> int | None:
         """The column that is pointed at, from 0, or None if the action does not name one."""
-        given = self.action.precision in (Precision.COLUMN, Precision.CARD)
+        given = self.target.is_located and self.action.precision in (Precision.COLUMN, Precision.CARD)
         return self.target.position.column if given else None
 
     def followed_by(self, flipped: Position) -> bool:
-        """Whether flipping this card follows the hint: it is the hinted card, or lies in the hinted row or column."""
+        """Whether flipping this card follows the hint: it is the hinted card, or lies in the hinted row or column.
+
+        A reminder, which names no place, is followed by flipping either card of its pair.
+        """
+        if not self.target.is_located:
+            return flipped in (self.target.position, self.target.mate)
         return points_to(self.row, self.column, flipped)
 
 
@@ -113,10 +120,11 @@ class TargetRule(Enum):
 class Mentaliser:
     """Chooses the target of a hint and names the reason that the player's history gives; ties fall to ``rng``."""
 
-    def __init__(self, rule: TargetRule, rng: Random) -> None:
-        """Follow ``rule`` on first cards."""
+    def __init__(self, rule: TargetRule, rng: Random, *, locates: bool = True) -> None:
+        """Follow ``rule`` on first cards; without ``locates``, no place is given away."""
         self._candidates = _RULES[rule]
         self._rng = rng
+        self._locates = locates
 
     def target(self, game: Concentration) -> Target:
         """Return the card that a hint for the coming flip of ``game`` points at; some card must still be closed."""
@@ -131,7 +139,7 @@ class Mentaliser:
         mate = game.board.mate(position)
         seen, mate_seen = game.history.count(position), game.history.count(mate)
         reason = HintReason.of(FlipInMove.coming(game), mate_seen, seen)
-        return Target(position, mate, seen, mate_seen, reason, self.candidates(game))
+        return Target(position, mate, seen, mate_seen, reason, self.candidates(game), self._locates)
 
 
 def _mates_of_the_most_flipped(game: Concentration) -> tuple[Position, ...]:

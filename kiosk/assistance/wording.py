@@ -264,7 +264,7 @@ class PlainSentences:
         return self._wording.say(pointing(hint), **place(hint))
 
     def all_wordings(self, hint: Hint) -> tuple[str, ...]:
-        """All that could be said with a hint."""
+        """Return all that could be said with a hint."""
         return self._wording.catalogue.wordings(pointing(hint), **place(hint))
 
     def remark(self, action: ActionSpec) -> str:
@@ -291,6 +291,24 @@ class ReasonedSentences(PlainSentences):
         return tuple(f"{reason} {where}" for reason, where in product(reasons, super().all_wordings(hint)))
 
 
+class ReminderSentences(PlainSentences):
+    """Says what this player's history holds of the pair, and not where its cards lie."""
+
+    def sentence(self, hint: Hint) -> str:
+        """Return what is said with a hint; it names no place."""
+        return self._wording.say(reminding(hint), **self._wording.catalogue.card(hint.name))
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:
+        """Return all that could be said with a hint."""
+        catalogue = self._wording.catalogue
+        return catalogue.wordings(reminding(hint), **catalogue.card(hint.name))
+
+
+def reminding(hint: Hint) -> str:
+    """Return the message that reminds of a hint's pair."""
+    return f"remind-{hint.card.value}-{hint.target.reason.value}"
+
+
 def reasoning(hint: Hint) -> str:
     """Return the message that gives a hint's reason."""
     return f"reason-{hint.card.value}-{hint.target.reason.value}"
@@ -312,7 +330,7 @@ def given_with(message: str) -> frozenset[str] | None:
 
     ``card`` stands for all of its forms.
     """
-    if message.startswith("reason-"):
+    if message.startswith(("reason-", "remind-")):
         return frozenset({CARD})
     if message.startswith("point-"):
         return _PLACES.get(message.rpartition("-")[2])

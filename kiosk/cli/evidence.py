@@ -22,7 +22,7 @@ from kiosk.training.simulation import T_CARD, Z95, GameResults, Progress, Spread
 
 def _rule(condition: Condition) -> TargetRule:
     """Where first-card hints point in a condition that gives any."""
-    return target_rule(condition, TargetRule.MOST_FLIPPED) or TargetRule.RANDOM
+    return target_rule(condition.known, TargetRule.MOST_FLIPPED) or TargetRule.RANDOM
 
 
 TOM, NOTOM = _rule(Condition.TOM), _rule(Condition.NOTOM)

@@ -49,12 +49,13 @@ class DecisionCase(BaseModel):
 
     def moment(self) -> DecisionContext:
         """Return what the case describes; raise UserInputError or ValueError if it cannot be."""
-        board = Board(SHAPE.rows, SHAPE.columns, tuple(self.board))
+        board, condition = Board(SHAPE.rows, SHAPE.columns, tuple(self.board)), Condition.from_name(self.condition)
         return DecisionContext(
             board=board,
             flips=tuple(map(board.position, self.flips)),
             last=_action(self.last_action),
-            condition=Condition.from_name(self.condition),
+            condition=condition,
+            cell=condition.known,
             rule=TargetRule(self.target_rule),
             policy=QTable.named(self.policy),
             catalogue=read_catalogue(self.language),
@@ -226,7 +227,8 @@ def _lines(explanation: Explanation) -> Iterator[str]:
 def _pointing(hint: Hint, board: Board) -> Iterator[str]:
     target = hint.target
     place = f"row {target.position.row + 1}, column {target.position.column + 1}"
-    yield _line("target", f"{place} (location {board.location(target.position)}): {hint.name}")
+    told = "" if target.is_located else ", which is not said"
+    yield _line("target", f"{place} (location {board.location(target.position)}): {hint.name}{told}")
     yield _line("counts", f"turned up: the target {_times(target.seen)}, the other {_times(target.mate_seen)}")
     yield _line("reason", target.reason.value)
 

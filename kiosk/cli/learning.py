@@ -20,6 +20,7 @@ from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, State, check_actions, find_action
 from kiosk.cli import evidence
 from kiosk.cli.options import progress_bar
+from kiosk.config import KNOWN_CONDITIONS
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
@@ -256,7 +257,13 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
 @click.option(
     "--policy", "name", default="default", show_default=True, help="A file, default, study-like, no-help or none."
 )
-@click.option("--condition", type=_choice(Condition), default="tom", show_default=True, help="Where hints point.")
+@click.option(
+    "--condition",
+    type=click.Choice([*KNOWN_CONDITIONS]),
+    default="tom",
+    show_default=True,
+    help="Where hints point.",
+)
 @click.option("--target", type=_choice(TargetRule), help="Another target rule than the condition's.")
 @click.option("--games", type=int, default=5000, show_default=True, help="How many games.")
 @click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
@@ -271,7 +278,7 @@ def simulate_command(
     **options: Any,
 ) -> None:
     """Play many games with a simulated player under a frozen table, and measure them as the study does."""
-    where = target_rule(Condition(condition), TargetRule.MOST_FLIPPED)
+    where = target_rule(Condition(condition).known, TargetRule.MOST_FLIPPED)
     table = QTable.named(name) if where else QTable.blank()
     player = player_from_options(ChancePlayer(), **options)
     rule = TargetRule(target) if target else where or TargetRule.RANDOM

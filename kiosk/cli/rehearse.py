@@ -29,7 +29,6 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.config import NO_ROBOT, STAGES
-from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
 from kiosk.experiment.session_config import SessionKind, StudyConfig
@@ -161,7 +160,7 @@ def rehearse(
     sheets = _sheets(prepared, language, layout) if shots is not None and headless else ()
     language = language or prepared.languages[0]
     character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
-    fixed = Condition.from_name(condition or prepared.settings.assistance.condition)
+    fixed = prepared.condition(condition or prepared.settings.assistance.condition)
     origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: seed, condition=fixed)
     with (
         guarded() as beat,

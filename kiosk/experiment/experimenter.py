@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from kiosk import UserInputError
 from kiosk.config import Keys
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.events import Stage
 
 
@@ -126,14 +126,14 @@ def permission(action: Action, stage: Stage) -> Permission:
     return TABLE[action][stage]
 
 
-def condition_cycle(quotas: Iterable[str]) -> tuple[Condition | None, ...]:
+def condition_cycle(quotas: Iterable[str], names: Iterable[str]) -> tuple[Condition | None, ...]:
     """Return the choices that the condition's shortcut goes through.
 
     The first is the list's (None); then come conditions with a quota, then the others.
     """
-    wanted = set(quotas)
-    with_quota = (condition for condition in Condition if condition.value in wanted)
-    return (None, *with_quota, *(condition for condition in Condition if condition.value not in wanted))
+    wanted, there = set(quotas), in_design_order(map(Condition, names))
+    with_quota = (condition for condition in there if condition.name in wanted)
+    return (None, *with_quota, *(condition for condition in there if condition.name not in wanted))
 
 
 def actions_markdown() -> str:

@@ -340,7 +340,7 @@ class GameStage(StageHandler):
 
     def _mark(self, outcome: OutcomeBuilder) -> None:
         given = self._given
-        if given is not None and given.hint is not None and not given.marked:
+        if given is not None and given.hint is not None and given.hint.target.is_located and not given.marked:
             given.marked = True
             outcome.emit(happened.HintHighlighted(at_ms=outcome.at_ms, flip=given.flip))
             outcome.effect(do.HighlightHint(given.hint.row, given.hint.column))

@@ -73,7 +73,8 @@ class Measures:
     the last match: it leaves out pauses, and the time from each hint until the board opens again. An explained hint
     takes about three times as long to say, so ``completion_with_speech_ms``, which leaves out pauses only, compares
     sentences rather than players. ``followed``: the flip
-    after the hint is the hinted card, or lies in the hinted row or column, per hint. ``first_led_to_match``: first-card
+    after the hint is the hinted card, or lies in the hinted row or column, per hint; after a hint that names no place,
+    it is a card of the pair that the hint reminds of. ``first_led_to_match``: first-card
     hints that were followed and whose move matched, per first-card hint.
     """
 
@@ -125,7 +126,7 @@ def measure_game(state: SessionState) -> Measures:
         hints=len(hints),
         completion_ms=elapsed_ms(begin, end, (*state.pauses, *held)),
         completion_with_speech_ms=elapsed_ms(begin, end, state.pauses),
-        assistance_per_flip=_share(sum(hint.given.action.level for hint in hints), len(flips)),
+        assistance_per_flip=_share(sum(hint.level for hint in hints), len(flips)),
         followed=_share(sum(game.followed(hint) is True for hint in hints), len(hints)),
         first_followed=_share(sum(game.followed(hint) is True for hint in firsts), len(firsts)),
         first_led_to_match=_share(len(led), len(firsts)),

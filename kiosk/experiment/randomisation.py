@@ -13,7 +13,7 @@ from math import gcd
 from random import Random
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, in_design_order
 
 
 class AllocationSource(Enum):
@@ -66,7 +66,7 @@ def next_slot(listed: tuple[AllocationSlot, ...], consumed: Collection[int]) -> 
 
 def ratio_in_words(quotas: Mapping[Condition, int]) -> str:
     """Quotas for a person: ``28 tom, 28 notom``."""
-    return ", ".join(f"{quotas[condition]} {condition.value}" for condition in Condition if condition in quotas)
+    return ", ".join(f"{quotas[condition]} {condition.name}" for condition in in_design_order(quotas))
 
 
 def _ratio(quotas: Mapping[Condition, int]) -> Counter[Condition]:
@@ -75,9 +75,9 @@ def _ratio(quotas: Mapping[Condition, int]) -> Counter[Condition]:
         raise UserInputError("a allocation list needs a quota for at least one condition")
     for condition, quota in quotas.items():
         if quota < 1:
-            raise UserInputError(f"the quota of {condition.value} must be at least 1, not {quota}")
+            raise UserInputError(f"the quota of {condition.name} must be at least 1, not {quota}")
     divisor = gcd(*quotas.values())
-    return Counter({condition: quotas[condition] // divisor for condition in Condition if condition in quotas})
+    return Counter({condition: quotas[condition] // divisor for condition in in_design_order(quotas)})
 
 
 def _check_block(block: int, ratio: Counter[Condition]) -> None:

@@ -20,6 +20,7 @@ from kiosk.assistance.assistant import (
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ActionSpec, State
 from kiosk.assistance.wording import Catalogue, Wording
+from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import Event, Stage, WorldEvent
@@ -86,6 +87,7 @@ class DecisionContext:
     flips: tuple[Position, ...]
     last: ActionSpec
     condition: Condition
+    cell: ConditionConfig
     rule: TargetRule
     policy: Policy
     catalogue: Catalogue
@@ -103,6 +105,7 @@ class DecisionContext:
             flips=flips,
             last=before.action if before else ActionSpec.NO_HELP,
             condition=plan.condition,
+            cell=plan.cell,
             rule=TargetRule(plan.settings.assistance.target_rule),
             policy=table_before_flip(plan.policy, plan.settings.assistance.step, Concentration(game.board), flips),
             catalogue=plan.catalogue,
@@ -112,7 +115,7 @@ class DecisionContext:
     def explained(self) -> Explanation:
         """Return the decision of this moment, laid open; raises UserInputError if there can be no such moment."""
         game, chance = game_after(self.board, self.flips), Random(self.seed)
-        given = help_in(self.condition, self.rule, Wording(self.catalogue, chance), chance)
+        given = help_in(self.cell, self.rule, Wording(self.catalogue, chance), chance)
         if given is None:
             return explain_decision(game, self._undecided(game), None, None)
         point = partial(self._point, given.mentaliser)
@@ -126,7 +129,7 @@ class DecisionContext:
         """Return what gate and table hold in a condition without help."""
         if self.override not in (None, ActionSpec.NO_HELP):
             raise UserInputError(
-                f"in the condition {self.condition.value} there is no help, so there is no action to explain"
+                f"in the condition {self.condition.name} there is no help, so there is no action to explain"
             )
         state = State.of(game, self.last)
         verdict, row = self.policy.gate.decide(game), self.policy.row(state)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from enum import Enum
 from itertools import count
 from random import Random
@@ -180,7 +179,7 @@ class StageFactory:
                 plan.questionnaires, Random(f"{seed}/questions"), plan.language, rates=True
             ),
             Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
-            Stage.THANKS: lambda: ThanksStage(self.speaker, settings.timing.thanks_ms),
+            Stage.THANKS: lambda: ThanksStage(self.speaker, plan.timing.thanks_ms),
         }
         # All at once, so that what cannot be made is refused before a visitor sits there; but only what the study has.
         self._scenes: dict[Stage, StageHandler] = {
@@ -190,11 +189,11 @@ class StageFactory:
 
     def play_by_chance(self) -> None:
         """Play the game in a random condition of the study, so that an unstored visitor reveals no order."""
-        listed = sorted(self._plan.settings.randomisation.target_n) or [self._plan.condition.value]
+        listed = sorted(self._plan.settings.randomisation.target_n) or [self._plan.condition.name]
         self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
 
     def _play_in(self, condition: Condition) -> None:
-        game = _game(replace(self._plan, condition=condition), self._seed, self._wording, self._numbers)
+        game = _game(self._plan.in_condition(condition), self._seed, self._wording, self._numbers)
         pairs = game.game.board.pairs
         self._scenes[Stage.GAME] = game
         self._scenes[Stage.INTRODUCTION] = IntroductionStage(self.speaker, pairs, helped=game.helped)
@@ -216,7 +215,7 @@ class StageFactory:
     def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:
         practice = plan.settings.practice
         table = DealtTable(_deal(practice, plan.practice_deck, chance), practice.deck, practice=True)
-        return PracticeStage(table, plan.settings.timing, self.speaker, practice.max_duration_ms)
+        return PracticeStage(table, plan.timing, self.speaker, practice.max_duration_ms)
 
 
 _NOTHING = StageHandler()
@@ -226,12 +225,10 @@ def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[in
     settings = plan.settings
     deal, targets = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets"))
     rule = TargetRule(settings.assistance.target_rule)
-    given = help_in(plan.condition, rule, wording, targets)
+    given = help_in(plan.cell, rule, wording, targets)
     assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance.step) if given else None
     guide = HintGuide(assistant, given.sentences) if given and assistant else None
-    return GameStage(
-        DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, settings.timing, numbers
-    )
+    return GameStage(DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, plan.timing, numbers)
 
 
 def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Board:
@@ -261,7 +258,7 @@ class Session:
         self.stage = Stage.ATTRACT
         self.keeping = RecordingState.UNDECIDED
         self._course = plan.stage_order
-        self._timing = plan.settings.timing
+        self._timing = plan.timing
         self._closed_in: Stage | None = None
         self._plan = plan
         self._offers_back = False

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from pathlib import Path
 
 from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
-from kiosk.config import Settings
+from kiosk.config import ConditionConfig, Settings, Timing
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import Information
 from kiosk.experiment.questionnaire import Questionnaire
@@ -67,6 +68,23 @@ class SessionConfig:
     def languages(self) -> tuple[str, ...]:
         """The languages that the visitor can go on in, in the study's order."""
         return tuple(each.catalogue.language for each in self.translations) or (self.language,)
+
+    policies: Mapping[str, QTable] = field(default_factory=dict)
+    """The tables of the study's conditions, by their names, where any has one of its own."""
+
+    @property
+    def cell(self) -> ConditionConfig:
+        """What the condition comes to; raises UserInputError if the settings do not know it."""
+        return self.settings.condition(self.condition.name)
+
+    @property
+    def timing(self) -> Timing:
+        """The times that hold in the condition."""
+        return self.settings.timing.model_copy(update=self.cell.timing)
+
+    def in_condition(self, condition: Condition) -> SessionConfig:
+        """Return the same plan in another condition, with the table of that."""
+        return replace(self, condition=condition, policy=self.policies.get(condition.name, self.policy))
 
     @property
     def language(self) -> str:
@@ -127,4 +145,9 @@ class StudyConfig:
         """Return the plan of one of its languages, in the study file's condition or another one."""
         plan = self.plans[self.languages.index(language)]
         plan = replace(plan, translations=tuple(Translation(each.catalogue, each.information) for each in self.plans))
-        return plan if condition is None else replace(plan, condition=condition)
+        return plan if condition is None else plan.in_condition(condition)
+
+    def condition(self, name: str) -> Condition:
+        """Return the condition of a name; raises UserInputError with all the names there are."""
+        self.settings.condition(name)
+        return Condition(name)

@@ -48,7 +48,7 @@ from kiosk.experiment.events import (
 from kiosk.experiment.items import (
     Answer,
 )
-from kiosk.game import Board, Position
+from kiosk.game import Board
 
 CARDS_IN_A_MOVE = 2
 
@@ -100,10 +100,20 @@ class BoardHint:
     marked_ms: int | None = None
     opened_ms: int | None = None
 
-    def followed_by(self, flip: Position) -> bool:
-        """Tell whether flipping this card follows the hint."""
+    @property
+    def is_located(self) -> bool:
+        """Whether it named a place; one that did not only reminds of its pair."""
+        return (self.given.row, self.given.column) != (None, None)
+
+    @property
+    def level(self) -> float:
+        """How much assistance it was; a reminder gives no place away, so it is none."""
+        return self.given.action.level if self.is_located else ActionSpec.NO_HELP.level
+
+    def followed_by(self, flip: CardFlipped) -> bool:
+        """Tell whether a flip follows the hint: it goes where the hint points, or to a card that it reminds of."""
         given = self.given
-        return given.action is not ActionSpec.NO_HELP and points_to(given.row, given.column, flip)
+        return points_to(given.row, given.column, flip.position) if self.is_located else flip.card == given.name
 
 
 @dataclass(frozen=True)
@@ -137,7 +147,7 @@ class DealtBoard:
     def followed(self, hint: BoardHint) -> bool | None:
         """Tell whether the flip that the hint was for went where it pointed; None if there was no such flip."""
         flip = self.flips.get(hint.given.flip)
-        return None if flip is None else hint.followed_by(flip.event.position)
+        return None if flip is None else hint.followed_by(flip.event)
 
     def move_matched(self, flip: int) -> bool | None:
         """Tell whether the move of this flip ended in a match; None if it did not end."""

@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
 from kiosk.assistance.policy import FlipInMove, GateDecision
-from kiosk.experiment.condition import Condition
+from kiosk.config import KNOWN_CONDITIONS, ConditionConfig, Settings
 from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, Stage, WorldEvent
 from kiosk.experiment.labels import fold_name, read_as
 from kiosk.experiment.session_config import SessionKind
@@ -339,21 +339,43 @@ GATE = Variable(
     "What the gate, which stands before the table, said of the flip: open, or why no help was considered.",
     levels=tuple(Level(verdict.name.lower(), "" if verdict.is_open else verdict.value) for verdict in GateDecision),
 )
-CONDITION = Variable(
-    "condition",
-    "The help that this visitor was given.",
-    levels=enum_levels(
-        Condition,
-        tom="a target chosen by what the visitor has seen, and a reason given",
-        notom="a random target for first cards, and no reason",
-        mentalised_unexplained="a target chosen by what the visitor has seen, and no reason",
-        random_explained="a random target for first cards, and a reason given",
-        no_assistance="no help at all",
-    ),
-)
+
+
+def condition_in_words(declared: ConditionConfig) -> str:
+    """Say what a condition comes to, for a codebook."""
+    if not declared.helps:
+        return "no help at all"
+    first = _TARGETS[declared.target_rule]
+    told = [
+        *(["the row or column"] if declared.location else []),
+        *(["what the visitor has seen of the pair"] if declared.explanation else []),
+    ]
+    other = [f"the policy {declared.policy}"] if declared.policy else []
+    other += [f"{key} = {value}" for key, value in declared.timing.items()]
+    return f"{first}; a hint says {' and '.join(told)}" + (f"; with {', '.join(other)}" if other else "")
+
+
+_TARGETS = {
+    "mentalised": "a target chosen by what the visitor has seen",
+    "most_flipped": "a target by the card that the visitor has turned up most often",
+    "most_recent": "a target by the card that the visitor has turned up last",
+    "random": "a random target for first cards",
+}
+
+
+def condition_variable(studies: Iterable[Settings]) -> Variable:
+    """Describe the condition, with every name that is known or that one of these studies declared."""
+    declared = dict(KNOWN_CONDITIONS)
+    for settings in reversed(tuple(studies)):
+        declared |= settings.conditions
+    levels = tuple(Level(name, condition_in_words(each)) for name, each in declared.items())
+    return Variable("condition", "The help that this visitor was given.", levels=levels)
+
+
 FOLLOWED = Variable(
     "followed",
-    "Whether the flip after the hint is the hinted card, or lies in the hinted row or column.",
+    "Whether the flip after the hint is the hinted card, or lies in the hinted row or column; after a hint that named "
+    "no place, whether it is a card of the pair that the hint was about.",
     ColumnKind.TRUTH,
     empty="there was no hint, or no flip after it",
 )

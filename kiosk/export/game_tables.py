@@ -222,13 +222,13 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
             "level",
             "How much help that is: "
             + ", ".join(f"{action.level:g} for {action.label}" for action in ACTIONS)
-            + "; assistance per flip is their sum over all flips.",
+            + "; 0 for a hint that named no place. Assistance per flip is their sum over all flips.",
             ColumnKind.NUMBER,
         ),
-        lambda row: row.hint.given.action.level,
+        lambda row: row.hint.level,
     ),
     (
-        Variable("target_row", "The row of the card that was pointed at, from 1, told or not.", ColumnKind.WHOLE),
+        Variable("target_row", "The row of the card that the hint was about, from 1, told or not.", ColumnKind.WHOLE),
         lambda row: row.hint.given.target.row + 1,
     ),
     (
@@ -283,7 +283,7 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
             "When the card, row or column was marked on the board, from the session's first event.",
             ColumnKind.WHOLE,
             "ms",
-            empty="the session ended before",
+            empty="the session ended before, or the hint named no place",
         ),
         lambda row: row.hint.marked_ms,
     ),

@@ -198,6 +198,7 @@ PUBLISHED = frozenset(
         "game",
         "practice",
         "assistance",
+        "conditions",
         "timing",
         "idle_ms",
         "voice",

@@ -26,7 +26,6 @@ from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from kiosk.export.columns import (
-    CONDITION,
     EMBODIMENT,
     PARTICIPANT,
     ROBOT,
@@ -38,6 +37,7 @@ from kiosk.export.columns import (
     Level,
     Table,
     Variable,
+    condition_variable,
     enum_levels,
     make_columns,
     who_sat_there,
@@ -130,9 +130,9 @@ def _counted(counts: EnrolmentCounts) -> Counter[tuple[FlowQuantity, str]]:
     """What the database has counted; nothing that is none."""
     counted = Counter({(FlowQuantity.NOT_STORED, why.value): number for why, number in counts.visits.items()})
     for condition, cell in counts.cells.items():
-        counted[FlowQuantity.QUOTA, condition.value] = cell.quota
-        counted[FlowQuantity.WITHDRAWN, condition.value] = cell.withdrawn
-        counted |= Counter({(FlowQuantity(fate.value), condition.value): n for fate, n in cell.fates.items()})
+        counted[FlowQuantity.QUOTA, condition.name] = cell.quota
+        counted[FlowQuantity.WITHDRAWN, condition.name] = cell.withdrawn
+        counted |= Counter({(FlowQuantity(fate.value), condition.name): n for fate, n in cell.fates.items()})
     return +counted
 
 
@@ -482,7 +482,7 @@ _Columns = tuple[Column[Person], ...]
 
 def _own(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[_Columns, _Columns]:
     """The columns that every study has, before and after those that it declares itself."""
-    return (*_who(extras), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
+    return (*_who(extras), *_language_and_condition(study), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
 
 
 def _taken(own: _Columns, elsewhere: frozenset[str]) -> set[str]:
@@ -508,9 +508,14 @@ def _has_kind(kind: SessionKind) -> Callable[[Person], Cell]:
     return lambda row: row.kept.kind is kind
 
 
+def _language_and_condition(study: StudyMaterials) -> tuple[Column[Person], ...]:
+    return make_columns(
+        (Variable("language", "The language of the session, by its code."), lambda row: row.kept.row["language"]),
+        (condition_variable(plan.settings for plan in study.plans), lambda row: row.kept.row["condition"]),
+    )
+
+
 _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
-    (Variable("language", "The language of the session, by its code."), lambda row: row.kept.row["language"]),
-    (CONDITION, lambda row: row.kept.row["condition"]),
     (
         Variable(
             "allocation_source",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from kiosk import __version__
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import in_design_order
 from kiosk.experiment.information import PUBLISHING
 from kiosk.export.columns import MARKED, ExportOption, TableShape, as_written
 from kiosk.export.records import StudyMaterials
@@ -90,7 +90,7 @@ for condition in sorted({person["condition"] for person in people}):
 def dataset_abstract(study: StudyMaterials, extras: frozenset[ExportOption]) -> str:
     """What the data set is, in a few sentences."""
     there = {plan.condition for plan in study.plans}
-    conditions = ", ".join(condition.value for condition in Condition if condition in there) or "unknown"
+    conditions = ", ".join(condition.name for condition in in_design_order(there)) or "unknown"
     return (
         "Sessions of a study in which people play Concentration, the memory game, and a robot or an avatar helps: when "
         "it helps is chosen by a learnt table, where it points and what it says by the condition. Conditions: "

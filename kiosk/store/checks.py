@@ -161,7 +161,7 @@ def allocation_check(
     if not declared.target_n:
         yield CheckResult.ok(LIST, "no quotas in the study file: every visitor gets the same condition")
         return
-    quotas = {Condition.from_name(name): quota for name, quota in declared.target_n.items()}
+    quotas = {Condition(name): quota for name, quota in declared.target_n.items()}
 
     def look(connection: sqlite3.Connection) -> Iterator[CheckResult]:
         lists = AllocationLists(connection, checked_site(site), kind=kind)
@@ -185,7 +185,7 @@ def allocation_check(
 def _left(stored: AllocationList | None, consumed: set[int], quotas: Mapping[Condition, int]) -> CheckResult:
     slots = () if stored is None else stored.slots
     taken = Counter(slot.condition for slot in slots if slot.number in consumed)
-    done = ", ".join(f"{condition.value} {taken[condition]} of {quota}" for condition, quota in quotas.items())
+    done = ", ".join(f"{condition.name} {taken[condition]} of {quota}" for condition, quota in quotas.items())
     if len(consumed) >= sum(quotas.values()):
         return CheckResult.warning(LIST, f"used up: {done}", "raise the quotas in their ratio, or end the study")
     return CheckResult.ok(LIST, done if slots else f"{done}; fixed when the kiosk opens")

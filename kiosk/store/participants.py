@@ -14,7 +14,7 @@ from itertools import groupby
 from random import Random, SystemRandom
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.labels import read_as
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource, allocation_slots, next_slot, ratio_in_words
@@ -257,7 +257,7 @@ def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> N
 
 def quotas_to_json(quotas: Mapping[Condition, int]) -> str:
     """Quotas by the conditions' names, in the conditions' own order."""
-    return json.dumps({condition.value: quotas[condition] for condition in Condition if condition in quotas})
+    return json.dumps({condition.name: quotas[condition] for condition in in_design_order(quotas)})
 
 
 def quotas_from_json(text: str) -> dict[Condition, int]:
@@ -267,7 +267,7 @@ def quotas_from_json(text: str) -> dict[Condition, int]:
 
 def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
     """Return a list of blocks, each a list of conditions, so that it can be read without the program."""
-    return json.dumps([[p.condition.value for p in block] for _, block in groupby(listed, lambda p: p.block)])
+    return json.dumps([[p.condition.name for p in block] for _, block in groupby(listed, lambda p: p.block)])
 
 
 def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
@@ -355,8 +355,7 @@ def count_enrolment(connection: sqlite3.Connection, *, kind: SessionKind, in_use
             condition: CountCell(
                 quotas[condition], {fate: fates[condition, fate] for fate in Disposition}, withdrawn[condition]
             )
-            for condition in Condition
-            if condition in there
+            for condition in in_design_order(there)
         },
         _visits(connection, kind=kind),
     )

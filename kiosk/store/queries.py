@@ -127,7 +127,7 @@ class SessionRepository:
         try:
             return SessionConfig(
                 settings=Settings.model_validate_json(self.source(row["settings_sha256"])),
-                condition=Condition.from_name(row["condition"]),
+                condition=Condition(row["condition"]),
                 policy=QTable.from_json(self.source(row["policy_source"])),
                 catalogue=Catalogue(Path(row["language"]), json.loads(self.source(row["sentences_source"]))),
                 information=Information.model_validate_json(self.source(row["information_source"])),
@@ -234,7 +234,7 @@ def explain_stored_decision(archive: SessionRepository, number: int, flip: int) 
     plan = archive.plan(number)
     spoken = plan.translation(language_before_flip(events, flip) or plan.language)
     plan = plan if spoken is None else replace(plan, catalogue=spoken.catalogue)
-    helped = plan.condition is not Condition.NO_ASSISTANCE
+    helped = plan.cell.helps
     if flip not in game.decisions and (helped or flip > len(game.flips)):
         raise UserInputError(f"session {number} has {len(game.flips)} flips; nothing was decided about a flip {flip}")
     explanation = DecisionContext.before(flip, game, plan).explained()

@@ -324,7 +324,7 @@ class Recorder:
             {
                 "started_at": datetime.now(UTC).isoformat(timespec="milliseconds"),
                 "seed": provenance.seed,
-                "condition": plan.condition.value,
+                "condition": plan.condition.name,
                 "embodiment": provenance.embodiment,
                 "language": plan.catalogue.language,
                 "kind": int(provenance.kind),
@@ -365,7 +365,7 @@ class Recorder:
             raise ValueError(f"a session whose condition came from {source} cannot take {slot}")
         if slot is None:
             return {"allocation_source": source.value if source else None}
-        if slot.condition is not provenance.plan.condition:
+        if slot.condition != provenance.plan.condition:
             raise ValueError(f"{slot} is not one for {provenance.plan.condition}")
         list_id = self._lists(kind=provenance.kind).list_with(slot)
         return {

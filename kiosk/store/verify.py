@@ -199,7 +199,7 @@ def _places(connection: sqlite3.Connection) -> _Found:
         "SELECT id, condition, allocation_list, allocation_slot FROM session WHERE allocation_slot IS NOT NULL"
     ):
         there = next((each for each in listed.get(number, ()) if each.number == slot), None)
-        if there is None or there.condition.value != condition:
+        if there is None or there.condition.name != condition:
             yield f"session {session}", f"is {condition}, and slot {slot} of list {number} is not"
 
 

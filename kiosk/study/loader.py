@@ -153,10 +153,12 @@ def read_study(settings: Settings) -> StudyConfig:
     look.at("shortcuts", partial(shortcuts, settings.shortcuts))
     look.check_allocation()
     policy = look.policy()
-    catalogues = look.catalogues(policy.actions if policy else ())
+    policies = look.policies(policy)
+    actions = (action for table in (policy, *policies.values()) if table for action in table.actions)
+    catalogues = look.catalogues(tuple(dict.fromkeys(actions)))
     sheets = look.sheets()
     asked = look.questionnaires()
-    condition = look.at("assistance.condition", partial(Condition.from_name, settings.assistance.condition))
+    condition = look.condition("assistance.condition", settings.assistance.condition)
     decks = {key: look.deck(key, board) for key, board in _boards(settings)}
     look.check_practice()
     look.check_logo()
@@ -169,7 +171,8 @@ def read_study(settings: Settings) -> StudyConfig:
             SessionConfig(
                 settings=settings,
                 condition=condition,
-                policy=policy,
+                policy=policies.get(condition.name, policy),
+                policies=policies,
                 catalogue=catalogues[language],
                 information=sheets[language],
                 about_you=asked[0],
@@ -366,14 +369,32 @@ class _Look:
 
     def policy(self) -> QTable | None:
         """Return the frozen table."""
-        name = self._settings.assistance.policy
+        return self._table("assistance.policy", self._settings.assistance.policy)
+
+    def _table(self, key: str, name: str) -> QTable | None:
         if name == NONE:
             return QTable.blank()
-        place = self.at("assistance.policy", partial(located, self._settings, "policies", name))
+        place = self.at(key, partial(located, self._settings, "policies", name))
         table = self.into(partial(QTable.load, place.path)) if place else None
         if place and table:
-            self._came("assistance.policy", name, place, table.sha256)
+            self._came(key, name, place, table.sha256)
         return table
+
+    def policies(self, policy: QTable | None) -> dict[str, QTable]:
+        """Return the tables of all conditions, if any has one of its own; ``policy`` is that of the others."""
+        named = {name: each.policy for name, each in self._settings.conditions.items() if each.policy}
+        if policy is None or not named:
+            return {}
+        own = {name: self._table(f"conditions.{name}.policy", table) for name, table in named.items()}
+        return {name: own.get(name) or policy for name in self._settings.all_conditions}
+
+    def condition(self, key: str, name: str) -> Condition | None:
+        """Return the condition of a name, if there is one."""
+        known = self.at(key, partial(self._settings.condition, name))
+        misread = read_as(name)
+        if misread:
+            self._blame(key, f"the condition {name!r} is taken for {misread} by programs that read tables")
+        return Condition(name) if known else None
 
     def deck(self, key: str, board: Game | Practice) -> tuple[str, ...]:
         """Return the names of a deck's cards, in alphabetical order; there are enough for the board."""
@@ -403,9 +424,7 @@ class _Look:
     def check_allocation(self) -> None:
         """Every quota is one of a condition, and every block holds them in ratio."""
         declared = self._settings.randomisation
-        named = {
-            name: self.at("randomisation.target_n", partial(Condition.from_name, name)) for name in declared.target_n
-        }
+        named = {name: self.condition("randomisation.target_n", name) for name in declared.target_n}
         quotas = {condition: declared.target_n[name] for name, condition in named.items() if condition}
         if quotas and len(quotas) == len(named):
             self.at(
@@ -461,8 +480,9 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
     purposes = {purpose.id for plan in study.plans for purpose in plan.information.consent.purposes}
     if "consent" in settings.stages and PUBLISHING not in purposes:
         yield f"consent.text: no purpose is named {PUBLISHING!r}, so nothing is left out of a data set for publishing"
-    if Condition.NO_ASSISTANCE in _given(study):
-        yield "in the condition 'no_assistance' there is no help, but the introduction promises it to everybody"
+    for name in sorted(condition.name for condition in _given(study)):
+        if not settings.condition(name).helps:
+            yield f"in the condition {name!r} there is no help, but the introduction promises it to everybody"
     if not settings.consent.contact:
         yield "consent.contact is empty, so visitors are not told whom to write to"
 
@@ -470,7 +490,7 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
 def _given(study: StudyConfig) -> set[Condition]:
     """Return the conditions that visitors can get without a decision of the experimenter's."""
     return {plan.condition for plan in study.plans} | {
-        Condition.from_name(name) for name in study.settings.randomisation.target_n
+        Condition(name) for name in study.settings.randomisation.target_n
     }
 
 

@@ -42,36 +42,51 @@ This page is printed by `recollect study reference`; change the declarations in 
 
 def as_study_file(settings: Settings) -> str:
     """Return a study file that sets every key to what it is in ``settings``, each under its sentence."""
-    parts = [_HEAD]
+    parts, described = [_HEAD], set[type[BaseModel]]()
     for section, model in _sections(settings):
+        kind = type(model)
+        if kind in described:
+            lines = (f"{key} = {_toml(getattr(model, key))}\n" for key, _ in _keys(kind))
+            parts.append(f"\n[{section}]\n{''.join(lines)}")
+            continue
         if section:
-            parts.append(f"\n{_comment(_described(type(model)))}\n[{section}]\n")
-        parts += (_entry(key, field, getattr(model, key)) for key, field in _keys(type(model)))
+            parts.append(f"\n{_comment(_described(kind))}\n[{section}]\n")
+        parts += (_entry(key, field, getattr(model, key)) for key, field in _keys(kind))
+        described.add(kind)
     return "".join(parts)
 
 
 def as_page(model: type[Settings]) -> str:
     """Return the reference of every key, as Markdown."""
     parts = [_PAGE]
-    for section, settings in _sections(model()):
+    written = set[type[BaseModel]]()
+    for section, settings in _sections(model(), "NAME"):
+        if type(settings) in written:
+            continue
+        written.add(type(settings))
         heading = f"## [{section}]\n\n{_described(type(settings))}" if section else "## Above all sections"
         parts.append(f"\n{heading}\n\n| key | what it sets | it may be | without it |\n|---|---|---|---|\n")
         parts += (_row(key, field, getattr(settings, key)) for key, field in _keys(type(settings)))
     return "".join(parts)
 
 
-def _sections(settings: Settings) -> Iterator[tuple[str, BaseModel]]:
-    """Yield the study file itself, without a name, and every section of it."""
+def _sections(settings: Settings, name: str = "") -> Iterator[tuple[str, BaseModel]]:
+    """Yield the study file itself, without a name, and every section of it; declared ones may get another name."""
     yield "", settings
     for key in type(settings).model_fields:
-        if isinstance(section := getattr(settings, key), BaseModel):
-            yield key, section
+        match getattr(settings, key):
+            case BaseModel() as section:
+                yield key, section
+            case {} as declared:
+                sections = {each: model for each, model in declared.items() if isinstance(model, BaseModel)}
+                yield from ((f"{key}.{name or each}", model) for each, model in sections.items())
 
 
 def _keys(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
     """Yield what is no section."""
     for key, field in model.model_fields.items():
-        if not isinstance(field.default, BaseModel):
+        declared = [*field.default.values()] if isinstance(field.default, dict) else [field.default]
+        if not any(isinstance(each, BaseModel) for each in declared):
             yield key, field
 
 

@@ -62,7 +62,7 @@ class ConditionAssigner:
         self._followed: _Choice | None = None
         """The choice that the latest session follows."""
         allocation = study.settings.randomisation
-        quotas = {Condition.from_name(name): quota for name, quota in allocation.target_n.items()}
+        quotas = {study.condition(name): quota for name, quota in allocation.target_n.items()}
         self._listed = bool(quotas) and origin.condition is None
         if self._listed:
             recorder.create_allocation_list(quotas, allocation.block_size, allocation.seed, kind=origin.kind)
@@ -84,7 +84,7 @@ class ConditionAssigner:
 
     def choose(self, condition: Condition | None, reason: str) -> None:
         """Have the next session in this condition, or, with None, in the list's; raises StorageError."""
-        name = condition.value if condition else "automatic"
+        name = condition.name if condition else "automatic"
         self._recorder.add_audit_event(AuditEvent.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
         self._choice = None if condition is None else _Choice(condition)
 

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from kiosk.assistance.assistant import Assistant
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import NO_GATE, ActionSpec, FlipInMove, Gate
-from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording, reasoning
+from kiosk.assistance.wording import PlainSentences, ReasonedSentences, ReminderSentences, Wording, reasoning
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 from tests.samples import ANIMALS, CATALOGUES, always
 
@@ -106,8 +106,8 @@ def cell(asked: Asked) -> tuple[bool, str]:
 
 NEVER = {
     "en": r"never|\bnot\b|unseen|somewhere new|for the first time\.$|new, and its partner",
-    "it": r"\bmai\b|non ancora|ancora no\b|non l'hai ancora|non è ancora|non l'altr|un[oa] sol[oa], |non hai ancora"
-    r"|tutta da scoprire|posto nuovo",
+    "it": r"\bmai\b|non ancora|non sono ancora|ancora no\b|non l'hai ancora|non è ancora|non l'altr"
+    r"|un[oa] sol[oa], |non hai ancora|tutta da scoprire|posto nuovo",
     "es": r"nunca|ninguna|todavía no|aún no|no (el|la) otr|solo has visto un[oa], |por descubrir|sitio nuevo",
 }
 """Says that one of the two cards was never turned up; every reason says so if and only if it is true."""
@@ -187,7 +187,7 @@ def check(asked: Asked, language: str) -> None:
     catalogue, wording = CATALOGUES[language], Wording(CATALOGUES[language], Random(0))
     reasons = catalogue.wordings(reasoning(asked.hint), **catalogue.card(asked.hint.name))
     places = PlainSentences(wording).all_wordings(asked.hint)
-    for reason in reasons:
+    for reason in (*reasons, *ReminderSentences(wording).all_wordings(asked.hint)):
         check_reason(reason, language, asked)
         check_names(reason, language, asked)
     for where in places:

@@ -12,7 +12,16 @@ import pytest
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
 from kiosk.assistance.policy import ActionSpec, FlipInMove
-from kiosk.assistance.wording import Catalogue, PlainSentences, ReasonedSentences, Wording, place, pointing, reasoning
+from kiosk.assistance.wording import (
+    Catalogue,
+    PlainSentences,
+    ReasonedSentences,
+    Wording,
+    place,
+    pointing,
+    reasoning,
+    reminding,
+)
 from kiosk.config import ASSETS
 from kiosk.game import Position
 from tests.samples import ANIMALS, CATALOGUES, ENGLISH
@@ -68,7 +77,7 @@ def test_every_hint_has_three_ways_to_be_said(language: Catalogue, given: Hint) 
 
 @in_every_language
 def test_every_message_about_hints_is_used_and_every_used_one_is_there(language: Catalogue) -> None:
-    used = {message(given) for given in EVERY_HINT for message in (reasoning, pointing)}
+    used = {message(given) for given in EVERY_HINT for message in (reasoning, reminding, pointing)}
     assert set(messages(language, "hints.ftl")) == used
 
 

@@ -17,7 +17,7 @@ from tests.bench.percentiles import tell_percentiles
 from tests.samples import ANIMALS, ENGLISH, always
 
 
-@pytest.mark.parametrize("condition", [Condition.TOM, Condition.NOTOM], ids=lambda condition: str(condition.value))
+@pytest.mark.parametrize("condition", [Condition.TOM, Condition.NOTOM], ids=lambda condition: str(condition.name))
 def test_decision(benchmark: Any, condition: Condition) -> None:
     """State, gate, table, mentaliser and wording, before a first card in the middle of a game."""
     game = Concentration(Board.deal(4, 6, ANIMALS, Random(1)))
@@ -25,7 +25,7 @@ def test_decision(benchmark: Any, condition: Condition) -> None:
     for _ in range(40):
         game.flip(chance.choice(game.closed))
         game.turn_back()
-    given = help_in(condition, TargetRule.MOST_FLIPPED, Wording(ENGLISH, Random(3)), Random(4))
+    given = help_in(condition.known, TargetRule.MOST_FLIPPED, Wording(ENGLISH, Random(3)), Random(4))
     assert given is not None
     assistant = Assistant(always(ActionSpec.SUG_CARD), given.mentaliser)
     sentences = given.sentences

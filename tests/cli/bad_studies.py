@@ -7,7 +7,7 @@ from functools import reduce
 from pathlib import Path
 
 from kiosk.config import ASSETS, STAGES, Settings
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS
 from kiosk.experiment.labels import MISSING, NUMBER, TRUTH
 from kiosk.experiment.questionnaire import KINDS
 from kiosk.study.loader import ONE_NAME
@@ -16,7 +16,7 @@ KNOWN = {
     "{assets}": str(ASSETS),
     "{sections}": ", ".join(Settings.model_fields),
     "{stages}": ", ".join(STAGES),
-    "{conditions}": ", ".join(condition.value for condition in Condition),
+    "{conditions}": ", ".join(condition.name for condition in CONDITIONS),
     "{kinds}": ", ".join(map(repr, KINDS)),
 }
 """What sentences list of what there is."""

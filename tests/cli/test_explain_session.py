@@ -13,7 +13,7 @@ import pytest
 from kiosk import UserInputError
 from kiosk.assistance.policy import Gate
 from kiosk.cli.main import main
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, PolicyUpdated, Stage
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionKind
@@ -37,7 +37,7 @@ def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) 
     return driver
 
 
-@pytest.mark.parametrize("condition", [condition for condition in Condition if condition.value != "no_assistance"])
+@pytest.mark.parametrize("condition", [condition for condition in CONDITIONS if condition.name != "no_assistance"])
 def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: Condition) -> None:
     driver = stored(tmp_path, condition)
     given = {hint.flip: hint for hint in driver.noted(HintGiven)}

@@ -248,7 +248,10 @@ def test_the_documented_example_names_every_key() -> None:
     unset = {"randomisation": {"seed"}, "robot": {"port"}}
     for key, field in Settings.model_fields.items():
         assert key in given
-        if isinstance(given[key], dict):
+        declared = field.default if isinstance(field.default, dict) else {}
+        for name, condition in declared.items():
+            assert set(given[key][name]) == set(type(condition).model_fields)
+        if isinstance(given[key], dict) and not declared:
             assert set(given[key]) == set(type(field.default).model_fields) - unset.get(key, set())
 
 

@@ -12,7 +12,7 @@ from kiosk.assistance.policy import NO_GATE, Gate
 from kiosk.config import STAGES, Game, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import BoardWait, Outcome
 from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer, WorldEvent
 from kiosk.experiment.items import TextPage
@@ -93,7 +93,7 @@ class AnySession(RuleBasedStateMachine):
         self.closed_in: Stage | None = None
 
     @initialize(
-        condition=st.sampled_from(Condition),
+        condition=st.sampled_from(CONDITIONS),
         seed=st.integers(0, 10**6),
         gate=st.sampled_from([NO_GATE, Gate(2, 2, 4)]),
         shape=st.sampled_from([(2, 2), (3, 4)]),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -10,26 +13,32 @@ from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording
-from kiosk.experiment.condition import Condition, Help, help_in
-from kiosk.experiment.events import HintGiven
+from kiosk.cli.study import summarised
+from kiosk.config import ASSETS, PAPER_CONDITIONS, Settings, Timing
+from kiosk.experiment.condition import CONDITIONS, Condition, Help, help_in, target_rule
+from kiosk.experiment.events import HintGiven, HintHighlighted, Stage
+from kiosk.experiment.projections import measure
+from kiosk.experiment.replay import first_difference, replay_events
+from kiosk.experiment.session_state import SessionState
 from kiosk.game import Concentration, Position
+from kiosk.study.loader import read_study
 from tests.experiment.driver import Driver, at_random
 from tests.samples import ENGLISH, always, board_of, plan
 
 MENTALISED = {Condition.TOM, Condition.MENTALISED_UNEXPLAINED}
 EXPLAINED = {Condition.TOM, Condition.RANDOM_EXPLAINED}
-HELPED = [condition for condition in Condition if condition is not Condition.NO_ASSISTANCE]
+HELPED = [condition for condition in CONDITIONS if condition != Condition.NO_ASSISTANCE]
 
 
 def given_in(condition: Condition, rule: TargetRule = TargetRule.MOST_FLIPPED) -> Help:
     """Return the help in a condition in which somebody helps."""
-    given = help_in(condition, rule, Wording(ENGLISH, Random(1)), Random(2))
+    given = help_in(condition.known, rule, Wording(ENGLISH, Random(1)), Random(2))
     assert given is not None
     return given
 
 
 def test_the_conditions_are_the_four_cells_and_no_assistance() -> None:
-    assert [condition.value for condition in Condition] == [
+    assert [condition.name for condition in CONDITIONS] == [
         "tom",
         "notom",
         "mentalised_unexplained",
@@ -39,7 +48,9 @@ def test_the_conditions_are_the_four_cells_and_no_assistance() -> None:
 
 
 def test_without_assistance_nobody_helps() -> None:
-    assert help_in(Condition.NO_ASSISTANCE, TargetRule.MOST_FLIPPED, Wording(ENGLISH, Random(1)), Random(2)) is None
+    assert (
+        help_in(Condition.NO_ASSISTANCE.known, TargetRule.MOST_FLIPPED, Wording(ENGLISH, Random(1)), Random(2)) is None
+    )
 
 
 @pytest.mark.parametrize("rule", [TargetRule.MOST_FLIPPED, TargetRule.MOST_RECENT])
@@ -73,9 +84,9 @@ def test_a_condition_shows_in_what_is_said(condition: Condition) -> None:
         assert hint.sentence.endswith(where)
 
 
-@pytest.mark.parametrize("condition", Condition)
+@pytest.mark.parametrize("condition", CONDITIONS)
 def test_a_condition_is_found_by_its_name(condition: Condition) -> None:
-    assert Condition.from_name(condition.value) is condition
+    assert Condition.from_name(condition.name) == condition
 
 
 @pytest.mark.parametrize("name", ["", "ToM", "TOM", "both"])
@@ -89,7 +100,7 @@ def test_another_name_is_refused_with_all_that_there_are(name: str) -> None:
 @pytest.mark.parametrize("seed", range(5))
 def test_every_condition_plays_the_same_board_on_the_same_seed(seed: int) -> None:
     dealt = set()
-    for condition in Condition:
+    for condition in CONDITIONS:
         driver = Driver(plan(condition), seed)
         driver.to_the_game()
         driver.play(at_random(seed))
@@ -113,3 +124,89 @@ def test_the_two_conditions_differ_on_first_cards_and_agree_on_second_ones() -> 
     assert any(
         one.target != other.target for one, other in zip(tom, notom, strict=True) if one.card is FlipInMove.FIRST
     )
+
+
+REMIND = {"remind": {"location": False}}
+"""A study's own condition: the explanation without the place."""
+
+
+def reminding(seed: int = 4, **settings: Any) -> Driver:
+    """A game in which every flip is preceded by a reminder."""
+    driver = Driver(plan(Condition("remind"), always(ActionSpec.SUG_CARD), conditions=REMIND, **settings), seed)
+    driver.to_the_game()
+    driver.play(at_random(seed))
+    return driver
+
+
+def test_a_condition_can_remind_of_a_pair_and_name_no_place() -> None:
+    driver = reminding()
+    hints = driver.noted(HintGiven)
+    assert len(hints) > 40
+    assert not driver.noted(HintHighlighted)
+    for hint in hints:
+        card = ENGLISH.card(hint.name)
+        assert hint.sentence in ENGLISH.wordings(f"remind-{hint.card.value}-{hint.reason.value}", **card)
+        assert (hint.row, hint.column) == (None, None)
+        assert not re.search(r"\d|row|column", hint.sentence)
+
+
+def test_a_reminder_is_followed_by_a_card_of_its_pair_and_is_no_assistance_with_the_place() -> None:
+    driver = reminding()
+    (game,) = (board for board in SessionState.from_events(driver.events).boards if board.stage is Stage.GAME)
+    for flip, hint in game.hints.items():
+        assert game.followed(hint) is (game.flips[flip].event.card == hint.given.name)
+    measured = measure(driver.events)
+    assert (measured.hints, measured.assistance_per_flip) == (len(game.hints), 0)
+    assert measured.followed == sum(game.followed(hint) is True for hint in game.hints.values()) / len(game.hints)
+
+
+def test_a_session_in_a_declared_condition_is_replayed_as_it_was() -> None:
+    driver = reminding()
+    assert first_difference(replay_events(driver.plan, 4, driver.events), driver.events) is None
+
+
+def test_a_condition_has_its_own_table_and_times(tmp_path: Path) -> None:
+    (tmp_path / "own.json").write_text(always(ActionSpec.SUG_ROW).to_json(), "utf-8")
+    file = tmp_path / "study.toml"
+    file.write_text(
+        'languages = ["en"]\n[randomisation]\ntarget_n = { tom = 4, rows = 4 }\n'
+        '[conditions.rows]\npolicy = "./own.json"\ntarget_rule = "most_recent"\ntiming = { hold_min_ms = 7000 }\n',
+        "utf-8",
+    )
+    study = read_study(Settings.read(file))
+    rows = study.plan("en", Condition("rows"))
+    assert (rows.policy.sha256, rows.timing.hold_min_ms) == (always(ActionSpec.SUG_ROW).sha256, 7000)
+    tom = rows.in_condition(Condition.TOM)
+    assert (tom.policy.name, tom.timing) == ("default", Timing())
+    assert target_rule(rows.cell, TargetRule.MOST_FLIPPED) is TargetRule.MOST_RECENT
+    assert list(summarised(study)["conditions"]) == ["tom", "rows"]
+
+
+WRONG = {
+    "[conditions.mute]\nexplanation = false\nlocation = false": "conditions.mute: a hint without an explanation and",
+    "[conditions.Remind]\nlocation = false": "'Remind' is no name of a condition",
+    "[conditions.tom]\nlocation = false": "conditions: 'tom' has a meaning of its own",
+    "[conditions.new]\ntiming = { hold_min = 3 }": "conditions.new.timing: there is no key 'hold_min'",
+    "[conditions.new]\ntiming = { hold_min_ms = -1 }": "conditions.new.timing: hold_min_ms must be from 0 to 60000",
+    '[conditions.new]\npolicy = "missing"': "conditions.new.policy: there is no",
+    '[conditions.new]\ntarget_rule = "best"': "conditions.new.target_rule must be",
+    '[assistance]\ncondition = "new"': "assistance.condition: there is no condition 'new'; there are tom, notom",
+    "[randomisation]\ntarget_n = { tom = 2, new = 2 }\nblock_size = 2": "there is no condition 'new'",
+    '[assistance]\ncondition = "nan"\n[conditions.nan]': "the condition 'nan' is taken for a missing value",
+}
+
+
+@pytest.mark.parametrize(("lines", "sentence"), WRONG.items(), ids=WRONG)
+def test_a_condition_that_cannot_be_is_refused_in_a_sentence(lines: str, sentence: str, tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(f'languages = ["en"]\n{lines}\n', "utf-8")
+    with pytest.raises(UserInputError) as refused:
+        read_study(Settings.read(file))
+    assert sentence in refused.value.sentences[0]
+    assert str(file) in refused.value.sentences[0]
+
+
+def test_the_shipped_study_declares_the_papers_two() -> None:
+    shipped = Settings.read(ASSETS / "studies" / "paper.toml")
+    assert list(shipped.conditions) == list(shipped.randomisation.target_n) == ["tom", "notom"]
+    assert shipped.conditions == PAPER_CONDITIONS

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.randomisation import AllocationSlot, allocation_slots, next_slot
 
 STUDY = {Condition.TOM: 28, Condition.NOTOM: 28}
 
-SHARES = st.dictionaries(st.sampled_from(Condition), st.integers(1, 4), min_size=1)
+SHARES = st.dictionaries(st.sampled_from(CONDITIONS), st.integers(1, 4), min_size=1)
 SEEDS = st.integers(0, 2**32 - 1)
 
 
@@ -57,7 +57,7 @@ def test_the_study_s_list() -> None:
 
 def test_a_list_does_not_change_from_one_release_to_the_next() -> None:
     """A folder's list is stored; that the same seed draws it again is how others can check it."""
-    drawn = "".join(place.condition.value[0] for place in allocation_slots(STUDY, 8, seed=7)[:24])
+    drawn = "".join(place.condition.name[0] for place in allocation_slots(STUDY, 8, seed=7)[:24])
     assert drawn == "nnttnttnnntntttntnnttnnt"
 
 
@@ -170,7 +170,7 @@ class ABooth(RuleBasedStateMachine):
         place = self.coming
         self.sessions.append((place, place.condition if place else next(iter(self.quotas)), finished))
 
-    @rule(condition=st.sampled_from(Condition), finished=st.booleans())
+    @rule(condition=st.sampled_from(CONDITIONS), finished=st.booleans())
     def be_chosen(self, condition: Condition, finished: bool) -> None:  # noqa: FBT001 - as above
         self.sessions.append((None, condition, finished))
 

@@ -9,7 +9,7 @@ from kiosk.assistance.policy import ActionSpec
 from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.session import Session
@@ -37,7 +37,7 @@ def test_a_session_goes_through_every_stage_once(stages: tuple[str, ...]) -> Non
 
 
 @pytest.mark.parametrize("voice", Voice)
-@pytest.mark.parametrize("condition", Condition)
+@pytest.mark.parametrize("condition", CONDITIONS)
 def test_a_session_comes_to_its_end_whatever_the_body_does(voice: Voice, condition: Condition) -> None:
     driver = Driver(whole(condition), 3, voice)
     driver.whole_session(at_random(3))

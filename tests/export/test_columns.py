@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import SessionEvent, WorldEvent
+from kiosk.experiment.events import SessionEvent, Status, WorldEvent
 from kiosk.experiment.projections import Measures
 from kiosk.export.columns import (
     SEPARATOR,
@@ -76,9 +75,9 @@ def test_every_measure_has_a_column() -> None:
 
 
 def test_levels_are_those_of_the_closed_set_and_no_others() -> None:
-    assert [level.name for level in enum_levels(Condition)] == [condition.value for condition in Condition]
+    assert [level.name for level in enum_levels(Status)] == [status.value for status in Status]
     with pytest.raises(ValueError, match="there is no"):
-        enum_levels(Condition, help="there is no such condition")
+        enum_levels(Status, help="there is no such end")
 
 
 def test_the_rows_of_every_table_are_told_apart_by_its_key(read: Read) -> None:

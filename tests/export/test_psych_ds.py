@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS
 from tests.export.psych_ds import issues
 
 TABLE = "data/task-concentration_description-flips_data.csv"
@@ -117,7 +117,7 @@ def test_each_fault_would_be_seen(code: str, exported: Path, tmp_path: Path) -> 
 def test_the_example_of_the_data_set_runs(exported: Path) -> None:
     command = [sys.executable, str(exported / "analysis" / "example.py")]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
-    assert [line.split()[0] for line in lines] == sorted(condition.value for condition in Condition)
+    assert [line.split()[0] for line in lines] == sorted(condition.name for condition in CONDITIONS)
 
 
 def test_the_example_of_the_page_runs_and_says_the_same(exported: Path, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from random import Random
 from types import MappingProxyType
 
 from kiosk.config import ASSETS
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.events import Stage
 from kiosk.experiment.items import (
     Answer,
@@ -30,7 +30,6 @@ from tests.samples import mixed, whole
 COMMIT = "abc123"
 SHIPPED = ASSETS / "questionnaires"
 SCALES = Questionnaire.read(SHIPPED / "social-intelligence.toml")
-CONDITIONS = tuple(Condition)
 
 
 def study_plan(condition: Condition = Condition.TOM, seed: int = 0) -> SessionConfig:

@@ -49,10 +49,10 @@ def test_a_choice_holds_for_the_next_session_and_no_longer(assigner: ConditionAs
 def test_a_choice_outlasts_a_session_that_is_not_kept(assigner: ConditionAssigner) -> None:
     assigner.choose(Condition.NO_ASSISTANCE, "a test")
     assigner.next_session("en")
-    assert assigner.next_session("en").plan.condition is Condition.NO_ASSISTANCE
+    assert assigner.next_session("en").plan.condition == Condition.NO_ASSISTANCE
 
 
-@pytest.mark.parametrize("later", [Condition.TOM, Condition.NO_ASSISTANCE], ids=lambda condition: condition.value)
+@pytest.mark.parametrize("later", [Condition.TOM, Condition.NO_ASSISTANCE], ids=lambda condition: condition.name)
 def test_what_is_chosen_while_somebody_decides_holds_for_the_session_after_theirs(
     assigner: ConditionAssigner, later: Condition
 ) -> None:
@@ -60,7 +60,7 @@ def test_what_is_chosen_while_somebody_decides_holds_for_the_session_after_their
     session = assigner.next_session("en")
     assigner.choose(later, "another one")
     assigner.confirm_recorded(session)
-    assert assigner.chosen is later
+    assert assigner.chosen == later
 
 
 def test_a_list_that_the_disk_does_not_take_is_the_disk_s_failure_and_not_the_study_s(tmp_path: Path) -> None:

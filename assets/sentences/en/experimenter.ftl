@@ -89,6 +89,7 @@ console-condition-tom = ToM
 console-condition-notom = no ToM
 console-condition-mentalised-unexplained = ToM, no reasons
 console-condition-random-explained = random, reasons
+console-condition-declared = { $name }
 console-condition-no-assistance = no help
 
 ## Sessions

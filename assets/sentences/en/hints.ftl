@@ -74,6 +74,60 @@ reason-second-both-often =
     .b = You have met this { $card } card and its partner more than once each.
     .c = This { $card } card and its partner have both been up at least twice.
 
+## Reminders before a first card: said alone, without a place
+
+# Neither card of the pair was ever turned up.
+remind-first-nothing-known =
+    .a = There is a pair that you have not turned up yet.
+    .b = Two cards that belong together are still unseen.
+# One card was turned up once, the other never.
+remind-first-one-seen-once =
+    .a = There are two { $card } cards: you have seen one of them once, and not the other.
+    .b = One of the two { $card } cards has been up once; the other is still unseen.
+# Both were turned up once.
+remind-first-both-seen-once =
+    .a = You have seen both { $card } cards.
+    .b = Both { $card } cards have been up, each of them once.
+# One was turned up twice or more, the other never.
+remind-first-often-and-never =
+    .a = There are two { $card } cards: you have seen one of them more than once, the other never.
+    .b = One of the two { $card } cards has been up at least twice, the other not at all.
+# One was turned up twice or more, the other once.
+remind-first-often-and-once =
+    .a = There are two { $card } cards: you have seen one of them more than once, the other just once.
+    .b = One of the two { $card } cards has been up at least twice, the other only once.
+# Both were turned up twice or more.
+remind-first-both-often =
+    .a = You have seen both { $card } cards more than once.
+    .b = Both { $card } cards have been up, each of them at least twice.
+
+## Reminders before a second card
+
+# The open card is up for the first time; its partner was never turned up.
+remind-second-first-sight =
+    .a = This is the first { $card } card that you turn up; you have not seen the other one.
+    .b = The other { $card } card has not been up yet.
+# The open card is up for the first time; its partner was turned up once.
+remind-second-both-seen-once =
+    .a = You have seen the other { $card } card once.
+    .b = The other { $card } card has been up once before.
+# The open card was turned up before; its partner never.
+remind-second-often-and-never =
+    .a = You have seen this { $card } card before, but not the other one.
+    .b = This { $card } card was up before; the other one has not been up yet.
+# The open card was turned up before; its partner once.
+remind-second-often-and-once =
+    .a = You have seen this { $card } card before, and the other one once.
+    .b = This { $card } card was up before, and the other one has been up once.
+# The open card is up for the first time; its partner was turned up twice or more.
+remind-second-open-once-mate-often =
+    .a = You have seen the other { $card } card more than once.
+    .b = The other { $card } card has been up at least twice.
+# The open card was turned up before; its partner twice or more.
+remind-second-both-often =
+    .a = You have seen this { $card } card before, and the other one more than once.
+    .b = This { $card } card was up before, and the other one has been up at least twice.
+
 ## Places: a sentence may also stand alone, without a reason before it
 
 point-first-column =

@@ -89,6 +89,7 @@ console-condition-tom = ToM
 console-condition-notom = sin ToM
 console-condition-mentalised-unexplained = ToM, sin motivos
 console-condition-random-explained = al azar, con motivos
+console-condition-declared = { $name }
 console-condition-no-assistance = sin ayuda
 
 ## Sessions

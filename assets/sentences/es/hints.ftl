@@ -108,6 +108,60 @@ reason-second-both-often =
        *[m] Los dos { $card-plural } te han salido más de una vez cada uno.
     }
 
+## Reminders before a first card: said alone, without a place
+
+# Neither card of the pair was ever turned up.
+remind-first-nothing-known =
+    .a = Hay una pareja que todavía no has visto.
+    .b = Dos cartas iguales todavía no han salido.
+# One card was turned up once, the other never.
+remind-first-one-seen-once =
+    .a = De las dos cartas con { $card-el } has visto una, una vez; la otra, todavía no.
+    .b = Una de las dos cartas con { $card-el } ha salido una vez; la otra, todavía no.
+# Both were turned up once.
+remind-first-both-seen-once =
+    .a = Ya has visto las dos cartas con { $card-el }.
+    .b = Las dos cartas con { $card-el } ya han salido, una vez cada una.
+# One was turned up twice or more, the other never.
+remind-first-often-and-never =
+    .a = De las dos cartas con { $card-el } has visto una más de una vez; la otra, nunca.
+    .b = Una de las dos cartas con { $card-el } ha salido al menos dos veces; la otra, todavía no.
+# One was turned up twice or more, the other once.
+remind-first-often-and-once =
+    .a = De las dos cartas con { $card-el } has visto una más de una vez; la otra, una sola vez.
+    .b = Una de las dos cartas con { $card-el } ha salido al menos dos veces; la otra, una sola vez.
+# Both were turned up twice or more.
+remind-first-both-often =
+    .a = Ya has visto las dos cartas con { $card-el }, más de una vez cada una.
+    .b = Las dos cartas con { $card-el } ya han salido, al menos dos veces cada una.
+
+## Reminders before a second card
+
+# The open card is up for the first time; its partner was never turned up.
+remind-second-first-sight =
+    .a = Es la primera carta con { $card-el } que levantas; la otra todavía no la has visto.
+    .b = La otra carta con { $card-el } todavía no ha salido.
+# The open card is up for the first time; its partner was turned up once.
+remind-second-both-seen-once =
+    .a = La otra carta con { $card-el } ya la has visto una vez.
+    .b = La otra carta con { $card-el } ya ha salido una vez.
+# The open card was turned up before; its partner never.
+remind-second-often-and-never =
+    .a = Esta carta con { $card-el } ya la habías visto; la otra, todavía no.
+    .b = Esta carta con { $card-el } ya había salido; la otra, todavía no.
+# The open card was turned up before; its partner once.
+remind-second-often-and-once =
+    .a = Esta carta con { $card-el } ya la habías visto, y la otra la has visto una vez.
+    .b = Esta carta con { $card-el } ya había salido, y la otra ha salido una vez.
+# The open card is up for the first time; its partner was turned up twice or more.
+remind-second-open-once-mate-often =
+    .a = La otra carta con { $card-el } ya la has visto más de una vez.
+    .b = La otra carta con { $card-el } ya ha salido al menos dos veces.
+# The open card was turned up before; its partner twice or more.
+remind-second-both-often =
+    .a = Esta carta con { $card-el } ya la habías visto, y la otra la has visto más de una vez.
+    .b = Esta carta con { $card-el } ya había salido, y la otra ha salido al menos dos veces.
+
 ## Places: a sentence may also stand alone, without a reason before it
 
 point-first-column =

@@ -89,6 +89,7 @@ console-condition-tom = ToM
 console-condition-notom = senza ToM
 console-condition-mentalised-unexplained = ToM, senza motivi
 console-condition-random-explained = casuale, con motivi
+console-condition-declared = { $name }
 console-condition-no-assistance = nessun aiuto
 
 ## Sessions

@@ -108,6 +108,60 @@ reason-second-both-often =
        *[m] I due { $card-plurale } li hai incontrati più di una volta ciascuno.
     }
 
+## Reminders before a first card: said alone, without a place
+
+# Neither card of the pair was ever turned up.
+remind-first-nothing-known =
+    .a = C'è una coppia che non hai ancora visto.
+    .b = Due carte uguali non sono ancora uscite.
+# One card was turned up once, the other never.
+remind-first-one-seen-once =
+    .a = Delle due carte con { $card-il } ne hai vista una, una volta; l'altra non ancora.
+    .b = Una delle due carte con { $card-il } è uscita una volta, l'altra non ancora.
+# Both were turned up once.
+remind-first-both-seen-once =
+    .a = Hai già visto tutte e due le carte con { $card-il }.
+    .b = Le due carte con { $card-il } sono uscite tutte e due, una volta ciascuna.
+# One was turned up twice or more, the other never.
+remind-first-often-and-never =
+    .a = Delle due carte con { $card-il } ne hai vista una più di una volta, l'altra mai.
+    .b = Una delle due carte con { $card-il } è uscita almeno due volte, l'altra non ancora.
+# One was turned up twice or more, the other once.
+remind-first-often-and-once =
+    .a = Delle due carte con { $card-il } ne hai vista una più di una volta, l'altra una volta sola.
+    .b = Una delle due carte con { $card-il } è uscita almeno due volte, l'altra una volta sola.
+# Both were turned up twice or more.
+remind-first-both-often =
+    .a = Hai già visto tutte e due le carte con { $card-il }, ciascuna più di una volta.
+    .b = Le due carte con { $card-il } sono uscite tutte e due, almeno due volte ciascuna.
+
+## Reminders before a second card
+
+# The open card is up for the first time; its partner was never turned up.
+remind-second-first-sight =
+    .a = È la prima carta con { $card-il } che giri; l'altra non l'hai ancora vista.
+    .b = L'altra carta con { $card-il } non è ancora uscita.
+# The open card is up for the first time; its partner was turned up once.
+remind-second-both-seen-once =
+    .a = L'altra carta con { $card-il } l'hai già vista una volta.
+    .b = L'altra carta con { $card-il } è già uscita una volta.
+# The open card was turned up before; its partner never.
+remind-second-often-and-never =
+    .a = Questa carta con { $card-il } l'avevi già vista, l'altra non ancora.
+    .b = Questa carta con { $card-il } era già uscita, l'altra non ancora.
+# The open card was turned up before; its partner once.
+remind-second-often-and-once =
+    .a = Questa carta con { $card-il } l'avevi già vista, e l'altra l'hai vista una volta.
+    .b = Questa carta con { $card-il } era già uscita, e l'altra è uscita una volta.
+# The open card is up for the first time; its partner was turned up twice or more.
+remind-second-open-once-mate-often =
+    .a = L'altra carta con { $card-il } l'hai già vista più di una volta.
+    .b = L'altra carta con { $card-il } è già uscita almeno due volte.
+# The open card was turned up before; its partner twice or more.
+remind-second-both-often =
+    .a = Questa carta con { $card-il } l'avevi già vista, e l'altra l'hai vista più di una volta.
+    .b = Questa carta con { $card-il } era già uscita, e l'altra è uscita almeno due volte.
+
 ## Places: a sentence may also stand alone, without a reason before it
 
 point-first-column =

@@ -146,7 +146,8 @@ class ActionController:
         self._write = write
         self._upkeep = upkeep
         self._text = catalogue.text
-        self._turn = condition_cycle(booth.assigner.study.settings.randomisation.target_n)
+        settings = booth.assigner.study.settings
+        self._turn = condition_cycle(settings.randomisation.target_n, settings.all_conditions)
         self._acts: deque[Callable[[], None]] = deque()
         self._acting = False
         self._busy = BusyWait(booth.clock, booth.recorder.wait_ms, self._tell_busy)

@@ -244,10 +244,10 @@ class Panel:
             "session": told("console-session-paused") if under_way else told("console-session-none"),
             "underWay": under_way,
             "conditions": [
-                {"value": each.value if each else AUTOMATIC, "label": condition_name(each, told)}
+                {"value": each.name if each else AUTOMATIC, "label": condition_name(each, told)}
                 for each in actions.condition_choices
             ],
-            "condition": booth.assigner.chosen.value
+            "condition": booth.assigner.chosen.name
             if booth.assigner.chosen and not booth.assigner.is_followed
             else AUTOMATIC,
             "embodiments": [

@@ -218,14 +218,19 @@ def _discreet(translate: Translate) -> Translate:
     return tell
 
 
+_AUTOMATIC = "automatic"
+"""What the record says of the list's condition."""
+
 _OF_CONDITIONS = ("console-condition-", "console-automatic")
 
 
 def condition_name(condition: Condition | None, translate: Translate) -> str:
     """What a condition is called in the panel; None is the list's."""
-    return translate(
-        "console-automatic" if condition is None else f"console-condition-{condition.name.lower().replace('_', '-')}"
-    )
+    if condition is None:
+        return translate("console-automatic")
+    if not condition.is_known:
+        return translate("console-condition-declared", name=condition.name)
+    return translate(f"console-condition-{_kebab(condition.name)}")
 
 
 def _cell(condition: Condition, cell: CountCell, translate: Translate) -> Row:
@@ -287,8 +292,8 @@ def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
     payload: dict[str, Any] = noted.payload
     match noted.kind:
         case AuditEvent.CONDITION_CHOSEN:
-            named = {condition.value: condition for condition in Condition}
-            return condition_name(named.get(payload.get("condition", "")), translate)
+            name = str(payload.get("condition", _AUTOMATIC))
+            return condition_name(None if name == _AUTOMATIC else Condition(name), translate)
         case AuditEvent.VOLUME_CHANGED:
             return f"{payload.get('volume', 0):.0%}"
         case AuditEvent.MUTE_CHANGED:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.config import Keys
+from kiosk.config import KNOWN_CONDITIONS, Keys
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import (
     AbortRequested,
@@ -83,9 +83,9 @@ def test_thanks_are_the_one_stage_that_the_next_visitor_need_not_wait_for() -> N
 
 
 def test_the_conditions_come_in_turn_the_lists_first_then_those_with_a_quota_then_the_others() -> None:
-    turn = condition_cycle(["notom", "random_explained"])
+    turn = condition_cycle(["notom", "random_explained"], [*KNOWN_CONDITIONS, "remind"])
     assert turn[:3] == (None, Condition.NOTOM, Condition.RANDOM_EXPLAINED)
-    assert sorted(condition.value for condition in turn if condition) == sorted(each.value for each in Condition)
+    assert sorted(condition.name for condition in turn if condition) == sorted([*KNOWN_CONDITIONS, "remind"])
 
 
 def test_the_manual_shows_the_table_as_it_is() -> None:

@@ -266,13 +266,13 @@ def test_pauses_take_as_much_from_a_clock_as_the_moments_in_which_they_lasted(sp
         (ActionSpec.SUG_ROW, (0, 2), False),
         (ActionSpec.SUG_COL, (3, 2), True),
         (ActionSpec.SUG_COL, (1, 3), False),
-        (ActionSpec.NO_HELP, (1, 2), False),
     ],
 )
 def test_following_is_going_where_the_hint_pointed(
     action: ActionSpec, place: tuple[int, int], *, expected: bool
 ) -> None:
-    assert BoardHint(hint(0, 1, action)).followed_by(Position(*place)) is expected
+    flip = happened.CardFlipped(at_ms=1, number=1, move=1, position=Position(*place), card="owl", matched=None)
+    assert BoardHint(hint(0, 1, action)).followed_by(flip) is expected
 
 
 @pytest.mark.parametrize("voice", Voice)

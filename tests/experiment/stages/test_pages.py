@@ -7,7 +7,7 @@ import pytest
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import Stage, Status
 from tests.experiment.driver import Driver, driven_to, with_memory
@@ -49,10 +49,10 @@ def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> Non
 # Introduction
 
 
-@pytest.mark.parametrize("condition", Condition)
+@pytest.mark.parametrize("condition", CONDITIONS)
 def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None:
     driver = driven_to(Stage.INTRODUCTION, whole(condition))
-    helped = condition is not Condition.NO_ASSISTANCE
+    helped = condition != Condition.NO_ASSISTANCE
     assert do.ShowIntroduction(helped=helped) in driver.steps[-1].outcome.effects
     speech = "introduction-speech" if helped else "introduction-speech-alone"
     assert driver.view.bubble in ENGLISH.wordings(speech, cards=24, pairs=12)

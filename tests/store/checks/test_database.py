@@ -150,7 +150,7 @@ def test_the_list_tells_how_much_of_it_is_left(folder: Path, provenance: Provena
         first = seated(recorder, provenance, kind=SessionKind.STUDY)
     assert first is not None
     (found,) = allocation_check(folder, "", DECLARED)
-    assert f"{first.condition.value} 1 of 4" in found.message
+    assert f"{first.condition.name} 1 of 4" in found.message
     (elsewhere,) = allocation_check(folder, "ROME", DECLARED)
     assert "fixed when the kiosk opens" in elsewhere.message
 

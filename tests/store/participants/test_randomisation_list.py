@@ -50,7 +50,7 @@ def test_a_stored_list_can_be_read_without_the_program(folder: Path) -> None:
     ((quotas, blocks),) = rows(folder, "SELECT quotas, slots FROM allocation_list")
     assert json.loads(quotas) == {"tom": 4, "notom": 4}
     assert json.loads(blocks) == [
-        [place.condition.value for place in listed if place.block == block] for block in (1, 2)
+        [place.condition.name for place in listed if place.block == block] for block in (1, 2)
     ]
 
 
@@ -199,7 +199,7 @@ def test_a_session_s_row_says_how_it_came_to_its_condition(folder: Path, provena
         seated(recorder, provenance)
         recorder.begin(provenance, BEGUN)
     assert rows(folder, "SELECT condition, allocation_list, allocation_slot, allocation_source FROM session") == [
-        (first.condition.value, 1, 1, "list"),
+        (first.condition.name, 1, 1, "list"),
         ("tom", None, None, None),
     ]
 

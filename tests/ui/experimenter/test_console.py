@@ -106,7 +106,7 @@ def test_keys_alone_choose_the_next_condition_with_a_reason(make_assigner: MakeD
     assigner.press(Qt.Key.Key_Return)
     assert assigner.card.asks_for is AuthorisationStep.REASON
     assigner.type("4")
-    assert assigner.app.assigner.chosen is Condition.NOTOM
+    assert assigner.app.assigner.chosen == Condition.NOTOM
     assigner.wait_until(lambda: choices(assigner)["condition"] == "notom")
     assert held(assigner) == "condition-notom"
     assigner.wait_until(lambda: bool(records(assigner)["deviations"]))

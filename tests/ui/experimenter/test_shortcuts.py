@@ -41,7 +41,7 @@ def done(assigner: Desk, action: Action, witness: Witness) -> bool:
     app, visited = assigner.app, witness.stage not in EMPTY
     seen: dict[Action, Callable[[], bool]] = {
         Action.PANEL: lambda: assigner.panel.is_open and witness.saw(happened.PauseRequested) is visited,
-        Action.CONDITION: lambda: app.assigner.chosen is Condition.TOM,
+        Action.CONDITION: lambda: app.assigner.chosen == Condition.TOM,
         Action.EMBODIMENT: lambda: app.embodiments.prefers_avatar,
         Action.REPEAT: lambda: witness.saw(happened.RepeatRequested),
         Action.MUTE: lambda: app.embodiments.is_muted and witness.saw(happened.MuteChanged) is visited,
@@ -113,7 +113,7 @@ def test_what_was_put_off_holds_for_the_next_visitor(make_assigner: MakeDesk) ->
     assert assigner.app.embodiments.current is not None
     assert assigner.app.embodiments.current.name == EmbodimentName.AVATAR
     assigner.do(Action.CONDITION)
-    assert assigner.app.assigner.next_session("en").plan.condition is Condition.TOM
+    assert assigner.app.assigner.next_session("en").plan.condition == Condition.TOM
 
 
 def test_a_condition_chosen_before_the_visitor_has_decided_holds_for_the_one_after(make_assigner: MakeDesk) -> None:
@@ -123,7 +123,7 @@ def test_a_condition_chosen_before_the_visitor_has_decided_holds_for_the_one_aft
     assigner.app.assigner.choose(Condition.RANDOM_EXPLAINED, "for the one after")
     assigner.go_to(Stage.INTRODUCTION)
     assigner.do(Action.ABORT)
-    assert assigner.app.assigner.next_session("en").plan.condition is Condition.RANDOM_EXPLAINED
+    assert assigner.app.assigner.next_session("en").plan.condition == Condition.RANDOM_EXPLAINED
 
 
 def test_a_chosen_condition_holds_until_a_session_in_it_is_on_record(make_assigner: MakeDesk) -> None:
@@ -132,7 +132,7 @@ def test_a_chosen_condition_holds_until_a_session_in_it_is_on_record(make_assign
     assigner.go_to(Stage.CONSENT)
     assigner.app.runner.dispatch(happened.ConsentDeclined(at_ms=assigner.app.runner.now_ms()))
     assigner.do(Action.ABORT)
-    assert assigner.app.assigner.chosen is Condition.NO_ASSISTANCE
+    assert assigner.app.assigner.chosen == Condition.NO_ASSISTANCE
     assigner.go_to(Stage.INTRODUCTION)
     assert assigner.app.assigner.chosen is None
 
