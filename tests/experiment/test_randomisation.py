@@ -113,9 +113,9 @@ def test_a_list_that_ends_within_a_block_is_kept_when_it_is_handed_in(
     [
         ({}, 2, "needs a quota for at least one condition"),
         ({Condition.TOM: 0, Condition.NOTOM: 4}, 2, "the quota of tom must be at least 1, not 0"),
-        (STUDY, 3, "a block of 3 places cannot hold 1 tom, 1 notom in ratio; 2, 4, 6 and so on fit"),
-        (STUDY, 0, "a block of 0 places"),
-        (STUDY, -2, "a block of -2 places"),
+        (STUDY, 3, "a block of 3 slots cannot hold 1 tom, 1 notom in ratio; 2, 4, 6 and so on fit"),
+        (STUDY, 0, "a block of 0 slots"),
+        (STUDY, -2, "a block of -2 slots"),
         ({Condition.TOM: 20, Condition.NO_ASSISTANCE: 10}, 4, "2 tom, 1 no_assistance in ratio; 3, 6, 9 and so on"),
     ],
 )
@@ -127,7 +127,7 @@ def test_what_cannot_be_kept_to_is_refused_in_words(quotas: dict[Condition, int]
 @pytest.mark.parametrize(
     ("quotas", "words"),
     [
-        ({Condition.TOM: 8, Condition.NOTOM: 8}, "more places are already listed"),
+        ({Condition.TOM: 8, Condition.NOTOM: 8}, "more slots are already listed"),
         ({Condition.TOM: 60, Condition.NOTOM: 30}, "not in the quotas' ratio"),
         ({Condition.TOM: 60}, "not in the quotas' ratio"),
     ],
