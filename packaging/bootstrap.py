@@ -79,7 +79,7 @@ def main(arguments: Sequence[str]) -> int:
 def start(arguments: Sequence[str]) -> int:
     """Open the kiosk or, where there is no screen, rehearse one session; further arguments go to ``recollect``."""
     install_debian_packages(QT, WINDOW, VOICE)
-    install_python_packages(extras=set())
+    install_python_packages(extras={"natural"})
     say("Rendering the voices, once.")
     if run(["recollect", "voice", "render"], os.environ):
         say("The voices could not be rendered; each sentence is rendered when it is said, or only shown.")
