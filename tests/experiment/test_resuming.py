@@ -102,7 +102,8 @@ def test_a_session_that_is_cut_off_anywhere_else_can_be_finished_and_replayed(se
 def beginning(step: Step) -> list[object]:
     """All that is done as a stage begins, whatever is said in it."""
     first = max(index for index, command in enumerate(step.outcome.effects) if _idle(command))
-    return [type(command) if isinstance(command, do.Speak) else command for command in step.outcome.effects[first:]]
+    begun = (effect for effect in step.outcome.effects[first:] if not isinstance(effect, do.OfferBack))
+    return [type(effect) if isinstance(effect, do.Speak) else effect for effect in begun]
 
 
 def _idle(command: do.Effect) -> bool:
