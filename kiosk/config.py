@@ -20,8 +20,8 @@ from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
 
 STAGES = (
     "about",
-    "consent",
     "age",
+    "consent",
     "about_you",
     "introduction",
     "practice",

@@ -168,9 +168,9 @@ def test_what_a_stage_does_not_list_leads_nowhere() -> None:
 
 def test_the_diagram_draws_where_declining_leads() -> None:
     drawn = diagram().splitlines()
-    assert "    consent --> age: ConsentGiven" in drawn
+    assert "    age --> consent: AgeConfirmed" in drawn
     assert "    consent --> introduction: ConsentDeclined" in drawn
-    assert "    age --> about_you: AgeConfirmed" in drawn
+    assert "    consent --> about_you: ConsentGiven" in drawn
     assert "    age --> introduction: AgeConfirmed" in drawn
     assert "    thanks --> over: ThanksTimedOut" in drawn
 

@@ -92,7 +92,7 @@ def test_the_screens_go_through_every_stage(replay: Replay) -> None:
         replay.player.step()
         shown.append(replay.screens.kiosk.shown)
     assert list(dict.fromkeys(shown)) == [
-        *("about", "consent", "age", "form", "introduction", "practice", "game", "result"),
+        *("about", "age", "consent", "form", "introduction", "practice", "game", "result"),
         *("debrief", "thanks"),
     ]
 

@@ -59,7 +59,7 @@ def test_consent_cannot_be_given_without_what_is_required() -> None:
     assert driver.view.screen == "consent"
     driver.tick("store")
     driver.agree()
-    assert driver.stage is Stage.AGE
+    assert driver.stage is Stage.ABOUT_YOU
 
 
 def test_everything_that_is_missing_is_named_in_the_order_of_the_sheet() -> None:
@@ -105,7 +105,7 @@ def test_what_counts_is_the_last_word_on_each_purpose(said: list[tuple[str, bool
     last = dict(said)
     assert driver.view.ticks == {purpose for purpose in PURPOSES if last.get(purpose)}
     driver.agree()
-    assert (driver.stage is Stage.AGE) is last.get("store", False)
+    assert (driver.stage is Stage.ABOUT_YOU) is last.get("store", False)
 
 
 @pytest.mark.parametrize("purpose", ["", "Store", "stor", "take_part"])
@@ -129,4 +129,4 @@ def test_the_age_that_is_asked_for_is_the_study_s(adult: int) -> None:
     driver = driven_to(Stage.AGE, whole(consent=ConsentConfig(adult=adult)))
     assert (driver.view.screen, driver.view.adult) == ("age", adult)
     driver.say_age()
-    assert driver.stage is Stage.ABOUT_YOU
+    assert driver.stage is Stage.CONSENT
