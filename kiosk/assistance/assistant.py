@@ -53,6 +53,13 @@ class Decision:
     """The actions that the values in ``q`` are of."""
 
     @property
+    def greedy(self) -> ActionSpec:
+        """What gate and table come to: the action with the highest value, the lowest of equals; none at a shut gate."""
+        if not self.gate_decision.is_open:
+            return ActionSpec.NO_HELP
+        return self.actions[self.q.index(max(self.q))]
+
+    @property
     def is_remark(self) -> bool:
         """Whether something is said that points nowhere."""
         return self.hint is None and self.action is not ActionSpec.NO_HELP

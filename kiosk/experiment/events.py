@@ -452,7 +452,11 @@ class BoardDealt(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class AssistanceDecided(SessionEvent):
-    """Before flip number ``flip`` (from 1): what the two layers saw and how much help they chose."""
+    """Before flip number ``flip`` (from 1): what the two layers saw and how much help they chose.
+
+    ``greedy`` is the action that gate and table come to, and ``probability`` that of the action taken, in this state
+    and under this policy. Where it is below 1, the action was drawn (``randomised``).
+    """
 
     flip: int
     card: FlipInMove
@@ -461,13 +465,17 @@ class AssistanceDecided(SessionEvent):
     outcome: MoveOutcome
     gate: GateDecision
     action: ActionSpec
+    greedy: ActionSpec
+    probability: float
+    randomised: bool
 
 
 @dataclass(frozen=True, kw_only=True)
 class HintGiven(SessionEvent):
     """A hint for flip number ``flip``.
 
-    ``row`` and ``column`` are what it gave away, from 0; None where it did not.
+    ``row`` and ``column`` are what it gave away, from 0; None where it did not. ``allowed`` counts the cards that the
+    target rule could choose, each with the same chance: ``target_probability``.
     """
 
     flip: int
@@ -478,6 +486,8 @@ class HintGiven(SessionEvent):
     seen: int
     mate_seen: int
     reason: HintReason
+    allowed: int
+    target_probability: float
     row: int | None
     column: int | None
     sentence: str

@@ -63,6 +63,8 @@ class _Given:
             seen=hint.target.seen,
             mate_seen=hint.target.mate_seen,
             reason=hint.target.reason,
+            allowed=len(hint.target.candidates),
+            target_probability=1 / len(hint.target.candidates),
             row=hint.row,
             column=hint.column,
             sentence=self.sentence,
@@ -310,6 +312,10 @@ class GameStage(StageHandler):
                 outcome=decision.state.outcome,
                 gate=decision.gate_decision,
                 action=decision.action,
+                greedy=decision.greedy,
+                # Every policy so far is a function of the state, so nothing is drawn.
+                probability=1.0,
+                randomised=False,
             )
         )
         return decision

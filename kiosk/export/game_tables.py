@@ -183,6 +183,22 @@ _DECISION_COLUMNS: tuple[Column[_Decision], ...] = make_columns(
     ),
     (GATE, lambda row: row.event.gate.name.lower()),
     (ACTION, lambda row: row.event.action.label),
+    (
+        Variable("greedy_action", "The action that gate and table came to.", levels=ACTION.levels),
+        lambda row: row.event.greedy.label,
+    ),
+    (
+        Variable(
+            "action_probability",
+            "The probability of the action that was taken, given the state and the policy; 1 where nothing was drawn.",
+            ColumnKind.NUMBER,
+        ),
+        lambda row: row.event.probability,
+    ),
+    (
+        Variable("randomised", "Whether the action was drawn.", ColumnKind.TRUTH),
+        lambda row: row.event.randomised,
+    ),
 )
 
 DECISIONS = Table(
@@ -269,6 +285,18 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
             levels=enum_levels(HintReason),
         ),
         lambda row: row.hint.given.reason.value,
+    ),
+    (
+        Variable("allowed_cards", "How many cards the target rule could point at.", ColumnKind.WHOLE),
+        lambda row: row.hint.given.allowed,
+    ),
+    (
+        Variable(
+            "target_probability",
+            "The probability with which the rule points at this card: one in the number of cards that it allowed.",
+            ColumnKind.NUMBER,
+        ),
+        lambda row: row.hint.given.target_probability,
     ),
     (GATE, lambda row: None if row.decision is None else row.decision.gate.name.lower()),
     (SENTENCE, lambda row: row.hint.given.sentence),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
@@ -28,6 +29,40 @@ from kiosk.export.records import safe_fields
 from kiosk.store.session_records import EventRecord, SessionRecord
 
 FIELDS = "fields"
+
+
+class SoundDevice(Enum):
+    """The kinds of sound devices that names tell apart; the first whose words are in a name is its kind."""
+
+    BLUETOOTH = "bluetooth"
+    HEADPHONES = "headphones"
+    DISPLAY = "display"
+    USB = "usb"
+    SPEAKERS = "speakers"
+    SYSTEM_DEFAULT = "system_default"
+    SILENT = "silent"
+    OTHER = "other"
+
+    @classmethod
+    def of(cls, name: str) -> SoundDevice:
+        """The kind of a device of this name."""
+        folded = name.casefold()
+        if folded == NOWHERE:
+            return cls.SILENT
+        return next((kind for kind, words in _DEVICE_WORDS.items() if any(word in folded for word in words)), cls.OTHER)
+
+
+_DEVICE_WORDS = {
+    SoundDevice.BLUETOOTH: ("bluetooth", "bluez", "airpods", "buds", "hands-free"),
+    SoundDevice.HEADPHONES: ("headphone", "headset", "earphone", "cuffie", "auricular"),
+    SoundDevice.DISPLAY: ("hdmi", "displayport", "display audio", "monitor"),
+    SoundDevice.USB: ("usb",),
+    SoundDevice.SPEAKERS: ("speaker", "built-in", "internal", "analog", "altoparlant", "altavoc", "altavoz"),
+    SoundDevice.SYSTEM_DEFAULT: ("system default",),
+}
+
+NOWHERE = "null"
+"""The device that is heard by no one; as kiosk.robots.audio calls it."""
 
 
 @dataclass(frozen=True)
@@ -184,8 +219,27 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
             ("voice_engine_version", "engine_version", "The version of the engine."),
             ("voice", "voice", "The voice."),
             ("voice_pack", "pack", "The SHA-256 of the pack of clips that was played."),
-            ("sound_device", "device", "The sound device."),
         )
+    ),
+    (
+        Variable(
+            "sound_device",
+            "What kind of sound device it was, after its name. The name itself may tell a person or a place, so it is "
+            "in no table.",
+            levels=enum_levels(
+                SoundDevice,
+                bluetooth="a wireless device",
+                headphones="headphones or a headset",
+                display="the loudspeakers of a screen",
+                usb="a device at a USB port",
+                speakers="loudspeakers, built in or at the sound card",
+                system_default="what the system has as its default",
+                silent="none: it keeps the time and is heard by no one",
+                other="its name says nothing of that",
+            ),
+            empty="the avatar's voice did not say it, or nothing was noted",
+        ),
+        lambda row: SoundDevice.of(row.what.heard.device).value if row.what.heard and row.what.heard.device else None,
     ),
     (
         Variable(

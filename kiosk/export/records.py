@@ -14,6 +14,7 @@ from kiosk.experiment.events import (
     ResponseGiven,
     RobotDisconnected,
     SpeechFailed,
+    SpeechStarted,
 )
 from kiosk.experiment.information import Purpose
 from kiosk.experiment.items import (
@@ -204,6 +205,7 @@ def _is_same(one: Questionnaire, other: Questionnaire) -> bool:
 
 FREE: Mapping[str, frozenset[str]] = {
     AbortRequested.__name__: frozenset({"reason"}),
+    SpeechStarted.__name__: frozenset({"device"}),
     SpeechFailed.__name__: frozenset({"why"}),
     RobotDisconnected.__name__: frozenset({"why"}),
     EmbodimentChanged.__name__: frozenset({"why"}),

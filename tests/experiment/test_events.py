@@ -42,6 +42,7 @@ def kinds(family: type[Any]) -> Iterator[type[Any]]:
 EVERY_EVENT = list(kinds(Event))
 
 
+st.register_type_strategy(float, st.floats(allow_nan=False, allow_infinity=False))
 st.register_type_strategy(ActionSpec, st.sampled_from(ACTIONS))
 st.register_type_strategy(
     EmbodimentName, st.one_of(st.just(EmbodimentName.AVATAR), st.text(min_size=1).map(EmbodimentName.robot))
@@ -106,6 +107,9 @@ def test_a_record_can_be_read_without_the_program() -> None:
         outcome=MoveOutcome.S_WRONG,
         gate=GateDecision.STILL_EXPLORING,
         action=ActionSpec.NO_HELP,
+        greedy=ActionSpec.NO_HELP,
+        probability=1.0,
+        randomised=False,
     )
     assert to_record(decided) == {
         "type": "AssistanceDecided",
@@ -117,6 +121,9 @@ def test_a_record_can_be_read_without_the_program() -> None:
         "outcome": "s_wrong",
         "gate": "still_exploring",
         "action": "no_help",
+        "greedy": "no_help",
+        "probability": 1.0,
+        "randomised": False,
     }
 
 

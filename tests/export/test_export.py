@@ -23,6 +23,7 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset
 from kiosk.export.layouts import PsychDs
+from kiosk.export.log_tables import SoundDevice
 from kiosk.export.participants import ParticipantFlow
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
@@ -227,6 +228,35 @@ def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for
     assert tuple(robot[name] for name in times) == ("1", "robot", "furhat", str(asked_ms), begun, "", lost)
     assert tuple(avatar[name] for name in times[:5]) == ("2", "avatar", "", lost, anew)
     assert avatar["failed_ms"] == ""
+
+
+def test_of_a_sound_device_its_kind_is_told_and_not_its_name(tmp_path: Path) -> None:
+    driver = visitor(1)
+    asked = next(event for event in driver.events if isinstance(event, SentenceRequested))
+    at = driver.events.index(asked) + 1
+    begun = SpeechStarted(at_ms=asked.at_ms, utterance=asked.utterance, engine="piper", device="Anna's AirPods Pro")
+    driver.events.insert(at, begun)
+    store(tmp_path / "data", [(driver, 1)])
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    kinds = {row["sound_device"] for row in rows_of(tmp_path / "out", "sentences")}
+    assert kinds == {"", "bluetooth"}
+    assert not any("Anna" in file.read_text("utf-8") for file in (tmp_path / "out").rglob("*.*") if file.is_file())
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("USB Audio CODEC", SoundDevice.USB),
+        ("HDA Intel HDMI 0", SoundDevice.DISPLAY),
+        ("Cuffie di Marco", SoundDevice.HEADPHONES),
+        ("Built-in Audio Analog Stereo", SoundDevice.SPEAKERS),
+        ("system default (PulseAudio)", SoundDevice.SYSTEM_DEFAULT),
+        ("null", SoundDevice.SILENT),
+        ("Marta's", SoundDevice.OTHER),
+    ],
+)
+def test_the_kind_of_a_sound_device_follows_from_its_name(name: str, kind: SoundDevice) -> None:
+    assert SoundDevice.of(name) is kind
 
 
 def test_its_files_are_closed_whatever_goes_wrong(stored: Path, tmp_path: Path) -> None:

@@ -7,6 +7,8 @@ from collections import defaultdict
 from collections.abc import Callable
 from statistics import fmean
 
+import pytest
+
 from tests.export.conftest import PARTICIPANTS
 
 Rows = list[dict[str, str]]
@@ -93,6 +95,17 @@ def test_every_measure_of_the_game_comes_out_of_the_flips_hints_and_events(read:
     assert len({person["condition"] for person in people}) == 5
     assert any(person["pauses"] != "0" for person in people)
     assert any(int(person["completion_ms"]) < int(person["completion_with_speech_ms"]) for person in people)
+
+
+def test_a_target_is_one_of_the_cards_that_the_rule_allowed_and_a_decision_the_greedy_one(read: Read) -> None:
+    hints, decisions = read("hints"), read("decisions")
+    for hint in hints:
+        assert float(hint["target_probability"]) == pytest.approx(1 / int(hint["allowed_cards"]), abs=1e-6)
+        assert hint["move_card"] == "first" or hint["allowed_cards"] == "1"
+    assert any(int(hint["allowed_cards"]) > 1 for hint in hints)
+    for decision in decisions:
+        assert (decision["greedy_action"], decision["randomised"]) == (decision["action"], "false")
+        assert float(decision["action_probability"]) == 1
 
 
 def test_every_scale_comes_out_of_the_answers(read: Read) -> None:

@@ -40,6 +40,8 @@ def hint(
         seen=0,
         mate_seen=0,
         reason=HintReason.NOTHING_KNOWN,
+        allowed=1,
+        target_probability=1.0,
         row=None if action is ActionSpec.SUG_COL else target.row,
         column=None if action is ActionSpec.SUG_ROW else target.column,
         sentence="",
