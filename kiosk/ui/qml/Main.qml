@@ -201,6 +201,8 @@ Window {
     }
     Feast {
         id: feast
+        // Who is already asked something is not to be rained on.
+        visible: ["game", "result"].includes(root.kiosk.screen)
         anchors { left: parent.left; right: parent.right; top: parent.top }
         height: root.room
     }
