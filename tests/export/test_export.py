@@ -231,11 +231,9 @@ def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for
 
 
 def test_of_a_sound_device_its_kind_is_told_and_not_its_name(tmp_path: Path) -> None:
-    driver = visitor(1)
-    asked = next(event for event in driver.events if isinstance(event, SentenceRequested))
-    at = driver.events.index(asked) + 1
-    begun = SpeechStarted(at_ms=asked.at_ms, utterance=asked.utterance, engine="piper", device="Anna's AirPods Pro")
-    driver.events.insert(at, begun)
+    driver = driven_to(Stage.INTRODUCTION, study_plan(), voice=Voice.IS_SILENT)
+    driver.send(SpeechStarted(at_ms=driver.now, utterance=1, engine="piper", device="Anna's AirPods Pro"))
+    driver.to(Stage.OVER)
     store(tmp_path / "data", [(driver, 1)])
     export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
     kinds = {row["sound_device"] for row in rows_of(tmp_path / "out", "sentences")}
