@@ -166,6 +166,7 @@ def test_the_question_comes_one_idle_time_after_the_last_sign(reading: Booth) ->
 
 def test_who_taps_all_the_time_leaves_no_other_sign_in_the_record(reading: Booth, told: list[WorldEvent]) -> None:
     reading.click("continue")
+    reading.click("age-yes")
     for _ in range(20):
         pass_time(reading, EVERY_MS)
         reading.click(f"purpose-{reading.app.screens.consent.offered[0]}")

@@ -97,7 +97,7 @@ def test_a_key_that_was_held_down_before_presses_no_control_of_any_screen(make_b
 @pytest.mark.parametrize("key", ACTIVATING)
 def test_a_consent_tick_is_set_once(make_booth: MakeBooth, key: Qt.Key) -> None:
     booth = make_booth(settings=whole_study())
-    for name in ("start-en", "continue"):
+    for name in ("start-en", "continue", "age-yes"):
         booth.click(name)
     booth.press(Qt.Key.Key_Tab)
     hold(booth.app.window, key)

@@ -77,7 +77,7 @@ def test_a_finger_drags_what_is_longer_than_the_screen(make_booth: MakeBooth, qt
     window = booth.app.window
     window.resize(1280, 720)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1280)
-    for name in ("start-en", "continue"):
+    for name in ("start-en", "continue", "age-yes"):
         booth.click(name)
     booth.settle()
     last = booth.app.screens.consent.offered[0]
@@ -249,6 +249,7 @@ def test_whoever_came_by_keyboard_sees_on_the_next_screen_where_it_is(make_booth
     assert booth.screen == "about"
     assert ringed(booth, "continue")
     booth.click("continue")
+    booth.click("age-yes")
     booth.settle()
     assert booth.screen == "consent"
     assert not any(ringed(booth, f"purpose-{purpose}") for purpose in booth.app.screens.consent.offered)
