@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
@@ -22,7 +23,7 @@ from kiosk.experiment.questionnaire import (
     Item,
     facts,
 )
-from kiosk.experiment.randomisation import AllocationSource
+from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from kiosk.export.columns import (
@@ -44,7 +45,7 @@ from kiosk.export.columns import (
 )
 from kiosk.export.records import Asked, Scale, StudyMaterials
 from kiosk.export.responses import scores_table, session_questionnaires
-from kiosk.store.participants import Disposition, EnrolmentCounts
+from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
 
@@ -75,7 +76,7 @@ MEANINGS = {
     FlowQuantity.UNDER_WAY: "sessions with a slot that were going on when this was exported, by condition",
     FlowQuantity.OVERRIDDEN: "sessions whose condition the experimenter chose, by condition",
     FlowQuantity.BEYOND: "sessions that began when the list was used up, by condition",
-    FlowQuantity.UNLISTED: "sessions without a allocation list, by condition",
+    FlowQuantity.UNLISTED: "sessions without an allocation list, by condition",
     FlowQuantity.WITHDRAWN: "sessions that were deleted because their visitor withdrew, by condition; each is counted "
     "in one of the rows before as well",
     FlowQuantity.NOT_SHARED: "sessions left out here because their visitor did not agree to publishing, by condition",
@@ -174,6 +175,20 @@ class Person:
     def embodiment(self) -> EmbodimentName:
         """What helped when the session began."""
         return EmbodimentName.from_text(self.kept.row["embodiment"])
+
+    @cached_property
+    def slot(self) -> AllocationSlot | None:
+        """Its slot of the allocation list, if it took one."""
+        number = self.kept.row["allocation_slot"]
+        return None if number is None else slots_from_json(self.kept.row["slots"])[number - 1]
+
+    @property
+    def allocation_probability(self) -> float | None:
+        """The share of its condition in the block of its slot."""
+        if self.slot is None:
+            return None
+        block = [each.condition for each in slots_from_json(self.kept.row["slots"]) if each.block == self.slot.block]
+        return block.count(self.slot.condition) / len(block)
 
     @property
     def state(self) -> SessionState:
@@ -538,6 +553,32 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
             empty="it took none",
         ),
         lambda row: row.kept.row["allocation_slot"],
+    ),
+    (
+        Variable("allocation_block", "The block of that slot, from 1.", ColumnKind.WHOLE, empty="it took none"),
+        lambda row: row.slot.block if row.slot else None,
+    ),
+    (
+        Variable(
+            "allocation_block_size",
+            "How many slots a block of that list has; its last one may be shorter.",
+            ColumnKind.WHOLE,
+            empty="it took none",
+        ),
+        lambda row: row.kept.row["block_size"],
+    ),
+    (
+        Variable(
+            "allocation_probability",
+            "The probability with which chance gave the slot this condition: the condition's share of the block.",
+            ColumnKind.NUMBER,
+            empty="it took none",
+        ),
+        lambda row: row.allocation_probability,
+    ),
+    (
+        Variable("allocation_sha256", "The hash of that list as it is stored.", empty="it took none"),
+        lambda row: hashlib.sha256(row.kept.row["slots"].encode()).hexdigest() if row.slot else None,
     ),
     (EMBODIMENT, lambda row: row.embodiment.kind.value),
     (ROBOT, lambda row: row.embodiment.driver or None),

@@ -130,8 +130,10 @@ class RecordSource:
 
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
-            "SELECT session.*, participant.number FROM session LEFT JOIN participant"  # noqa: S608 - the names are ours
-            f" ON participant.session = session.id WHERE {self._wanted} {which}"
+            "SELECT session.*, participant.number, list.block_size, list.slots FROM session LEFT JOIN participant"  # noqa: S608 - the names are ours
+            " ON participant.session = session.id"
+            " LEFT JOIN allocation_list AS list ON list.id = session.allocation_list"
+            f" WHERE {self._wanted} {which}"
         )
         names = [column[0] for column in cursor.description]
         for row in cursor:

@@ -6,11 +6,13 @@ import gc
 import sqlite3
 import weakref
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from kiosk import StorageError, UserInputError
+from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import (
     NotRecordedReason,
     RobotDisconnected,
@@ -19,6 +21,7 @@ from kiosk.experiment.events import (
     SpeechStarted,
     Stage,
 )
+from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset
@@ -228,6 +231,24 @@ def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for
     assert tuple(robot[name] for name in times) == ("1", "robot", "furhat", str(asked_ms), begun, "", lost)
     assert tuple(avatar[name] for name in times[:5]) == ("2", "avatar", "", lost, anew)
     assert avatar["failed_ms"] == ""
+
+
+def test_a_session_of_the_list_tells_its_block_and_with_which_probability_it_was_drawn(tmp_path: Path) -> None:
+    plan = study_plan()
+    with Recorder(tmp_path / "data") as recorder:
+        recorder.create_allocation_list({Condition.TOM: 6, Condition.NOTOM: 2}, 4, 7, kind=SessionKind.STUDY)
+        for seed in range(5):
+            slot = recorder.next_slot(kind=SessionKind.STUDY)
+            assert slot is not None
+            driver = driven_to(Stage.OVER, replace(plan, condition=slot.condition))
+            session = Provenance(driver.plan, seed, "avatar", COMMIT, SessionKind.STUDY, slot, AllocationSource.LIST)
+            recorder.begin(session, driver.events)
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    people = rows_of(tmp_path / "out", "participants")
+    assert [row["allocation_block"] for row in people] == ["1", "1", "1", "1", "2"]
+    assert {row["allocation_block_size"] for row in people} == {"4"}
+    assert {(row["condition"], row["allocation_probability"]) for row in people} == {("tom", "0.75"), ("notom", "0.25")}
+    assert len({row["allocation_sha256"] for row in people}) == 1
 
 
 def test_of_a_sound_device_its_kind_is_told_and_not_its_name(tmp_path: Path) -> None:
