@@ -108,7 +108,7 @@ def _is_astray(window: QQuickWindow, item: QQuickItem, side: str) -> bool:
     """Whether the middle of an item is not on its side: screens where the board is, the assistant on the other."""
     across = place(item).center().x() / window.width()
     from_the_board = across if side == "left" else 1 - across
-    return (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel")
+    return (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel", "Corner")
 
 
 def _name(item: QQuickItem) -> str:
