@@ -110,7 +110,9 @@ def test_no_bar_that_scrolls_lies_on_a_text(toured: Toured) -> None:
 
 
 def test_every_screen_is_on_the_side_that_was_chosen_and_the_assistant_on_the_other(toured: Toured) -> None:
-    assert {sight.moment: sight.strayed for sight in toured.sights if sight.strayed} == {}
+    # A form that rates the assistant has the window to itself.
+    beside = [sight for sight in toured.sights if not sight.moment.startswith("form")]
+    assert {sight.moment: sight.strayed for sight in beside if sight.strayed} == {}
 
 
 @pytest.mark.parametrize(
