@@ -28,6 +28,7 @@ _COMMANDS = {
     "study": "kiosk.cli.study:study",
     "robot": "kiosk.cli.robot:robot_command",
     "voice": "kiosk.cli.voice:voice_group",
+    "status": "kiosk.cli.sessions:status_command",
     "sessions": "kiosk.cli.sessions:sessions_command",
     "events": "kiosk.cli.sessions:events_command",
     "replay": "kiosk.cli.sessions:replay_command",

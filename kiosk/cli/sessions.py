@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,9 @@ from rich.console import Console
 from rich.table import Table
 
 from kiosk import UserInputError
-from kiosk.cli.options import json_option, progress_bar, sessions_data_option, study_option
+from kiosk.cli.options import data_option, json_option, progress_bar, sessions_data_option, study_option
 from kiosk.config import Settings
+from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
 from kiosk.experiment.events import Event
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionConfig
@@ -22,7 +25,7 @@ from kiosk.ui.rehearsal import make_folder
 from kiosk.ui.replay import Replay
 from kiosk.ui.replay_controls import FASTEST, SLOWEST
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
-from kiosk.units import MS_PER_SECOND
+from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
 WIDTH = 150
 """Characters that a line of the list may need."""
@@ -167,3 +170,65 @@ def _tell(
         click.echo(f"Every event of session {session} leads to what was recorded.")
     else:
         click.echo(f"Event {differs} of session {session} leads to something else today than what was recorded.")
+
+
+NOT_ALIVE, TROUBLE = 3, 1
+"""Exit codes of ``status``: no kiosk runs, or it hangs; it runs, and something is not well."""
+
+
+@click.command()
+@data_option
+@json_option
+@click.pass_context
+def status_command(context: click.Context, data: Path, *, as_json: bool) -> None:
+    """Show how the booth is now: stage, today's sessions, robot, voice, disk, backup.
+
+    Exit code 0 if the kiosk runs and all is well, 1 if something is not, 3 if no kiosk runs or it hangs.
+    """
+    status = _read_status(data)
+    now = datetime.now(UTC)
+    alive = status.is_alive(now)
+    if as_json:
+        click.echo(json.dumps(json.loads(status.to_json()) | {"alive": alive, "age_s": round(status.age_s(now), 1)}))
+    else:
+        click.echo("\n".join(_status_lines(status, now, alive=alive)))
+    context.exit(NOT_ALIVE if not alive else TROUBLE if status.failing else 0)
+
+
+def _read_status(data: Path) -> BoothStatus:
+    file = data / FILE
+    try:
+        return BoothStatus.from_json(file.read_text("utf-8"))
+    except FileNotFoundError:
+        raise UserInputError(f"no kiosk has run with the data folder {data}: there is no {FILE}") from None
+    except (OSError, ValueError) as error:
+        raise UserInputError(f"the status file {file} cannot be read: {error}") from error
+
+
+def _status_lines(status: BoothStatus, now: datetime, *, alive: bool) -> Iterator[str]:
+    since = _minutes(status.stage_since, now)
+    if alive:
+        yield f"OK    kiosk       {'paused' if status.paused else status.stage} since {since}"
+    elif status.stage == CLOSED:
+        yield f"FAIL  kiosk       closed since {_minutes(status.at, now)}"
+    else:
+        yield f"FAIL  kiosk       silent since {_minutes(status.at, now)}; it was in the stage {status.stage}"
+    today = status.today
+    yield (
+        f"OK    today       {today.begun} begun, {today.completed} completed ({today.last_hour} in the last hour), "
+        f"{today.ended_early} ended early"
+    )
+    for part in status.parts:
+        yield f"{'OK' if part.ok else 'WARN':6}{part.name:12}{_printable(part.message)}"
+    yield f"{'OK' if status.supervised else 'WARN':6}supervisor  {'yes' if status.supervised else 'no'}"
+    for ended in status.ended:
+        yield f"      {_minutes(ended.at, now)} ago: {ended.status}{f' in {ended.stage}' if ended.stage else ''}"
+
+
+def _minutes(iso: str, now: datetime) -> str:
+    minutes = int((now - datetime.fromisoformat(iso)).total_seconds() // SECONDS_PER_MINUTE)
+    return f"{minutes} min" if minutes < SECONDS_PER_MINUTE else f"{minutes // 60} h {minutes % 60} min"
+
+
+def _printable(text: str) -> str:
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)

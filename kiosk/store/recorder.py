@@ -146,7 +146,7 @@ class Recorder:
         raises StoreBusy. With 0 the caller never waits and can try again.
         """
         self.folder = folder
-        self._site = checked_site(site)
+        self.site = checked_site(site)
         self._lock = lock_folder(folder)
         self._session = 0
         self._next_seq = 1
@@ -292,7 +292,7 @@ class Recorder:
         return open_for_writing(self.folder)
 
     def _lists(self, *, kind: SessionKind) -> AllocationLists:
-        return AllocationLists(self._connection, self._site, kind=kind)
+        return AllocationLists(self._connection, self.site, kind=kind)
 
     def _close(self) -> None:
         self._connection.close()
@@ -330,7 +330,7 @@ class Recorder:
                 "kind": int(provenance.kind),
                 "version": __version__,
                 "code_commit": provenance.code_commit,
-                "site": self._site,
+                "site": self.site,
                 **self._sources(plan),
                 **self._allocation(provenance),
             },

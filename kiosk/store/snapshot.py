@@ -7,10 +7,12 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 from kiosk import UserInputError
+from kiosk.experiment.booth_status import DayCounts, EndedSession, utc
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage, Status, WorldEvent
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent, WrongPins
@@ -18,6 +20,9 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment, participant_name
 from kiosk.store.recorder import Provenance
+from kiosk.units import MS_PER_SECOND
+
+SECONDS_PER_HOUR = 3600
 
 LAST = 8
 """How many sessions are shown."""
@@ -75,6 +80,44 @@ def read_snapshot(folder: Path, since_ms: int, *, kind: SessionKind) -> Dashboar
             tuple(_deviations(connection, since_ms)),
             frozenset(connection.execute(_PACKS, {"kind": int(kind), "limit": LOOKED_BACK})),
         )
+
+
+def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCounts, tuple[EndedSession, ...]]:
+    """Count the sessions that began since midnight of ``now`` (with a time zone), and list the newest that ended.
+
+    Looks at no more than the newest DAY_LIMIT sessions. Raises UserInputError if there is no database to read.
+    """
+    midnight = now.replace(hour=0, minute=0, second=0, microsecond=0).timestamp() * MS_PER_SECOND
+    hour_ago = (now.timestamp() - SECONDS_PER_HOUR) * MS_PER_SECOND
+    with _looking_at(folder) as connection:
+        rows = connection.execute(_DAY, {"kind": int(kind), "limit": DAY_LIMIT}).fetchall()
+    today = [(status, ended_ms, stage) for began, status, ended_ms, stage in rows if _ms(began) >= midnight]
+    completed = [ended_ms for status, ended_ms, _ in today if status == Status.COMPLETED.value]
+    ended = [(status, ended_ms, stage) for status, ended_ms, stage in today if status is not None]
+    counts = DayCounts(
+        begun=len(today),
+        completed=len(completed),
+        ended_early=len(ended) - len(completed),
+        last_hour=sum(ended_ms >= hour_ago for ended_ms in completed),
+    )
+    return counts, tuple(EndedSession(utc(ended_ms), status, stage or "") for status, ended_ms, stage in ended[:LAST])
+
+
+def _ms(iso: str) -> float:
+    return datetime.fromisoformat(iso).timestamp() * MS_PER_SECOND
+
+
+DAY_LIMIT = 500
+"""More sessions do not fit into a day: that is one every three minutes."""
+
+_DAY = """
+    SELECT started_at, json_extract(last.payload, '$.status'), last.wall_ms,
+        (SELECT json_extract(payload, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
+            AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1)
+    FROM session LEFT JOIN event AS last ON last.session = session.id AND last.type = 'SessionEnded'
+        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = session.id)
+    WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit
+"""
 
 
 def last_written_ms(folder: Path) -> int:

@@ -110,6 +110,7 @@ class App:
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         if not virtual:
             self.experimenter.upkeep.begin()
+            self.experimenter.status_file.begin()
 
     def __enter__(self) -> Self:
         """The kiosk itself."""

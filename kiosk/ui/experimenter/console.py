@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from dataclasses import asdict, replace
@@ -13,12 +14,21 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QWindow
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk import UserInputError
+from kiosk import UserInputError, __version__
 from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.booth_status import BoothStatus, DayCounts, utc
 from kiosk.experiment.events import EmbodimentName, PauseEnded, Stage
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
 from kiosk.experiment.session_config import SessionKind
-from kiosk.store.snapshot import DashboardSnapshot, last_written_ms, read_interrupted_session, read_snapshot, wrong_pins
+from kiosk.sd_notify import BEAT_WITHIN
+from kiosk.store.snapshot import (
+    DashboardSnapshot,
+    last_written_ms,
+    read_day,
+    read_interrupted_session,
+    read_snapshot,
+    wrong_pins,
+)
 from kiosk.ui.event_loop import Executor, TimerWait
 from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, AuditLog, Services
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow, PinVerifier
@@ -29,10 +39,12 @@ from kiosk.ui.experimenter.status import (
     HealthLine,
     condition_name,
     health_lines,
+    health_parts,
     health_summary,
     is_pack_changed,
     session_rows,
 )
+from kiosk.ui.experimenter.status_file import Day, StatusFile
 from kiosk.ui.experimenter.view_model import PanelScreen, Row
 from kiosk.units import MS_PER_SECOND
 
@@ -331,6 +343,7 @@ class ExperimenterConsole:
         card, note, panel = screen.parts
         folder = booth.recorder.folder
         self._booth = booth
+        self._catalogue = catalogue
         self._window = window
         self._now_ms = now_ms
         self._began_ms, self._run_from_ms = now_ms(), booth.clock.now_ms()
@@ -364,16 +377,53 @@ class ExperimenterConsole:
         )
         self._keyboard = InputCapture(window, self._asking, self.panel.stir, screen)
         self._asking.changed = self.panel.changed = self._stand_by
+        self._stage_since = ("", now_ms())
+        self.status_file = StatusFile(
+            folder,
+            self._booth_status,
+            lambda: _read_day(folder, now_ms, kind=self._kind),
+            booth.clock,
+            work,
+        )
         screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()})
         screen.pressed.connect(self.actions.press)
 
     def close(self) -> None:
         """Listen no more, and write down what is left to be."""
+        self.status_file.close()
         self._keyboard.set_enabled(False)
         self._write.close()
 
     def _stand_by(self) -> None:
         self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
+
+    def _booth_status(self) -> BoothStatus:
+        """What status.json says, but for the day's sessions."""
+        study = self._booth.assigner.study
+        state = self._state()
+        stage, since_ms = self._stage_since
+        if stage != self.actions.stage.value:
+            stage, since_ms = self._stage_since = (self.actions.stage.value, self._now_ms())
+        backup = state.last_backup
+        return BoothStatus(
+            at=utc(self._now_ms()),
+            started_at=utc(self._began_ms),
+            version=__version__,
+            pid=os.getpid(),
+            site=self._booth.recorder.site,
+            study=study.settings.title,
+            study_sha256=study.settings.sha256,
+            kind=self._kind.name.lower(),
+            stage=stage,
+            stage_since=utc(since_ms),
+            paused=self._booth.runner.accepts(PauseEnded(at_ms=self._booth.runner.now_ms())),
+            supervised=BEAT_WITHIN in os.environ,
+            today=DayCounts(),
+            ended=(),
+            parts=tuple(health_parts(state, self._catalogue)),
+            disk_free_mib=state.free_space.free_mib if state.free_space else None,
+            last_backup_at=utc(backup.at_ms) if backup and backup.file else None,
+        )
 
     def _state(self) -> HealthInputs:
         """How everything is now."""
@@ -400,6 +450,14 @@ class ExperimenterConsole:
 def read_for(work: Executor, folder: Path) -> Callable[..., None]:
     """How a session that was cut off is read, elsewhere."""
     return lambda number, then: work(partial(read_interrupted_session, folder, number), then)
+
+
+def _read_day(folder: Path, now_ms: Callable[[], int], *, kind: SessionKind) -> Day:
+    """The sessions of today; none if they cannot be read, which the console says elsewhere."""
+    try:
+        return read_day(folder, datetime.fromtimestamp(now_ms() / MS_PER_SECOND).astimezone(), kind=kind)
+    except UserInputError:
+        return DayCounts(), ()
 
 
 def _look(folder: Path, *, kind: SessionKind) -> DashboardSnapshot | str:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from math import ceil
 from typing import Any
 
 from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.booth_status import PartStatus
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Status
 from kiosk.experiment.experimenter import AuditEvent, DeviationReason
@@ -100,6 +101,19 @@ def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) 
         ),
         HealthLine(translate("console-screen"), state.screen, state.screen_well),
     )
+
+
+def health_parts(state: HealthInputs, catalogue: Catalogue) -> Iterator[PartStatus]:
+    """Yield how the parts of the booth are that can fail, under names that are the same in every language."""
+    lines = {
+        "robot": _robot(state, catalogue),
+        "voice": _voice(state, catalogue),
+        "disk": _disk(state, catalogue),
+        "database": _database(state, catalogue),
+        "clock": _clock(state.clocks, catalogue),
+        "screen": HealthLine("", state.screen, state.screen_well),
+    }
+    yield from (PartStatus(name, line.is_ok, line.message) for name, line in lines.items())
 
 
 def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> HealthLine:
