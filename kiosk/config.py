@@ -430,7 +430,10 @@ def _mixed(colour: str, end: int, share: float) -> str:
 
 
 def _passing(colour: str, end: int, others: tuple[str, ...]) -> str | None:
-    """Return the colour closest to this one, on the way to black or white, that stands out from all the others."""
+    """Return the colour closest to this one that stands out from all the others.
+
+    It is on the way to black or white.
+    """
     tried = (_mixed(colour, end, step / 50) for step in range(51))
     return next((each for each in tried if min(contrast(each, other) for other in others) >= _LEAST_CONTRAST), None)
 

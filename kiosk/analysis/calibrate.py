@@ -61,7 +61,7 @@ class PlayedSession:
 
 @dataclass(frozen=True, slots=True)
 class PlayedStudy:
-    """The games of a data set, and what is needed to simulate them: the tables and the rule of mentalised targets."""
+    """The games of a data set, and the tables and the rule of mentalised targets to simulate them."""
 
     sessions: tuple[PlayedSession, ...]
     policies: dict[str, QTable]
@@ -71,7 +71,9 @@ class PlayedStudy:
 
 
 def read_games(folder: Path) -> PlayedStudy:
-    """Read the games of an exported data set; raises UserInputError for a folder that is none, or has too few games.
+    """Read the games of an exported data set.
+
+    Raises UserInputError for a folder that is none, or has too few games.
 
     A game that was not finished counts as far as it went. A participant without any flip in the game is left out, and
     so is one whose hints named no place, which simulated players cannot follow.
@@ -158,7 +160,7 @@ def _board(who: str, number: str, cards: list[tuple[int, int, str]]) -> _Board:
 
 
 def _hint(board: _Board, hints: Any, actions: Any, key: tuple[str, str, int]) -> tuple[int, int]:
-    """The action and the target with one flip; without a hint, none."""
+    """Return the action and the target with one flip; without a hint, none."""
     cell = hints.get(key[:2], {}).get(key[2])
     if cell is None:
         return int(ActionSpec.NO_HELP), -1
@@ -171,7 +173,7 @@ def _policies(folder: Path) -> dict[str, QTable]:
 
 
 def _conditions(folder: Path) -> dict[str, ConditionConfig]:
-    """What the conditions came to, from the study's settings as they were exported."""
+    """Return what the conditions came to, from the study's settings as they were exported."""
     found = dict(KNOWN_CONDITIONS)
     for file in sorted((folder / "materials" / "settings").glob("*.json")):
         try:
@@ -183,7 +185,7 @@ def _conditions(folder: Path) -> dict[str, ConditionConfig]:
 
 
 def _rule(folder: Path) -> TargetRule:
-    """The rule of mentalised targets, from the study's settings as they were exported."""
+    """Return the rule of mentalised targets, from the study's settings as they were exported."""
     for file in sorted((folder / "materials" / "settings").glob("*.json")):
         try:
             return TargetRule(json.loads(file.read_text("utf-8"))["assistance"]["target_rule"])
@@ -202,7 +204,7 @@ class Interval:
     se: float | None = None
 
     def to_json(self) -> dict[str, float | None]:
-        """The numbers as they stand in the file."""
+        """Return the numbers as they stand in the file."""
         return {"value": self.value, "low": self.low, "high": self.high, "se": self.se}
 
 
@@ -251,7 +253,7 @@ class Calibration:
         return tuple(found)
 
     def to_json(self) -> dict[str, Any]:
-        """The file that ``plan power``, ``simulate``, ``rehearse`` and ``train`` read as ``--people``."""
+        """Return the file that ``plan power``, ``simulate``, ``rehearse`` and ``train`` read as ``--people``."""
         player = self.player.parameters()
         del player["name"]
         return {
@@ -299,14 +301,14 @@ def fit(names: Sequence[str], games: Sequence[PlayedGame]) -> Calibration:
 
 
 def weights_of(mean: float, spread: float) -> Array:
-    """The share of the population in each cell of the grid; the outermost cells go on for ever."""
+    """Return the share of the population in each cell of the grid; the outermost cells go on for ever."""
     edges = np.concatenate([[-np.inf], (GRID[1:] + GRID[:-1]) / 2, [np.inf]])
     shares: Array = np.diff(ndtr((edges - mean) / spread))
     return shares
 
 
 def _marginal(moves: MoveLikelihood, theta: Array) -> float:
-    """The log-likelihood of all games, people integrated out."""
+    """Return the log-likelihood of all games, people integrated out."""
     joint = _joint(moves, theta)
     top = joint.max(axis=1, keepdims=True)
     return float((np.log(np.exp(joint - top).sum(axis=1)) + top[:, 0]).sum())
@@ -373,7 +375,7 @@ def _fall(loss: Callable[[Array], float], theta: Array, number: int, end: float)
 
 
 def _back(number: int, theta: Array, intervals: dict[int, tuple[float, float, float | None]]) -> Interval | None:
-    """An estimate on the scale on which people read it."""
+    """Return an estimate on the scale on which people read it."""
     if number not in intervals:
         return None
     turn = (float, np.exp, expit, expit)[number]
@@ -389,6 +391,6 @@ def _person(weights: Array) -> Interval:
 
 
 def theta_of(player: PopulationPlayer) -> Array:
-    """The parameters of a population as the likelihood takes them."""
+    """Return the parameters of a population as the likelihood takes them."""
     shares = [min(max(chance, 1e-3), 1 - 1e-3) for chance in (player.follow, player.lapse)]
     return np.array([player.forgetting_mean, np.log(max(player.forgetting_spread, 0.01)), *logit(shares)])

@@ -231,7 +231,10 @@ def _statistic(name: str, observed: float, values: list[float]) -> PredictedStat
 
 
 def _memory_curve(curves: Sequence[tuple[list[_Facts], list[_Facts]]], studies: int) -> Iterator[PredictedStatistic]:
-    """How often the mate of an open card is found without a hint, by how long ago it was seen, over all conditions."""
+    """Return how often the mate of an open card is found without a hint.
+
+    It goes by how long ago the mate was seen, over all conditions.
+    """
     for age, (low, high) in enumerate(AGES):
 
         def share(games: Sequence[_Facts], age: int = age) -> float:

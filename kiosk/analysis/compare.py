@@ -1,4 +1,7 @@
-"""Compare two groups in every way that a report shows: lines with a value, an interval, a p, or the reason why not."""
+"""Compare two groups in every way that a report shows.
+
+A line has a value, an interval and a p, or the reason why not.
+"""
 
 from __future__ import annotations
 
@@ -86,7 +89,7 @@ class Comparison:
     lines: tuple[Line, ...]
 
     def line(self, name: str) -> Line:
-        """The line of this name."""
+        """Return the line of this name."""
         return next(line for line in self.lines if line.name == name)
 
 
@@ -98,8 +101,9 @@ TESTS: dict[TestName, tuple[str, Callable[[Floats, Floats], TestResult]]] = {
 
 
 def compare(measure: str, groups: tuple[str, str], x: Floats, y: Floats, smallest: float | None = None) -> Comparison:
-    """Compare two groups in every way; ``smallest`` is the effect of interest in pooled SDs, for equivalence.
+    """Compare two groups in every way.
 
+    ``smallest`` is the effect of interest in pooled SDs, for equivalence.
     Without it there are Welch's test and Hedges' g only.
     """
     # Results of tests are differences, x less y, in the measure's own unit unless the line says otherwise.
@@ -160,7 +164,7 @@ def _sd(x: Floats) -> float:
 
 
 def kept_values(groups: Sequence[Floats], exclusions: Exclusion) -> list[Floats]:
-    """The values that a plan's rule leaves in each group; a rule on values needs three in each."""
+    """Return the values that a plan's rule leaves in each group; a rule on values needs three in each."""
     if exclusions == "technical" or min(map(len, groups)) < LEAST:
         return list(groups)
     both = np.concatenate(groups)
@@ -172,7 +176,7 @@ def kept_values(groups: Sequence[Floats], exclusions: Exclusion) -> list[Floats]
 
 
 def directed_p(p: float, difference: float, direction: Direction) -> float:
-    """The p of a test in its direction, from the two-sided one and the sign of the difference."""
+    """Return the p of a test in its direction, from the two-sided one and the sign of the difference."""
     if direction == "two-sided" or math.isnan(p):
         return p
     right = difference < 0 if direction == "less" else difference > 0

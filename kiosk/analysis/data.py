@@ -67,11 +67,11 @@ class ExportTable:
         return len(next(iter(self.columns.values())))
 
     def text(self, column: str) -> Sequence[str]:
-        """The cells of a column; a column that this data set does not have is empty."""
+        """Return the cells of a column; a column that this data set does not have is empty."""
         return self.columns.get(column) or [""] * len(self)
 
     def numbers(self, column: str) -> Floats:
-        """A column as numbers; truths are 1 and 0, empty cells NaN.
+        """Return a column as numbers; truths are 1 and 0, empty cells NaN.
 
         Raises UserInputError, naming file, column and row, for a cell that is neither.
         """
@@ -88,11 +88,11 @@ class ExportTable:
         return values
 
     def truths(self, column: str) -> Truths:
-        """A column of ``true`` and ``false``; empty cells are false."""
+        """Return a column of ``true`` and ``false``; empty cells are false."""
         return np.array([cell == "true" for cell in self.text(column)], dtype=np.bool_)
 
     def where(self, rows: Truths) -> ExportTable:
-        """The rows that are marked, in a table of their own."""
+        """Return the rows that are marked, in a table of their own."""
         kept = np.flatnonzero(rows).tolist()
         return ExportTable(self.path, {name: [cells[row] for row in kept] for name, cells in self.columns.items()})
 
@@ -137,7 +137,7 @@ class ExportedStudy:
 
 
 def in_order(conditions: Sequence[str]) -> tuple[str, ...]:
-    """The different conditions in the order of the design, unknown names last."""
+    """Return the different conditions in the order of the design, unknown names last."""
     return tuple(condition.name for condition in in_design_order(map(Condition, conditions)))
 
 
@@ -156,7 +156,10 @@ def load_study(folder: Path) -> ExportedStudy:
 
 
 def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:
-    """The plans that the data set carries, oldest first; a file that is not what its hash says is refused."""
+    """Return the plans that the data set carries, oldest first.
+
+    A file that is not what its hash says is refused.
+    """
     path = folder / PLANS
     if not path.exists():
         return ()
@@ -222,7 +225,7 @@ def _columns(
 
 
 def _description(folder: Path) -> dict[str, Any]:
-    """What the data set says of itself."""
+    """Return what the data set says of itself."""
     if (folder / "participants.tsv").exists():
         raise UserInputError(f"{folder} has the names of BIDS; export the data without --bids for a report")
     path = folder / DESCRIPTION
@@ -250,7 +253,7 @@ def _description(folder: Path) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class ScaleItems:
-    """The scored answers to a scale: a row for each participant, a column for each item, NaN where none was given."""
+    """The scored answers to a scale: a row per participant, a column per item, NaN for no answer."""
 
     name: str
     items: tuple[str, ...]
@@ -281,7 +284,7 @@ def scale_items(study: ExportedStudy, participants: Sequence[str]) -> tuple[Scal
 
 
 def scale_names(table: ExportTable) -> dict[tuple[str, str], str]:
-    """What each scale is called: its own name, after its questionnaire's where two have the same."""
+    """Return what each scale is called: its own name, after its questionnaire's where two have the same."""
     keys = dict.fromkeys(key for key in zip(table.text("questionnaire"), table.text("scale"), strict=True) if key[1])
     alone = Counter(scale for _, scale in keys)
     return {key: key[1] if alone[key[1]] == 1 else ".".join(key) for key in keys}

@@ -39,7 +39,9 @@ CHUNK = 400
 
 @dataclass(frozen=True, slots=True)
 class PlayedGame:
-    """A game flip by flip: the mate of every place, and of each flip its place, its action and the hinted place.
+    """A game flip by flip.
+
+    It has the mate of every place, and of each flip its place, its action and the hinted place.
 
     Places are numbered row by row from 0. Flips without a hint have the action ``no_help``; their target is unused.
     """
@@ -74,7 +76,7 @@ class MoveLikelihood:
     game: NDArray[np.int64]
 
     def games(self, following: float, lapse: float) -> Array:
-        """The log-likelihood of each game for each forgetting of the grid, shape games x grid."""
+        """Return the log-likelihood of each game for each forgetting of the grid, shape games x grid."""
         ways = np.empty((len(self.game), 2, WAYS))
         for card in range(2):
             follows = np.where(self.hinted[:, card], following, 0.0)
@@ -145,7 +147,7 @@ def _in_line(card: int, flip: tuple[int, int, int], columns: int) -> bool:
 
 
 def _group(left: int, moves: _Moves, forgetting: Array) -> MoveLikelihood:
-    """The terms of all moves with ``left`` pairs left."""
+    """Return the terms of all moves with ``left`` pairs left."""
     chosen = np.array(moves.chosen)
     hinted = np.array(moves.hinted)
     lines = np.array(moves.lines)
@@ -158,7 +160,10 @@ def _group(left: int, moves: _Moves, forgetting: Array) -> MoveLikelihood:
 
 
 def _fill(terms: Array, group: _Group, lines: Mask, hinted: Mask) -> None:
-    """Put in the expectation for each pair of ways; where a move has no second card, its first way stands for all."""
+    """Put in the expectation for each pair of ways.
+
+    Where a move has no second card, its first way stands for all.
+    """
     cards = 2 * group.left
     every = np.arange(len(terms))
     whole, second = group.complete, group.complete
@@ -204,7 +209,7 @@ class _Group:
         self.matched: Mask = (self.second == self.mate)[:, None]
 
     def pick(self, rows: Mask) -> _Group:
-        """Some of the moves."""
+        """Return some of the moves."""
         return self if rows.all() else _Group(self.left, self.ages[rows], self.chosen[rows], self.forgetting)
 
     def _member(self, sets: Mask, card: NDArray[np.int64]) -> Array:
@@ -212,7 +217,7 @@ class _Group:
         return member
 
     def first_only(self, sets: Mask) -> Array:
-        """The chance of the first card, where it is chosen from the set."""
+        """Return the chance of the first card, where it is chosen from the set."""
         one, mate = self._member(sets, self.first), self._member(sets, self.mate)
         nodes, weights = _nodes(self.left)
         lost, kept = 1 - self.recalls_first, self.recalls_mate
@@ -221,7 +226,7 @@ class _Group:
         return one * (lost * either + self._first_recalled(sets, None, second=None) + self._pair_recalled(sets))
 
     def second_only(self, sets: Mask) -> Array:
-        """The chance of the second card, where it is chosen from the set, whatever the first was chosen by."""
+        """Return the chance of the second card, where it is chosen from the set, whatever the first was chosen by."""
         nodes, weights = _nodes(self.left)
         there, mate = self._member(sets, self.second), self._member(sets, self.mate)
         product = self._product(None, sets, None, nodes, masked=True)
@@ -229,7 +234,10 @@ class _Group:
         return self.recalls_mate * self.matched + (1 - self.recalls_mate) * guessed
 
     def both(self, one: Mask, two: Mask, *, linked: bool = False) -> Array:
-        """The chance of both cards, chosen from the two sets; ``linked`` if the second is all that the first leaves."""
+        """Return the chance of both cards, chosen from the two sets.
+
+        ``linked`` if the second is all that the first leaves.
+        """
         lost, kept = 1 - self.recalls_first, self.recalls_mate
         in_one, mate_in_one = self._member(one, self.first), self._member(one, self.mate)
         in_two, mate_in_two = self._member(two, self.second), self._member(two, self.mate)
@@ -252,7 +260,10 @@ class _Group:
         return in_one * value
 
     def _first_recalled(self, one: Mask, two: Mask | None, *, second: Array | None) -> Array:
-        """The first card is recalled without its mate and chosen all the same, as the whole line is recalled."""
+        """Return the chance that the first card is recalled without its mate and chosen all the same.
+
+        It is so as the whole line is recalled.
+        """
         size = one.sum(axis=1)[:, None]
         possible = 1 - self._member(one, self.mate)
         if not possible.any():
@@ -266,7 +277,7 @@ class _Group:
         return share * second * _sum(product, weights * nodes ** (mate - 1))
 
     def _pair_recalled(self, one: Mask) -> Array:
-        """The whole pair is recalled, and chosen among the cards of all recalled pairs in the set."""
+        """Return the chance that the pair is recalled, and chosen among all recalled pairs in the set."""
         nodes, weights = _nodes(self.left)
         both = self.others[:, 0::2] * self.others[:, 1::2]
         here = (one & self.is_other).astype(int)
@@ -281,7 +292,7 @@ class _Group:
     def _product(
         self, one: Mask | None, two: Mask | None, z1: Array | None, z2: Array | None, *, masked: bool
     ) -> Array:
-        """The product over the other pairs at each node, shape moves x nodes x grid.
+        """Return the product over the other pairs at each node, shape moves x nodes x grid.
 
         A card of set ``one`` that is not recalled counts z1, one of ``two`` z2; no pair with a card in ``one`` is
         recalled whole; ``masked``: nor is the second card recalled.
@@ -322,7 +333,7 @@ def _nodes(half: int) -> tuple[Array, Array]:
 
 
 def _sum(product: Array, weights: Any) -> Array:
-    """The quadrature: a weighted sum over the nodes, shape moves x grid."""
+    """Return the quadrature: a weighted sum over the nodes, shape moves x grid."""
     weights = np.broadcast_to(weights, product.shape[:2])
     total: Array = np.einsum("mqg,mq->mg", product, weights)
     return total

@@ -22,7 +22,10 @@ Integers = npt.NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Reliability:
-    """How well the items of a scale go together; ``omega`` is NaN with its reason where one factor does not fit."""
+    """How well the items of a scale go together.
+
+    ``omega`` is NaN with its reason where one factor does not fit.
+    """
 
     n: int
     alpha: Estimate
@@ -100,7 +103,7 @@ def omega(complete: Floats) -> float:
 
 
 def _uniquenesses(r: Floats) -> Floats:
-    """The share of variance that each item has to itself, where the likelihood of one factor is largest."""
+    """Return the share of variance that each item has to itself, where the likelihood of one factor is largest."""
 
     def loss(unique: Floats) -> tuple[float, Floats]:
         scale = 1 / np.sqrt(unique)
@@ -188,7 +191,10 @@ class MixedModel:
 
 @dataclass(frozen=True)
 class BinomialData:
-    """Hits of trials for each row; a row has its person and its covariates, of which the first is the constant."""
+    """Hits of trials for each row.
+
+    A row has its person and its covariates, of which the first is the constant.
+    """
 
     hits: Floats
     trials: Floats
@@ -196,7 +202,7 @@ class BinomialData:
     person: Integers
 
     def without(self, column: int) -> BinomialData:
-        """The same without one covariate."""
+        """Return the same without one covariate."""
         return BinomialData(self.hits, self.trials, np.delete(self.design, column, axis=1), self.person)
 
 
@@ -267,7 +273,7 @@ def _require_variation(data: BinomialData) -> None:
 
 
 def _fit_plain(data: BinomialData) -> _Fit:
-    """The logistic model without random intercepts, by Newton's method."""
+    """Return the logistic model without random intercepts, by Newton's method."""
     beta = np.zeros(data.design.shape[1])
     information = np.eye(len(beta))
     for _ in range(100):
@@ -286,7 +292,7 @@ def _fit_plain(data: BinomialData) -> _Fit:
 
 
 def _fit_mixed(data: BinomialData, plain: _Fit) -> _Fit:
-    """The model with random intercepts: quasi-Newton on the marginal likelihood, errors from its curvature."""
+    """Return the model with random intercepts: quasi-Newton on the marginal likelihood, errors from its curvature."""
     marginal = _Marginal(data)
     bounds = [(None, None)] * len(plain.theta) + [(0.0, 20.0)]
     best: Floats | None = None
@@ -309,7 +315,7 @@ def _fit_mixed(data: BinomialData, plain: _Fit) -> _Fit:
 
 
 def _polished(marginal: _Marginal, theta: Floats) -> tuple[Floats, Floats]:
-    """A maximum brought to full precision by Newton steps, and the curvature there."""
+    """Return a maximum brought to full precision by Newton steps, and the curvature there."""
     hessian = marginal.curvature(theta)
     for _ in range(3):
         gradient = marginal.loss(theta)[1]
@@ -335,7 +341,7 @@ class _Marginal:
         self._log_weights = np.log(weights) + nodes**2 + 0.5 * math.log(2)
 
     def loss(self, theta: Floats) -> tuple[float, Floats]:
-        """The negative log likelihood and its gradient."""
+        """Return the negative log likelihood and its gradient."""
         beta, sd = theta[:-1], float(theta[-1])
         eta = self._design @ beta
         mode, width = self._modes(eta, sd)
@@ -366,7 +372,7 @@ class _Marginal:
         return z, 1 / np.sqrt(curvature)
 
     def curvature(self, theta: Floats) -> Floats:
-        """The second derivatives of the loss: differences of the gradient, extrapolated once."""
+        """Return the second derivatives of the loss: differences of the gradient, extrapolated once."""
         columns = []
         for k in range(len(theta)):
             step = np.zeros(len(theta))

@@ -91,7 +91,7 @@ class Page:
 
 
 def number(value: float | None, digits: int = 2) -> str:
-    """A number as it is read, with a true minus sign; a dash where there is none."""
+    """Return a number as it is read, with a true minus sign; a dash where there is none."""
     if value is None or math.isnan(value):
         return NOTHING
     if math.isinf(value):
@@ -101,19 +101,19 @@ def number(value: float | None, digits: int = 2) -> str:
 
 
 def p_value(p: float) -> str:
-    """A p value as APA has it: without the zero, and never less than .001."""
+    """Return a p value as APA has it: without the zero, and never less than .001."""
     if math.isnan(p):
         return NOTHING
     return "< .001" if p < 0.001 else f"{p:.3f}".removeprefix("0")  # noqa: PLR2004 - APA's smallest p
 
 
 def interval(low: float, high: float, digits: int = 2) -> str:
-    """An interval in brackets."""
+    """Return an interval in brackets."""
     return NOTHING if math.isnan(low) and math.isnan(high) else f"[{number(low, digits)}, {number(high, digits)}]"
 
 
 def factor(value: float) -> str:
-    """A Bayes factor, in three figures."""
+    """Return a Bayes factor, in three figures."""
     if math.isnan(value):
         return NOTHING
     return f"{value:.3g}" if 0.001 <= value < 1000 else f"{value:.1e}"  # noqa: PLR2004 - readable up to there
@@ -123,7 +123,7 @@ def factor(value: float) -> str:
 
 
 def to_html(page: Page) -> str:
-    """The page as one HTML file; it asks for nothing outside itself, and prints."""
+    """Return the page as one HTML file; it asks for nothing outside itself, and prints."""
     counts = {"Table": 0, "Figure": 0}
     body = "".join(_section(section, counts) for section in page.sections)
     links = "".join(f'<li><a href="#{each.id}">{html.escape(each.title)}</a></li>' for each in page.sections)
@@ -175,7 +175,7 @@ def _block(block: Block, counts: dict[str, int]) -> str:
 
 
 def _drawing(picture: Picture) -> str:
-    """The drawing in the page; a wide one can be moved sideways where it does not fit."""
+    """Return the drawing in the page; a wide one can be moved sideways where it does not fit."""
     named = f'<svg role="img" aria-label="{html.escape(picture.alt)}" '
     drawn = picture.svg.replace("<svg ", named, 1)
     if not picture.wide:
@@ -222,7 +222,7 @@ def _class(right: bool) -> str:  # noqa: FBT001 - one column's kind
 
 
 def to_markdown(page: Page) -> str:
-    """The page as Markdown; figures are named, not drawn."""
+    """Return the page as Markdown; figures are named, not drawn."""
     lines = [f"# {_escaped(page.title)}", "", f"**{page.badge}**: {_escaped(page.badge_reason)}.", ""]
     lines += [f"- {_escaped(name)}: {_escaped(value)}" for name, value in page.facts]
     for section in page.sections:
@@ -255,7 +255,7 @@ def _escaped(text: str) -> str:
 
 
 def markdown_table(table: Table) -> str:
-    """A table in Markdown."""
+    """Return a table in Markdown."""
     rows = [table.head, ("---",) * len(table.head), *table.rows]
     cells = [[cell if row is rows[1] else _escaped(cell) for cell in row] for row in rows]
     return "\n".join(f"| {' | '.join(row)} |" for row in cells)
@@ -266,7 +266,7 @@ _LATEX |= {each: "\\" + each for each in "&%$#_{}"} | {"~": r"\textasciitilde{}"
 
 
 def latex_table(table: Table) -> str:
-    """A table in LaTeX, with the rules of the package booktabs."""
+    """Return a table in LaTeX, with the rules of the package booktabs."""
     columns = "l" + "r" * (len(table.head) - 1)
     rows = [" & ".join(_latex(cell) for cell in row) + r" \\" for row in table.rows]
     head = " & ".join(_latex(cell) for cell in table.head) + r" \\"
@@ -291,7 +291,7 @@ def _latex(text: str) -> str:
 
 
 def csv_table(table: Table) -> str:
-    """A table as CSV, with plain minus signs and empty cells where there is nothing."""
+    """Return a table as CSV, with plain minus signs and empty cells where there is nothing."""
     written = io.StringIO()
     writer = csv.writer(written, lineterminator="\r\n")
     writer.writerow(table.head)
@@ -319,7 +319,10 @@ def pictures(page: Page) -> Iterator[Picture]:
 
 
 def svg_of(figure: Figure, name: str) -> str:
-    """A figure as SVG that scales with its place in a page; no two drawings share an id, as ``name`` begins each."""
+    """Return a figure as SVG that scales with its place in a page.
+
+    No two drawings share an id, as ``name`` begins each.
+    """
     with mpl.rc_context(STYLE):
         drawn = io.StringIO()
         figure.savefig(drawn, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
@@ -333,7 +336,7 @@ def svg_of(figure: Figure, name: str) -> str:
 
 
 def boxes_svg(size: tuple[int, int], parts: Iterable[str]) -> str:
-    """A drawing of boxes and lines of this width and height."""
+    """Return a drawing of boxes and lines of this width and height."""
     width, height = size
     limits = f"min-width:{round(0.85 * width)}px;max-width:{width}px"
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" style="{limits}">'
@@ -341,7 +344,10 @@ def boxes_svg(size: tuple[int, int], parts: Iterable[str]) -> str:
 
 
 def box(place: tuple[float, float, float], lines: Sequence[str], colour: str = "#444") -> tuple[str, float]:
-    """A box at left, top and of a width, with its lines of text, the first one bold; and its height."""
+    """Return a box at left, top and of a width, with its lines of text; and its height.
+
+    The first line is bold.
+    """
     left, top, width = place
     height = 14.0 + 17 * len(lines)
     texts = ""
@@ -356,7 +362,7 @@ def box(place: tuple[float, float, float], lines: Sequence[str], colour: str = "
 
 
 def arrow(start: tuple[float, float], end: tuple[float, float]) -> str:
-    """A line from one point to another, with a head at its end; upright or level."""
+    """Return a line from one point to another, with a head at its end; upright or level."""
     (x1, y1), (x2, y2) = start, end
     head = (
         f"{x2 - 4:g},{y2 - 6:g} {x2 + 4:g},{y2 - 6:g} {x2:g},{y2:g}"

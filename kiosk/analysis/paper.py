@@ -104,7 +104,7 @@ def _t(difference: float, sds: tuple[float, float]) -> float:
 
 
 def _rounding(each: PrintedResult) -> tuple[float, float]:
-    """The smallest and the largest t of means and SDs that round to the printed ones."""
+    """Return the smallest and the largest t of means and SDs that round to the printed ones."""
     half = each.step / 2
     difference = each.means[0] - each.means[1]
     narrow, wide = ((each.sds[0] + side * half, each.sds[1] + side * half) for side in (-1, 1))
@@ -113,7 +113,7 @@ def _rounding(each: PrintedResult) -> tuple[float, float]:
 
 
 def paper_json() -> list[dict[str, Any]]:
-    """The same for programs, with what was printed."""
+    """Return the same for programs, with what was printed."""
     return [
         asdict(found) | {"printed": each.printed, "remark": each.remark}
         for each, found in zip(PRINTED, recompute(), strict=True)
@@ -121,7 +121,7 @@ def paper_json() -> list[dict[str, Any]]:
 
 
 def paper_section() -> Section:
-    """The section of a report about the paper."""
+    """Return the section of a report about the paper."""
     assistance = PRINTED[3]
     spread = math.sqrt((assistance.sds[0] ** 2 + assistance.sds[1] ** 2) / N)
     rows = []

@@ -125,7 +125,7 @@ class StudyPlan(ConfigModel):
 
 
 def plan_sha256(path: Path) -> str:
-    """The hash of a plan file, byte by byte."""
+    """Return the hash of a plan file, byte by byte."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
@@ -188,7 +188,7 @@ correction = "none"
 
 
 def preregistration(plan: StudyPlan, sha256: str) -> str:
-    """The text of a preregistration in Markdown, with the fields that OSF and AsPredicted ask for."""
+    """Return the text of a preregistration in Markdown, with the fields that OSF and AsPredicted ask for."""
     first, second = plan.conditions
     lines = [
         f"# {plan.title}",

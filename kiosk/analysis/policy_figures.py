@@ -1,4 +1,7 @@
-"""Figures of the learning layer, as the bytes of a picture: what a table does, and how long simulated games last."""
+"""Figures of the learning layer: what a table does, and how long simulated games last.
+
+They are the bytes of a picture.
+"""
 
 from __future__ import annotations
 
@@ -51,17 +54,19 @@ class FigureSample(Protocol):
 
 
 def sign(action: ActionSpec) -> str:
-    """What an action is called in a figure."""
+    """Return what an action is called in a figure."""
     return SIGNS.get(action, action.label)
 
 
 def _colours(number: int) -> list[str]:
-    """A colour for each action; those of packages share one."""
+    """Return a colour for each action; those of packages share one."""
     return [*COLOURS, *["#cc79a7"] * (number - len(COLOURS))]
 
 
 def heat_map(policy: QTable, visits: Mapping[State, int], ending: str) -> bytes:
-    """The greedy action in each of the 48 states: a row per phase and last assistance, a column per outcome.
+    """Return the greedy action in each of the 48 states.
+
+    There is a row per phase and last assistance, a column per outcome.
 
     States never met in training (``visits`` says so; an empty mapping means unknown) carry a dot. ``ending`` is
     "png" or "svg".
@@ -100,7 +105,10 @@ def _cell(axes: Any, y: int, state: State, policy: QTable, visits: Mapping[State
 
 
 def distributions(samples: Sequence[FigureSample], ending: str) -> bytes:
-    """Moves a game as histograms, one over the other; above them our mean and SD (full) beside the paper's."""
+    """Draw moves a game as histograms, one over the other.
+
+    Above them are our mean and SD (full) beside the paper's.
+    """
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.2), layout="constrained")
         marks, axes = figure.subplots(2, 1, sharex=True, height_ratios=(1, 3))

@@ -101,7 +101,7 @@ def run_block(job: PowerJob, block: int) -> list[list[list[float]]]:
 
 
 def _arm(job: PowerJob, name: str, games: int, rng: np.random.Generator, *, first: bool) -> dict[str, Array]:
-    """The measures of many participants of one arm."""
+    """Return the measures of many participants of one arm."""
     plan = StudyPlan.model_validate_json(job.plan, strict=False)
     where = target_rule(Condition(plan.conditions[1] if job.null else name).known, TargetRule(job.rule))
     policy = QTable.from_json(job.policy) if where else QTable.blank()
@@ -158,7 +158,7 @@ def _tests(plan: StudyPlan) -> list[_Test]:
 
 
 def _signed(test: _Test, one: dict[str, Array], two: dict[str, Array], size: int) -> float:
-    """The two-sided p, negative where the first group is lower; NaN where there is no test."""
+    """Return the two-sided p, negative where the first group is lower; NaN where there is no test."""
     groups = [arm[test.measure][:size] for arm in (one, two)]
     x, y = kept_values([group[~np.isnan(group)] for group in groups], test.exclusions)
     if min(len(x), len(y)) < 3 or (np.ptp(x) == 0 and np.ptp(y) == 0):  # noqa: PLR2004 - no variance from fewer
@@ -199,7 +199,7 @@ def run(job: PowerJob, store: Path, workers: int = 1, scheduler: str = "", progr
 
 
 def _stored(job: PowerJob, store: Path) -> dict[int, Any]:
-    """The blocks that are there; a line that was cut off is dropped from the file."""
+    """Return the blocks that are there; a line that was cut off is dropped from the file."""
     if not store.exists():
         return {}
     lines = store.read_text("utf-8").splitlines(keepends=True)
@@ -251,7 +251,7 @@ class PowerRow:
 
 
 def summarise(job: PowerJob, signed: Array) -> list[PowerRow]:
-    """The share of studies in which each test rejects in its direction, for each size."""
+    """Return the share of studies in which each test rejects in its direction, for each size."""
     plan = StudyPlan.model_validate_json(job.plan, strict=False)
     tests = _tests(plan)
     p = np.stack([_directed(signed[:, at], test.direction) for at, test in enumerate(tests)], axis=1)
@@ -266,7 +266,7 @@ def summarise(job: PowerJob, signed: Array) -> list[PowerRow]:
 
 
 def _directed(signed: Array, direction: str) -> Array:
-    """The p of a test in its direction, from the signed two-sided p."""
+    """Return the p of a test in its direction, from the signed two-sided p."""
     p = np.where(np.isnan(signed), 1.0, np.abs(signed))
     if direction == "two-sided":
         return p
@@ -275,7 +275,7 @@ def _directed(signed: Array, direction: str) -> Array:
 
 
 def _adjusted(plan: StudyPlan, p: Array) -> Array:
-    """The p after the correction within each family; reference effects stand alone."""
+    """Return the p after the correction within each family; reference effects stand alone."""
     adjusted = p.copy()
     count = len(plan.hypothesis)
     families = [each.family for each in plan.hypothesis]
@@ -299,12 +299,12 @@ def _correct(p: Array, correction: Correction) -> Array:
 
 
 def smallest_n(rows: Sequence[PowerRow], test: str) -> int | None:
-    """The smallest size at which a test, corrected, has a power of .8; None if none of the sizes has."""
+    """Return the smallest size at which a corrected test has a power of .8; else None."""
     return next((row.n for row in rows if row.test == test and row.corrected >= WANTED_POWER), None)
 
 
 def curve(rows: Sequence[PowerRow]) -> bytes:
-    """The corrected power of each test over the participants an arm, as an SVG."""
+    """Return the corrected power of each test over the participants an arm, as an SVG."""
     drawn = io.BytesIO()
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7, 4.4), layout="constrained")

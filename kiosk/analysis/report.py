@@ -163,7 +163,7 @@ class Report:
         return self.plan.conditions
 
     def comparison(self, measure: str) -> Comparison:
-        """The comparison of the plan's conditions in a measure."""
+        """Return the comparison of the plan's conditions in a measure."""
         return next(each for each in self.comparisons if each.measure == measure)
 
 
@@ -201,7 +201,7 @@ def make_report(
 
 
 def _default_plan(study: ExportedStudy) -> StudyPlan:
-    """The template for the conditions that occur; its first two, unless the study's own pair is there."""
+    """Return the template for the conditions that occur; its first two, unless the study's own pair is there."""
     plan = StudyPlan.model_validate(tomllib.loads(TEMPLATE))
     found = study.conditions
     if len(found) > 1 and not set(plan.conditions) <= set(found):
@@ -358,7 +358,7 @@ def _completion(sample: Sample, pair: tuple[str, str]) -> tuple[tuple[Completion
 
 
 def _any_hint(sample: Sample, plan: StudyPlan) -> Iterator[Comparison]:
-    """What can be compared among all who saw a first hint, whether or not they completed the game."""
+    """Yield what can be compared among all who saw a first hint, whether or not they completed the game."""
     if plan.population == "allocated":
         return
     everyone = choose_sample(sample.study, plan.model_copy(update={"population": "allocated"}))
@@ -426,7 +426,10 @@ def _models(sample: Sample, pair: tuple[str, str]) -> Iterator[ModelResult]:
 
 
 def _fitted(name: str, about: str, trials: _Trials, terms: Sequence[tuple[str, Floats | int | None]]) -> ModelResult:
-    """Fit a model; a term is a value for each person, the number of a covariate of the trials, or the constant."""
+    """Fit a model.
+
+    A term is a value for each person, the number of a covariate of the trials, or the constant.
+    """
     person = trials.person.astype(np.int64)
     columns = [
         np.ones(len(person)) if term is None else trials.more[term] if isinstance(term, int) else term[person]
@@ -442,7 +445,7 @@ def _fitted(name: str, about: str, trials: _Trials, terms: Sequence[tuple[str, F
 
 
 def _owners(sample: Sample, table: str) -> Floats:
-    """The row of each trial's person among those who are analysed, NaN for others."""
+    """Return the row of each trial's person among those who are analysed, NaN for others."""
     place = {name: float(row) for row, name in enumerate(sample.people.text("participant_id"))}
     return np.array([place.get(who, np.nan) for who in sample.study.tables[table].text("participant_id")])
 
@@ -459,7 +462,10 @@ def _hints(sample: Sample, *, first_only: bool) -> _Trials:
 
 
 def _second_cards(sample: Sample) -> _Trials:
-    """Second cards of the game: matched or not, hinted or not, and the phase by the pairs that were found before."""
+    """Return second cards of the game: matched or not, hinted or not, and their phase.
+
+    The phase goes by the pairs that were found before.
+    """
     flips = sample.study.tables["flips"]
     owner = _owners(sample, "flips")
     rows = ~np.isnan(owner)
@@ -482,7 +488,7 @@ def _second_cards(sample: Sample) -> _Trials:
 
 
 def reached_looks(sample: Sample, plan: StudyPlan) -> tuple[LookResult, ...]:
-    """The hypotheses at every declared look that was reached, from the first people of each arm; two-sided."""
+    """Return the hypotheses at every declared look that was reached, from the first people of each arm; two-sided."""
     reached = min(int(sample.rows(name).sum()) for name in plan.conditions)
     looks = plan.sequential.looks if plan.sequential is not None else ()
     return tuple(result for n in looks if n <= reached for result in _look(sample, plan, n))
@@ -504,7 +510,7 @@ def _look(sample: Sample, plan: StudyPlan, n: int) -> Iterator[LookResult]:
 
 
 def _first(sample: Sample, measure: str, condition: str, n: int) -> Floats:
-    """The known values of the first ``n`` people of an arm."""
+    """Return the known values of the first ``n`` people of an arm."""
     if measure not in sample.measured:
         return np.empty(0)
     values = sample.measured[measure][sample.rows(condition)][:n]

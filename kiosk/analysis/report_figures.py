@@ -48,12 +48,12 @@ _STYLE = STYLE | {
 
 
 def colour_of(condition: str) -> str:
-    """The colour of a condition in every figure."""
+    """Return the colour of a condition in every figure."""
     return COLOURS.get(condition, "#333333")
 
 
 def spoken(condition: str) -> str:
-    """A condition on one or two lines of an axis."""
+    """Return a condition on one or two lines of an axis."""
     return condition.replace("_", "\n")
 
 
@@ -61,7 +61,7 @@ def spoken(condition: str) -> str:
 
 
 def flow_figure(report: Report) -> Picture:
-    """The flow of participants, after CONSORT: who came, who was allocated what, who left, who is analysed."""
+    """Return the flow of participants, after CONSORT: who came, who was allocated what, who left, who is analysed."""
     sample = report.sample
     arms = [each.condition for each in report.completion]
     width = 190 * len(arms) + 10 if len(arms) > 1 else 400
@@ -95,7 +95,10 @@ def flow_figure(report: Report) -> Picture:
 
 
 def _flow_counts(sample: Sample) -> dict[str, dict[str, int]]:
-    """The counts of the table of the flow: a number for each group of each quantity, of people only if there are."""
+    """Return the counts of the table of the flow.
+
+    It is a number for each group of each quantity, of people only if there are.
+    """
     table = sample.study.tables["flow"]
     pretended = table.truths("simulated") | table.truths("trial")
     counts: dict[str, dict[str, int]] = {}
@@ -164,7 +167,7 @@ def values_picture(sample: Sample, measure: Measure) -> Picture:
 
 def _in_words(values: Floats, digits: int) -> str:
     if not len(values):
-        return "nobody"
+        return "no one"
     ends = f"from {number(float(values.min()), digits)} to {number(float(values.max()), digits)}"
     return f"{len(values)} people, mean {number(float(values.mean()), digits)}, {ends}"
 
@@ -238,7 +241,7 @@ def effects_figure(report: Report) -> Picture:
 
 
 def bayes_figure(report: Report) -> Picture:
-    """The Bayes factor of each hypothesis over the prior's scale."""
+    """Return the Bayes factor of each hypothesis over the prior's scale."""
     with mpl.rc_context(_STYLE):
         figure = Figure(figsize=(4.4, 2.8))
         axes = figure.add_axes((0.15, 0.17, 0.5, 0.79))

@@ -1,4 +1,4 @@
-"""A report as a page: its sections with tables, figures, sentences in APA form, and tables to paste into a paper."""
+"""A report as a page: tables, figures, sentences in APA form, and tables for a paper."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ TEST_NAMES = {
 
 
 def report_page(report: Report, *, with_paper: bool = False) -> Page:
-    """The whole report as a page."""
+    """Return the whole report as a page."""
     sample, standing = report.sample, report.standing
     first, second = report.pair
     analysed = ", ".join(f"{name}: {int(sample.rows(name).sum())}" for name in sample.conditions)
@@ -78,7 +78,7 @@ def _sections(report: Report) -> Iterator[Section]:
 
 
 def _also(report: Report, title: str) -> str:
-    """The title of a part that the plan does not declare."""
+    """Return the title of a part that the plan does not declare."""
     return f"{title} (exploratory)" if report.standing.status == CONFIRMATORY else title
 
 
@@ -96,7 +96,7 @@ def _hypotheses(report: Report) -> Iterator[Block]:
 
 
 def hypotheses_table(report: Report) -> Table:
-    """The hypotheses with their tests, the table of a paper."""
+    """Return the hypotheses with their tests, the table of a paper."""
     first, second = report.pair
     rows = []
     for each in report.hypotheses:
@@ -155,7 +155,7 @@ def _statistic(line: Line) -> str:
 
 
 def sentence(report: Report, each: HypothesisResult) -> str:
-    """A hypothesis in a sentence, as APA asks for it."""
+    """Return a hypothesis in a sentence, as APA asks for it."""
     known = _measure(report, each.measure)
     if math.isnan(each.line.p):
         return f"{each.id}. {known.label} could not be tested ({each.line.note or 'no values'})."
@@ -471,7 +471,7 @@ def _methods(report: Report) -> Section:
 
 
 def paper_page() -> Page:
-    """The paper's numbers alone, without a data set."""
+    """Return the paper's numbers alone, without a data set."""
     return Page(
         "The paper's numbers, recomputed",
         "EXPLORATORY",

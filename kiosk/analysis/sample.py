@@ -1,4 +1,4 @@
-"""Who of a data set is analysed: the rules that leave people out, how many of each arm, and everyone's measures."""
+"""Who of a data set is analysed: exclusion rules, the size of each arm, and everyone's measures."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Sample:
         return np.array([name == condition for name in self.people.text("condition")], dtype=np.bool_)
 
     def values(self, measure: str, condition: str) -> Floats:
-        """The known values of a measure in a condition; none of a measure that this study does not have."""
+        """Return the known values of a measure in a condition; none of a measure that this study does not have."""
         if measure not in self.measured:
             return np.empty(0)
         found = self.measured[measure][self.rows(condition)]
@@ -100,7 +100,7 @@ class Sample:
 
     @cached_property
     def measures(self) -> tuple[Measure, ...]:
-        """The measures that somebody has a value of."""
+        """The measures that at least one person has a value of."""
         return tuple(each for each in self._all if not np.isnan(self.measured[each.name]).all())
 
     @cached_property
@@ -121,7 +121,7 @@ class Sample:
 
 
 def measure_people(study: ExportedStudy, people: ExportTable) -> dict[str, Floats]:
-    """The measures of some participants: those of the game, and the sum of each scale."""
+    """Return the measures of some participants: those of the game, and the sum of each scale."""
     measured = {each.name: people.numbers(each.name) for each in MEASURES}
     place = {name: row for row, name in enumerate(people.text("participant_id"))}
     scores = study.tables["scores"]
@@ -162,7 +162,7 @@ def choose_sample(study: ExportedStudy, plan: StudyPlan, declared: Mapping[str, 
 
 
 def _real(participants: ExportTable) -> tuple[ExportTable, bool]:
-    """The sessions of people, or all of them if a program played every one; and whether it did."""
+    """Return the sessions of people, or all of them if a program played every one; and whether it did."""
     pretended = participants.truths("simulated") | participants.truths("trial")
     if pretended.all():
         return participants, bool(len(participants))

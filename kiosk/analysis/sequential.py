@@ -19,12 +19,15 @@ PRIOR_SCALE = math.sqrt(0.5)
 
 
 def obrien_fleming(alpha: float, share: float) -> float:
-    """Two-sided alpha spent at an information share t of 0..1, after O'Brien and Fleming: 4 - 4 Phi(z / sqrt t)."""
+    """Return two-sided alpha spent at an information share t of 0..1.
+
+    After O'Brien and Fleming: 4 - 4 Phi(z / sqrt t).
+    """
     return float(4 - 4 * ndtr(ndtri(1 - alpha / 4) / math.sqrt(share)))
 
 
 def pocock(alpha: float, share: float) -> float:
-    """Two-sided alpha spent at an information share of 0..1, after Pocock: alpha log(1 + (e - 1) t)."""
+    """Return two-sided alpha spent at an information share of 0..1, after Pocock: alpha log(1 + (e - 1) t)."""
     return alpha * math.log(1 + (math.e - 1) * share)
 
 
@@ -32,7 +35,7 @@ SPENDING: dict[str, Callable[[float, float], float]] = {"obrien-fleming": obrien
 
 
 def boundaries(looks: Sequence[int], alpha: float, spending: str) -> list[float]:
-    """The bound of |z| at each look, so that all looks together spend ``alpha`` two-sided.
+    """Return the bound of |z| at each look, so that all looks together spend ``alpha`` two-sided.
 
     ``looks`` are participants an arm, rising. The density of the statistic within the earlier bounds is carried from
     look to look by numerical integration (Armitage, McPherson and Rowe 1969).
@@ -57,7 +60,7 @@ def boundaries(looks: Sequence[int], alpha: float, spending: str) -> list[float]
 
 
 def _excess(bound: float, grid: Array, density: Array, times: tuple[float, float], wanted: float) -> float:
-    """The chance to cross a bound at the next look, less the wanted one."""
+    """Return the chance to cross a bound at the next look, less the wanted one."""
     share, step = times
     edge = bound * math.sqrt(share)
     out = ndtr((-edge - grid) / step) + ndtr((grid - edge) / step)
@@ -71,7 +74,7 @@ def _start(bound: float, share: float) -> tuple[Array, Array]:
 
 
 def nominal_levels(looks: Sequence[int], alpha: float, spending: str) -> list[float]:
-    """The two-sided p below which a test is significant at each look."""
+    """Return the two-sided p below which a test is significant at each look."""
     return [float(2 * ndtr(-bound)) for bound in boundaries(looks, alpha, spending)]
 
 

@@ -78,7 +78,7 @@ def simulate_participants(
 
 
 def game_measures(game: RecordedGame) -> Numbers:
-    """The measures of a game as an export has them; rates without any hint are NaN."""
+    """Return the measures of a game as an export has them; rates without any hint are NaN."""
     hints = followed = first = followed_first = led = 0
     levels = 0.0
     led_on = False
@@ -216,7 +216,7 @@ def _cards(person: SimulatedParticipant) -> Iterator[dict[str, Any]]:
 
 
 def _flips(person: SimulatedParticipant) -> Iterator[tuple[dict[str, Any], dict[str, Any] | None]]:
-    """The rows of the tables of flips and hints."""
+    """Yield the rows of the tables of flips and hints."""
     game = person.game
     pace = round(person.measures["completion_ms"] / person.measures["flips"])
     for at, (place, action, target) in enumerate(game.flips):

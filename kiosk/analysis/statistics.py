@@ -35,7 +35,10 @@ class NotEstimableError(ValueError):
 
 @dataclass(frozen=True)
 class TestResult:
-    """A test of two groups; ``estimate`` with its interval is what the test is about, where there is such a thing."""
+    """A test of two groups.
+
+    ``estimate`` with its interval is what the test is about, where there is such a thing.
+    """
 
     statistic: float
     p: float
@@ -89,12 +92,12 @@ def _t_test(difference: float, error: float, df: float, level: float) -> TestRes
 
 
 def two_sided(t: float, df: float) -> float:
-    """The two-sided p of a t."""
+    """Return the two-sided p of a t."""
     return float(2 * special.stdtr(df, -abs(t)))
 
 
 def pooled_sd(x: Floats, y: Floats) -> float:
-    """The standard deviation within groups."""
+    """Return the standard deviation within groups."""
     squares = (len(x) - 1) * x.var(ddof=1) + (len(y) - 1) * y.var(ddof=1)
     return math.sqrt(squares / (len(x) + len(y) - 2))
 
@@ -145,7 +148,9 @@ def mann_whitney(x: Floats, y: Floats) -> TestResult:
 
 
 def _exact_rank_p(ranks: Floats, n: int) -> float:
-    """The chance of a rank sum at least as far from its mean, over all ways to choose the first group.
+    """Return the chance of a rank sum at least as far from its mean.
+
+    It is over all ways to choose the first group.
 
     Counts sums by dynamic programming over people; doubled ranks are whole numbers also with ties.
     """
@@ -180,7 +185,7 @@ def _normal_rank_p(ranks: Floats, n: int, u: float) -> float:
 
 
 def rank_biserial(u: float, n: int, m: int, level: float = 0.95) -> Estimate:
-    """The rank-biserial correlation of a U, with its interval by Fisher's z."""
+    """Return the rank-biserial correlation of a U, with its interval by Fisher's z."""
     r = 2 * u / (n * m) - 1
     if abs(r) == 1:
         return Estimate(r, r, r)
@@ -189,7 +194,9 @@ def rank_biserial(u: float, n: int, m: int, level: float = 0.95) -> Estimate:
 
 
 def permutation(x: Floats, y: Floats, draws: int = DRAWS, seed: int = SEED) -> TestResult:
-    """Test the difference of means over the ways to split the people; all of them if they are few, else drawn ones.
+    """Test the difference of means over the ways to split the people.
+
+    It takes all of them if they are few, else drawn ones.
 
     The p is the share of splits whose absolute difference is at least the observed one; a drawn one counts the
     observed split as well.
@@ -214,7 +221,7 @@ def permutation(x: Floats, y: Floats, draws: int = DRAWS, seed: int = SEED) -> T
 
 
 def _drawn_sums(both: Floats, n: int, draws: int, rng: np.random.Generator) -> Floats:
-    """The sums of the first group in random splits."""
+    """Return the sums of the first group in random splits."""
     keys = rng.random((draws, len(both)), dtype=np.float32)
     chosen = np.argpartition(keys, n - 1, axis=1)[:, :n]
     sums: Floats = both[chosen].sum(axis=1)
@@ -253,7 +260,7 @@ def brown_forsythe(*groups: Floats) -> TestResult:
 
 
 def cohen_d(x: Floats, y: Floats, level: float = 0.95) -> Estimate:
-    """The difference of means in pooled standard deviations, with the interval by the noncentral t."""
+    """Return the difference of means in pooled standard deviations, with the interval by the noncentral t."""
     _require_spread(x, y)
     d = float(x.mean() - y.mean()) / pooled_sd(x, y)
     return standardised(d, len(x), len(y), level)
@@ -267,19 +274,19 @@ def hedges_g(x: Floats, y: Floats, level: float = 0.95) -> Estimate:
 
 
 def hedges_correction(df: float) -> float:
-    """The factor that makes d unbiased: Gamma(df/2) / (sqrt(df/2) Gamma((df-1)/2))."""
+    """Return the factor that makes d unbiased: Gamma(df/2) / (sqrt(df/2) Gamma((df-1)/2))."""
     return math.exp(math.lgamma(df / 2) - math.lgamma((df - 1) / 2)) / math.sqrt(df / 2)
 
 
 def standardised(d: float, n: int, m: int, level: float = 0.95) -> Estimate:
-    """A Cohen's d of two groups of n and m with its interval by the noncentral t."""
+    """Return a Cohen's d of two groups of n and m with its interval by the noncentral t."""
     scale = math.sqrt(1 / n + 1 / m)
     low, high = noncentrality_interval(d / scale, n + m - 2, level)
     return Estimate(d, low * scale, high * scale)
 
 
 def noncentrality_interval(t: float, df: float, level: float = 0.95) -> tuple[float, float]:
-    """The noncentralities between which a t with df degrees of freedom is not surprising at this level."""
+    """Return the noncentralities between which a t with df degrees of freedom is not surprising at this level."""
     tail = (1 - level) / 2
     width = 10 * math.sqrt(1 + t * t / (2 * df))
 
@@ -293,7 +300,7 @@ _NODES, _WEIGHTS = special.roots_legendre(400)
 
 
 def noncentral_t(t: float, df: float, ncp: float) -> float:
-    """The chance that a noncentral t is at most t, integrated over the chi distribution.
+    """Return the chance that a noncentral t is at most t, integrated over the chi distribution.
 
     scipy's own is NaN where t and the noncentrality are far apart.
     """
@@ -304,7 +311,7 @@ def noncentral_t(t: float, df: float, ncp: float) -> float:
 
 
 def bootstrap_difference(x: Floats, y: Floats, draws: int = DRAWS, seed: int = SEED, level: float = 0.95) -> Estimate:
-    """The difference of means, x less y, with a bias-corrected and accelerated bootstrap interval."""
+    """Return the difference of means, x less y, with a bias-corrected and accelerated bootstrap interval."""
     _require_spread(x, y)
     rng = np.random.default_rng(seed)
     drawn = _drawn_means(x, draws, rng) - _drawn_means(y, draws, rng)
@@ -324,7 +331,9 @@ def _drawn_means(x: Floats, draws: int, rng: np.random.Generator) -> Floats:
 
 
 def bca(drawn: Floats, value: float, influence: Floats, level: float = 0.95) -> tuple[float, float]:
-    """The limits of a bias-corrected and accelerated interval from bootstrap values (Efron 1987; as R's boot.ci).
+    """Return the limits of a bias-corrected and accelerated interval from bootstrap values.
+
+    After Efron (1987); as R's boot.ci.
 
     ``influence`` is the empirical influence of every observation, up to a factor.
     """
@@ -342,7 +351,7 @@ def bca(drawn: Floats, value: float, influence: Floats, level: float = 0.95) -> 
 
 
 def _quantile(ordered: Floats, share: float) -> float:
-    """The quantile at ``share`` (n + 1), interpolated on the normal scale, as R's boot does."""
+    """Return the quantile at ``share`` (n + 1), interpolated on the normal scale, as R's boot does."""
     n = len(ordered)
     place = (n + 1) * share
     k = math.floor(place)
@@ -358,7 +367,10 @@ def _quantile(ordered: Floats, share: float) -> float:
 
 
 def bayes_factor(t: float, n: int, m: int, scale: float = math.sqrt(0.5)) -> float:
-    """The JZS Bayes factor for a difference of two means over none (Rouder and others 2009, default r = .707)."""
+    """Return the JZS Bayes factor for a difference of two means over none.
+
+    After Rouder and others (2009), default r = .707.
+    """
     df, size = n + m - 2, n * m / (n + m)
 
     def log_weight(g: float) -> float:
@@ -412,14 +424,14 @@ def _adjusted(ps: Sequence[float], factor: Callable[[int, int], float], *, steps
 
 
 def fisher(table: Sequence[Sequence[int]]) -> float:
-    """The two-sided p of Fisher's exact test for two groups and two outcomes."""
+    """Return the two-sided p of Fisher's exact test for two groups and two outcomes."""
     if min(map(sum, table)) == 0 or min(map(sum, zip(*table, strict=True))) == 0:
         raise NotEstimableError("a row or a column of the table is empty")
     return float(stats.fisher_exact(table).pvalue)
 
 
 def wilson(hits: int, n: int, level: float = 0.95) -> Estimate:
-    """A share with Wilson's interval."""
+    """Return a share with Wilson's interval."""
     if n == 0:
         raise NotEstimableError("there is nothing to count")
     z = float(special.ndtri((1 + level) / 2))
@@ -433,7 +445,10 @@ def wilson(hits: int, n: int, level: float = 0.95) -> Estimate:
 
 
 def t_power(d: float, n: int, m: int, alpha: float = 0.05) -> float:
-    """The power of a two-sided t test of two groups; both tails, which R leaves out unless it is strict."""
+    """Return the power of a two-sided t test of two groups.
+
+    It counts both tails, which R leaves out unless it is strict.
+    """
     df = n + m - 2
     critical = float(special.stdtrit(df, 1 - alpha / 2))
     ncp = d * math.sqrt(n * m / (n + m))
@@ -441,5 +456,5 @@ def t_power(d: float, n: int, m: int, alpha: float = 0.05) -> float:
 
 
 def sensitivity(n: int, m: int, power: float = 0.8, alpha: float = 0.05) -> float:
-    """The smallest d that a two-sided t test of groups of n and m finds with this power."""
+    """Return the smallest d that a two-sided t test of groups of n and m finds with this power."""
     return float(optimize.brentq(lambda d: t_power(d, n, m, alpha) - power, 0, 20, xtol=1e-12))

@@ -54,7 +54,10 @@ class Decision:
 
     @property
     def greedy(self) -> ActionSpec:
-        """What gate and table come to: the action with the highest value, the lowest of equals; none at a shut gate."""
+        """Return what gate and table come to; none at a shut gate.
+
+        It is the action with the highest value, the lowest of equals.
+        """
         if not self.gate_decision.is_open:
             return ActionSpec.NO_HELP
         return self.actions[self.q.index(max(self.q))]

@@ -24,14 +24,14 @@ class KeyRows:
     signs: tuple[str, ...] = SIGNS
 
     def missing(self, texts: Iterable[str]) -> tuple[str, ...]:
-        """The letters of these texts that no key types, in small letters, in their order."""
+        """Return the letters of these texts that no key types, in small letters, in their order."""
         keys = set("".join((*self.letters, *self.accents, *self.signs)))
         used = {letter for text in texts for letter in text.lower() if letter.isalpha()}
         return tuple(sorted(used - keys))
 
 
 def key_rows(language: str, own: Sequence[str] = ()) -> KeyRows:
-    """The keys of a language; ``own`` rows, if it brings any, take the place of the shipped ones."""
+    """Return the keys of a language; ``own`` rows, if it brings any, take the place of the shipped ones."""
     shipped = _shipped()
     rows = tuple(own) or shipped.get(language) or shipped.get(language.partition("-")[0]) or shipped["en"]
     latin = any(letter in "abcdefghijklmnopqrstuvwxyz" for row in rows for letter in row)
@@ -39,7 +39,10 @@ def key_rows(language: str, own: Sequence[str] = ()) -> KeyRows:
 
 
 def capital(letter: str, language: str) -> str:
-    """A letter as the key types it in capitals; one that has no capital of its own stays as it is."""
+    """Return a letter as the key types it in capitals.
+
+    One that has no capital of its own stays as it is.
+    """
     if language == "tr" and letter == "i":
         return "İ"
     upper = letter.upper()

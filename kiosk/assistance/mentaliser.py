@@ -69,7 +69,10 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """One act of help with the coming flip: the action says how much of the target is given away, if any is."""
+    """One act of help with the coming flip.
+
+    The action says how much of the target is given away, if any is.
+    """
 
     action: ActionSpec
     card: FlipInMove

@@ -420,7 +420,10 @@ class QuestionnairePageShown(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class SkippedItemsShown(SessionEvent):
-    """Items that the visitor had left out were pointed out; those that are not required may be left the next time."""
+    """Items that the visitor had left out were pointed out.
+
+    Those that are not required may be left the next time.
+    """
 
     items: tuple[str, ...]
 

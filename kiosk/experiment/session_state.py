@@ -111,7 +111,10 @@ class BoardHint:
         return self.given.action.level if self.is_located else ActionSpec.NO_HELP.level
 
     def followed_by(self, flip: CardFlipped) -> bool:
-        """Tell whether a flip follows the hint: it goes where the hint points, or to a card that it reminds of."""
+        """Tell whether a flip follows the hint.
+
+        It goes where the hint points, or to a card that it reminds of.
+        """
         given = self.given
         return points_to(given.row, given.column, flip.position) if self.is_located else flip.card == given.name
 

@@ -23,7 +23,7 @@ class ExportOption(Enum):
     DATES = "dates"
     """When each session began."""
     REHEARSALS = "rehearsals"
-    """Sessions in which nobody sat."""
+    """Sessions without a visitor."""
     TRIALS = "trials"
     """Sessions at a kiosk without a PIN."""
     TEXTS = "texts"
@@ -81,7 +81,7 @@ class Variable:
     most: int | None = None
 
     def __post_init__(self) -> None:
-        """Refuse, with a ValueError, a variable that nobody could understand."""
+        """Refuse, with a ValueError, a variable that a reader could not understand."""
         if not self.name or not self.description.endswith("."):
             raise ValueError(f"the column {self.name!r} needs a description in a sentence")
 
@@ -96,7 +96,7 @@ class Column(Generic[Row]):
 
 @dataclass(frozen=True)
 class TableShape:
-    """A table as it is told of: its name, what one row is, which columns tell rows apart, and all its variables."""
+    """The description of a table: its name, what a row is, its keys, and all its variables."""
 
     name: str
     about: str
@@ -125,19 +125,22 @@ class Table(Generic[Whole, Row]):
         return TableShape(self.name, self.about, self.key, tuple(column.variable for column in self.columns))
 
     def cells(self, whole: Whole) -> Iterator[list[str]]:
-        """The rows as texts, in the order of the columns."""
+        """Yield the rows as texts, in the order of the columns."""
         for row in self.rows(whole):
             yield [format_cell(column.of(row)) for column in self.columns]
 
 
 class Label(str):
-    """A text that is to stay one even where it is a plain number, which comes out of every program as it went in."""
+    """A text that is to stay one even where it is a plain number.
+
+    It comes out of every program as it went in.
+    """
 
     __slots__ = ()
 
 
 def format_cell(cell: Cell) -> str:
-    """A cell as it stands in a file: numbers so that they can be read back exactly."""
+    """Return a cell as it stands in a file: numbers so that they can be read back exactly."""
     match cell:
         case None:
             return ""
@@ -153,7 +156,10 @@ def format_cell(cell: Cell) -> str:
 
 
 def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
-    """Each name as it can stand beside the others and what is ``taken``: with a number behind it where two are one."""
+    """Return each name as it can stand beside the others and what is ``taken``.
+
+    Where two are one, a number is put behind it.
+    """
     used = {fold_name(name) for name in taken}
     found: dict[str, str] = {}
     for name in names:
@@ -165,18 +171,24 @@ def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
 
 @lru_cache(maxsize=4096)
 def marked(text: str) -> str:
-    """A text as it stands in a cell: with a mark before it if it would be misread, or begins with a mark or a quote."""
+    """Return a text as it stands in a cell.
+
+    A mark is put before it if it would be misread, or begins with a mark or a quote.
+    """
     # A quote at the beginning makes those who read a file without quotes swallow the cells that follow.
     return MARK + text if text.startswith((MARK, '"')) or read_as(text) else text
 
 
 def unmarked(cell: str) -> str:
-    """The text that ``marked`` made this cell of."""
+    """Return the text that ``marked`` made this cell of."""
     return cell.removeprefix(MARK)
 
 
 def enum_levels(members: type[Enum] | Iterable[Enum], **meanings: str) -> tuple[Level, ...]:
-    """The values of a closed set as they are recorded: those that count by their names, others by their values."""
+    """Return the values of a closed set as they are recorded.
+
+    Those that count go by their names, others by their values.
+    """
     names = [member.name.lower() if isinstance(member, IntEnum) else str(member.value) for member in members]
     strange = meanings.keys() - set(names)
     if strange:
@@ -200,7 +212,7 @@ CONTEXT = {"@context": "https://schema.org/", "@type": "Dataset"}
 
 
 def property_value(variable: Variable) -> dict[str, Any]:
-    """A variable as schema.org's PropertyValue."""
+    """Return a variable as schema.org's PropertyValue."""
     told: dict[str, Any] = {
         "@type": "PropertyValue",
         "name": variable.name,
@@ -221,7 +233,7 @@ def property_value(variable: Variable) -> dict[str, Any]:
 
 
 def full_description(variable: Variable) -> str:
-    """The description, with what an empty cell means."""
+    """Return the description, with what an empty cell means."""
     return f"{variable.description} Empty: {variable.empty}." if variable.empty else variable.description
 
 
@@ -236,12 +248,12 @@ def variables(shapes: Iterable[TableShape]) -> list[Variable]:
 
 
 def variables_measured(shapes: Iterable[TableShape]) -> dict[str, Any]:
-    """The variables of some tables as schema.org has them."""
+    """Return the variables of some tables as schema.org has them."""
     return {"variableMeasured": [property_value(variable) for variable in variables(shapes)]}
 
 
 def codebook_markdown(shapes: Iterable[TableShape], file_of: dict[str, str]) -> str:
-    """The codebook for a reader; ``file_of`` names the file of each table."""
+    """Return the codebook for a reader; ``file_of`` names the file of each table."""
     return "\n".join(["# Codebook", "", _OPENING, *_tables(shapes, file_of), *_kinds_of_events()])
 
 
@@ -255,7 +267,7 @@ _OPENING = (
 def _tables(shapes: Iterable[TableShape], file_of: dict[str, str]) -> Iterator[str]:
     for shape in shapes:
         yield from ("", f"## {shape.name}", "", f"`{file_of[shape.name]}`. {shape.about}")
-        yield f"A row is told by {', '.join(f'`{name}`' for name in shape.key)}."
+        yield f"A row is identified by {', '.join(f'`{name}`' for name in shape.key)}."
         yield from ("", "| column | what it says | kind | unit |", "|---|---|---|---|")
         for variable in shape.variables:
             yield f"| `{variable.name}` | {_cell(_with_levels(variable))} | {_kind(variable)} | {variable.unit} |"
@@ -273,7 +285,7 @@ def _kind(variable: Variable) -> str:
 
 
 def _cell(text: str) -> str:
-    """A text that does not break its line or its cell."""
+    """Return a text that does not break its line or its cell."""
     return as_written(" ".join(text.split())).replace("|", "\\|")
 
 
@@ -283,7 +295,7 @@ def as_written(text: str) -> str:
 
 
 def _kinds_of_events() -> Iterator[str]:
-    """What the column ``type`` of the events can be, from the classes themselves."""
+    """Yield what the column ``type`` of the events can be, from the classes themselves."""
     yield from ("", "## Kinds of events", "", "What stands in the column `type`, and the fields of each.", "")
     yield from ("| type | what happened | fields |", "|---|---|---|")
     for base in (WorldEvent, SessionEvent):

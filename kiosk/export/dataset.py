@@ -35,7 +35,7 @@ class Exported:
     cautions: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, int | list[str]]:
-        """The same as the command line prints it; cautions only where there are any."""
+        """Return the same as the command line prints it; cautions only where there are any."""
         told = asdict(self) | {"cautions": list(self.cautions)}
         return told if self.cautions else {key: value for key, value in told.items() if key != "cautions"}
 
@@ -78,7 +78,7 @@ def _add(kept: SessionRecord, writing: Layout, flow: ParticipantFlow, extras: fr
 
 
 def _exported(flows: dict[SessionKind, ParticipantFlow], data: Path, stored: RecordSource) -> Exported:
-    """What was written; raises UserInputError if it is nothing."""
+    """Return what was written; raises UserInputError if it is nothing."""
 
     def total(quantity: FlowQuantity) -> int:
         return sum(count for flow in flows.values() for (what, _), count in flow.seen.items() if what is quantity)
@@ -92,7 +92,7 @@ def _exported(flows: dict[SessionKind, ParticipantFlow], data: Path, stored: Rec
 
 def _why_none(exported: Exported, stored: RecordSource) -> str:
     if exported.not_shared:
-        return "nobody agreed to publishing"
+        return "no participant agreed to publishing"
     if exported.under_way:
         return "the only ones are still under way"
     left_out = [extra.value for extra, kind in _KINDS.items() if stored.left_out(kind)]

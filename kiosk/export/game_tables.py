@@ -204,7 +204,7 @@ _DECISION_COLUMNS: tuple[Column[_Decision], ...] = make_columns(
 DECISIONS = Table(
     "decisions",
     "One row for every decision about help, which is taken before every flip of the game: what the assistant's two "
-    "layers saw, and what they chose. Where nobody helps there are none.",
+    "layers saw, and what they chose. Without help there are none.",
     ("participant_id", "board", "flip"),
     _DECISION_COLUMNS,
     _decisions,

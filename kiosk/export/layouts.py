@@ -102,7 +102,10 @@ def write_text(path: Path, text: str) -> None:
 
 
 def _new(path: Path) -> Path:
-    """The path, if nothing beside it has this name; raises UserInputError instead of writing over what is there."""
+    """Return the path, if nothing beside it has this name.
+
+    Raises UserInputError instead of writing over what is there.
+    """
     name = fold_name(path.name)
     beside = next((other.name for other in path.parent.iterdir() if fold_name(other.name) == name), None)
     if beside is not None or is_reserved(path.name):
@@ -127,7 +130,9 @@ def _check_columns(path: Path, names: Sequence[str]) -> None:
 
 @contextmanager
 def new_folder(out: Path) -> Iterator[Path]:
-    """A folder beside ``out`` to write in, which takes its place at the end and is gone if anything goes wrong.
+    """Provide a folder beside ``out`` to write in.
+
+    It takes the place of ``out`` at the end and is gone if anything goes wrong.
 
     Raises UserInputError, and leaves everything as it was, if ``out`` holds something or cannot be written.
     """
@@ -208,7 +213,7 @@ PUBLISHED = frozenset(
 """The parts of a study file that say nothing of people, devices, keys or seeds; a new part is not among them."""
 
 _PARTLY: dict[str, bool | set[str]] = {"randomisation": {"target_n", "block_size"}, "consent": {"adult"}}
-"""What else is told of other parts: who wants to analyse an allocation as it was made has to know its blocks."""
+"""What else is said of other parts: who wants to analyse an allocation as it was made has to know its blocks."""
 
 PLANS = Path("materials", "plans", "plans.json")
 """The plans that were frozen in the data folder; only a data set that has one has this file."""
@@ -224,7 +229,7 @@ def write_materials(folder: Path, study: StudyMaterials) -> None:
 
 
 def plan_file(sha256: str) -> str:
-    """What the file of a frozen plan is called."""
+    """Return what the file of a frozen plan is called."""
     return f"plan-{sha256[:_SHOWN]}.toml"
 
 
@@ -331,7 +336,7 @@ _TOOL = "MeasurementToolMetadata"
 """What BIDS calls the description of a questionnaire, beside those of its columns."""
 
 _WHEN = {"events": AT}
-"""Where the time of a row is told in seconds instead."""
+"""Where the time of a row is given in seconds instead."""
 
 _ONSET = Variable("onset", "When it happened, from the session's first event.", ColumnKind.NUMBER, "s")
 _DURATION = Variable("duration", "How long it lasted; events have no length.", ColumnKind.NUMBER, "s", empty="always")
@@ -417,7 +422,7 @@ class Bids(Layout):
         return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
 
     def _flips(self, kept: SessionRecord) -> Iterator[list[str]]:
-        """The flips, each with what stands of it in the other tables that are joined."""
+        """Yield the flips, each with what stands of it in the other tables that are joined."""
         names = [variable.name for variable in _joined(self._joined)]
         others = [
             {(row[BOARD.name], row[FLIP.name]): row for row in _named_cells(table, kept)} for table in self._joined[1:]
@@ -429,7 +434,7 @@ class Bids(Layout):
             yield [row.get(name, "") for name in names]
 
     def _happened(self, kept: SessionRecord) -> Iterator[list[str]]:
-        """The events, with the time in seconds in front, as BIDS has it."""
+        """Yield the events, with the time in seconds in front, as BIDS has it."""
         names = [variable.name for variable in _without(self._events.shape)]
         for event in _named_cells(self._events, kept):
             yield [repr(int(event[AT.name]) / MS_PER_SECOND), "", *(event[name] for name in names)]
@@ -453,7 +458,10 @@ class _Tool:
 
 
 def bids_label(kept: SessionRecord) -> str:
-    """A participant as BIDS calls them: letters and digits alone. No site has small letters, so no two are alike."""
+    """Return a participant as BIDS calls them: letters and digits alone.
+
+    No site has small letters, so no two are alike.
+    """
     return f"sub-{kept.name.replace('-', 'n')}"
 
 
@@ -468,7 +476,7 @@ def _named_cells(table: Table[SessionRecord, Any], kept: SessionRecord) -> Itera
 
 
 def _without(shape: TableShape) -> list[Variable]:
-    """What a table says besides whose it is, and of events when they were."""
+    """Return what a table says besides whose it is, and of events when they were."""
     return [variable for variable in shape.variables if variable not in {PARTICIPANT, _WHEN.get(shape.name)}]
 
 
@@ -490,7 +498,10 @@ def _described(variables: Iterable[Variable]) -> dict[str, Any]:
 
 
 def distinct_files(questionnaires: Iterable[str]) -> dict[str, str]:
-    """A name for the file of each questionnaire: letters, digits and underscores, and no two alike for any system."""
+    """Return a name for the file of each questionnaire.
+
+    It has letters, digits and underscores, and no two are alike for any system.
+    """
     plain = {each: each.replace("-", "_") for each in questionnaires}
     allowed = {each: f"questionnaire_{name}" if is_reserved(name) else name for each, name in plain.items()}
     taken: list[str] = []

@@ -45,7 +45,7 @@ class SoundDevice(Enum):
 
     @classmethod
     def of(cls, name: str) -> SoundDevice:
-        """The kind of a device of this name."""
+        """Return the kind of a device of this name."""
         folded = name.casefold()
         if folded == NOWHERE:
             return cls.SILENT
@@ -72,7 +72,7 @@ class _Logged:
 
 
 def events_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Logged]:
-    """The table of all events; free texts only if they are asked for."""
+    """Return the table of all events; free texts only if they are asked for."""
     with_texts = ExportOption.TEXTS in extras
     told = "" if with_texts else " Fields that may hold free text are left out."
 

@@ -106,7 +106,7 @@ class ParticipantFlow:
 
 
 def last_stage(session: SessionState) -> Stage:
-    """The last stage that was more than the end."""
+    """Return the last stage that was more than the end."""
     return session.last_stage or Stage.ATTRACT
 
 
@@ -128,7 +128,7 @@ def _rows(flows: tuple[ParticipantFlow, ...]) -> Iterator[_Count]:
 
 
 def _counted(counts: EnrolmentCounts) -> Counter[tuple[FlowQuantity, str]]:
-    """What the database has counted; nothing that is none."""
+    """Return what the database has counted; nothing that is none."""
     counted = Counter({(FlowQuantity.NOT_STORED, why.value): number for why, number in counts.visits.items()})
     for condition, cell in counts.cells.items():
         counted[FlowQuantity.QUOTA, condition.name] = cell.quota
@@ -142,7 +142,7 @@ def _is_of(kind: SessionKind) -> Callable[[_Count], Cell]:
 
 
 def flow_table(extras: frozenset[ExportOption]) -> Table[tuple[ParticipantFlow, ...], _Count]:
-    """The table of the flow."""
+    """Return the table of the flow."""
     counted: tuple[Column[_Count], ...] = make_columns(
         *((variable, _is_of(kind)) for variable, kind in who_sat_there(extras)),
         (
@@ -331,7 +331,10 @@ def about_you_columns(
 
 
 def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) -> dict[str, Asked]:
-    """The items whose answers are told: all that are answered, but for typed ones that nobody asked for."""
+    """Return the items whose answers are exported.
+
+    Those are all that are answered, but for typed ones that were not asked for.
+    """
     untold = (TextPage,) if ExportOption.TEXTS in extras else (TextPage, ShortText)
     told = {
         name: tuple(each for each in asked_as if not isinstance(each[1], untold)) for name, asked_as in items.items()
@@ -350,7 +353,7 @@ def _answer_about_you(item: str, row: Person, *, with_texts: bool) -> Cell:
 
 
 def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable:
-    """An item's column: what was asked, and what could be answered, in each version of its questionnaire."""
+    """Return an item's column: what was asked, and what could be answered, in each version of its questionnaire."""
     items, language = [item for _, item in asked_as], study.language
     newest = items[0]
     formats = [item.answer_format for item in items]
@@ -396,7 +399,7 @@ def _versions(asked_as: Asked, study: StudyMaterials) -> str:
 
 
 def scale_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Person]]:
-    """The sum and the mean of every scale."""
+    """Yield the sum and the mean of every scale."""
     for scale in study.scales:
         name = _free(scale.name, scale.questionnaire, taken, "_sum", "_mean")
         ends = [(items[0].ends, len(items)) for _, items in scale.forms]
@@ -433,7 +436,7 @@ def _size(scale: Scale) -> str:
 
 
 def _not_alike(scale: Scale) -> str:
-    """What the scale is the sum of in each version, if it is not the same in all."""
+    """Return what the scale is the sum of in each version, if it is not the same in all."""
     if not scale.changed:
         return ""
     told = "; ".join(f"{form.name}: {', '.join(_summand(item) for item in items)}" for form, items in scale.forms)
@@ -454,7 +457,10 @@ def _mean(scale: tuple[str, str], row: Person) -> Cell:
 
 
 def _free(name: str, prefix: str, taken: set[str], *endings: str) -> str:
-    """The name, or, where another column is called so for any program, the name with a prefix; ``taken`` is folded."""
+    """Return the name, with a prefix where another column is called so for any program.
+
+    ``taken`` is folded.
+    """
     wanted = {fold_name(name + ending) for ending in endings or ("",)}
     if wanted & taken:
         return _free(f"{prefix}_{name}", prefix, taken, *endings)
@@ -469,7 +475,10 @@ def _quoted(text: str) -> str:
 def participants_table(
     study: StudyMaterials, extras: frozenset[ExportOption], elsewhere: frozenset[str]
 ) -> Table[SessionRecord, Person]:
-    """The table of participants for a study; ``elsewhere`` are the columns of other tables, whose names are taken."""
+    """Return the table of participants for a study.
+
+    ``elsewhere`` are the columns of other tables, whose names are taken.
+    """
     before, after = _own(study, extras)
     taken = _taken((*before, *after), elsewhere)
     declared = (*consent_columns(study, taken), *about_you_columns(study, extras, taken), *scale_columns(study, taken))
@@ -483,7 +492,7 @@ def participants_table(
 
 
 def renamed(study: StudyMaterials, elsewhere: frozenset[str]) -> dict[str, str]:
-    """The items about the visitor that cannot give their column its name, for it is that of another column."""
+    """Return the items about the visitor that cannot give their column its name, for it is that of another column."""
     extras = frozenset(ExportOption)
     taken = _taken(tuple(column for part in _own(study, extras) for column in part), elsewhere)
     # The columns of the consent take their names first.
@@ -496,7 +505,7 @@ _Columns = tuple[Column[Person], ...]
 
 
 def _own(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[_Columns, _Columns]:
-    """The columns that every study has, before and after those that it declares itself."""
+    """Return the columns that every study has, before and after those that it declares itself."""
     return (*_who(extras), *_language_and_condition(study), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
 
 

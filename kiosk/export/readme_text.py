@@ -16,7 +16,7 @@ _NOT_HERE = (
     "The withdrawal codes of the participants, and the seeds of the sessions, from which those codes could be worked "
     "out.",
     "People who played without being stored: only how many there were, and why.",
-    "Whoever withdrew: only how many there were.",
+    "People who withdrew: only how many there were.",
     "Voices, pictures, names: they were never recorded.",
     "Of the settings, what concerns the place: the robot's address, whom to write to, keys and seeds.",
 )
@@ -88,7 +88,7 @@ for condition in sorted({person["condition"] for person in people}):
 
 
 def dataset_abstract(study: StudyMaterials, extras: frozenset[ExportOption]) -> str:
-    """What the data set is, in a few sentences."""
+    """Return what the data set is, in a few sentences."""
     there = {plan.condition for plan in study.plans}
     conditions = ", ".join(condition.name for condition in in_design_order(there)) or "unknown"
     return (
@@ -107,7 +107,7 @@ def _warning(extras: frozenset[ExportOption]) -> str:
 def dataset_readme(
     study: StudyMaterials, shapes: Iterable[TableShape], file_of: Mapping[str, str], extras: frozenset[ExportOption]
 ) -> str:
-    """The page that a reader opens first."""
+    """Return the page that a reader opens first."""
     tables = [f"| [{shape.name}]({file_of[shape.name]}) | {shape.about} |" for shape in shapes]
     return "\n".join(
         [
@@ -136,7 +136,7 @@ def dataset_readme(
 
 
 def bids_readme(study: StudyMaterials, extras: frozenset[ExportOption]) -> str:
-    """The same for names like those of BIDS."""
+    """Return the same for names like those of BIDS."""
     opening = [f"# {as_written(study.title)}", "", dataset_abstract(study, extras), "", _HOW_TO_READ_BIDS, "", MARKED]
     return "\n".join([*opening, "", "## What is not here, and why", "", *_missing(extras), "", _BEFORE_PUBLISHING, ""])
 
@@ -163,4 +163,4 @@ hash. `analysis/example.py` is a beginning."""
 _BEFORE_PUBLISHING = """## Before it is published
 
 Name its authors and choose a licence: both are yours to add to `dataset_description.json`. Look at age, gender and
-contact with robots together with the site: in a small study they may tell who somebody is."""
+contact with robots together with the site: in a small study they may tell who a person is."""

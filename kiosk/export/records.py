@@ -106,7 +106,7 @@ class StudyMaterials:
         return {name: _labelled(_changed(contents)) for name, contents in asked.items()}
 
     def label(self, questionnaire: Questionnaire) -> str:
-        """What the form of a questionnaire that a session had is called."""
+        """Return what the form of a questionnaire that a session had is called."""
         forms = self.forms.get(questionnaire.id, ())
         same = (form.label for form in forms if _is_same(form.questionnaire, questionnaire))
         return next(same, questionnaire.version)
@@ -118,13 +118,16 @@ class StudyMaterials:
         return _all((item.id, (form, item)) for name in names for form, item in self._items(name))
 
     def without(self, asked: Asked) -> tuple[Form, ...]:
-        """The forms of the same questionnaires in which an item is not asked."""
+        """Return the forms of the same questionnaires in which an item is not asked."""
         questionnaires = dict.fromkeys(form.questionnaire.id for form, _ in asked)
         having = [form for form, _ in asked]
         return tuple(form for name in questionnaires for form in self.forms[name] if form not in having)
 
     def items(self, questionnaire: str) -> dict[str, Asked]:
-        """The items of a questionnaire, by name, each in all forms that have it; those of the newest come first."""
+        """Return the items of a questionnaire, by name, each in all forms that have it.
+
+        Those of the newest come first.
+        """
         return _all((item.id, (form, item)) for form, item in self._items(questionnaire))
 
     def _items(self, questionnaire: str) -> Iterator[tuple[Form, Item]]:
@@ -214,7 +217,7 @@ FREE: Mapping[str, frozenset[str]] = {
 
 
 def safe_fields(record: EventRecord, kept: SessionRecord) -> dict[str, Any]:
-    """The fields of an event without any that may hold free text; of unknown events nothing is safe."""
+    """Return the fields of an event without any that may hold free text; of unknown events nothing is safe."""
     if record.event is None:
         return {}
     free = FREE.get(record.type, frozenset())

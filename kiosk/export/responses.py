@@ -38,7 +38,7 @@ _ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
 
 
 def session_questionnaires(kept: SessionRecord) -> tuple[Questionnaire, ...]:
-    """The questionnaires of a session; none if they cannot be read."""
+    """Return the questionnaires of a session; none if they cannot be read."""
     return (kept.plan.about_you, *kept.plan.questionnaires) if kept.plan else ()
 
 
@@ -76,7 +76,7 @@ def _answers(kept: SessionRecord) -> Iterator[_Answer]:
 
 
 def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
-    """The table of answers; what was typed only if it is asked for."""
+    """Return the table of answers; what was typed only if it is asked for."""
     with_texts = ExportOption.TEXTS in extras
     typed = "" if with_texts else "; or it was typed, and such texts are left out"
 
@@ -171,7 +171,7 @@ class _Score:
 
 
 def scores_table(kept: SessionRecord) -> tuple[ScaleScore, ...]:
-    """The scales of a session's questionnaires."""
+    """Return the scales of a session's questionnaires."""
     questionnaires = session_questionnaires(kept)
     return scale_scores(item_responses(kept.state, questionnaires), questionnaires)
 

@@ -32,13 +32,16 @@ class DatasetTables:
 
 
 def all_tables(study: StudyMaterials, extras: frozenset[ExportOption]) -> DatasetTables:
-    """The tables of a study's data set."""
+    """Return the tables of a study's data set."""
     others, whole = _others(extras), flow_table(extras)
     return DatasetTables((participants_table(study, extras, _elsewhere(extras)), *others), whole)
 
 
 def renamed_items(study: StudyMaterials) -> dict[str, str]:
-    """The items about the visitor whose columns have another name, as it is that of a column of the program's own."""
+    """Return the items about the visitor whose columns have another name.
+
+    Their own is that of a column of the program's.
+    """
     return renamed(study, _elsewhere(frozenset(ExportOption)))
 
 
@@ -47,6 +50,6 @@ def _others(extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any],
 
 
 def _elsewhere(extras: frozenset[ExportOption]) -> frozenset[str]:
-    """The columns of all tables but that of participants."""
+    """Return the columns of all tables but that of participants."""
     shapes = (*(table.shape for table in _others(extras)), flow_table(extras).shape)
     return frozenset(name for shape in shapes for name in shape.names)

@@ -1,4 +1,7 @@
-"""Clips of sound in memory, and the player that puts them on the sound device from one process that stays up."""
+"""Clips of sound in memory, and the player that puts them on the sound device.
+
+The player is one process that stays up.
+"""
 
 from __future__ import annotations
 
@@ -98,7 +101,7 @@ class Clip:
             audio.writeframes(self.samples.astype("<i2").tobytes())
 
     def at_rate(self, rate: int) -> Clip:
-        """The same sound at another rate."""
+        """Return the same sound at another rate."""
         if rate == self.rate or not len(self.samples):
             return Clip(self.samples, rate)
         if miniaudio is not None:
@@ -172,7 +175,7 @@ def loudness_lufs(clip: Clip) -> float:
 
 
 def _k_weight(length: int, rate: int) -> NDArray[np.float64]:
-    """The squared response of BS.1770's two filters at the frequencies of a spectrum."""
+    """Return the squared response of BS.1770's two filters at the frequencies of a spectrum."""
     z = np.exp(-2j * np.pi * np.fft.rfftfreq(length))
     k, q, gain = np.tan(np.pi * 1681.974450955533 / rate), 0.7071752369554196, 10 ** (3.999843853973347 / 20)
     band = gain**0.4996667741545416
@@ -215,7 +218,7 @@ _CLOSED = 0.06
 
 
 def mouth_shapes(clip: Clip) -> tuple[str, ...]:
-    """Name the shape of the mouth at each step of 40 ms, from the sound: closed, round, open, wide or teeth."""
+    """Name the mouth's shape at each step of 40 ms: closed, round, open, wide or teeth."""
     step = clip.rate * LOUDNESS_MS // 1000
     frames = np.pad(clip.values, (0, -len(clip.samples) % step)).reshape(-1, step)
     power = np.abs(np.fft.rfft(frames * np.hanning(step), axis=1)) ** 2
@@ -379,7 +382,7 @@ class StreamPlayer:
         self._tried_at = time.monotonic()
 
     def _ask(self) -> Generator[bytes, int, None]:
-        """The stream's own thread asks here for samples; it is sent how many."""
+        """Yield the stream's own thread asks here for samples; it is sent how many."""
         wanted = yield b""
         while True:
             wanted = yield self._next(wanted)
@@ -405,7 +408,7 @@ class StreamPlayer:
         return chunk.tobytes()
 
     def _told(self, sound: _Sound | None) -> list[dict[str, Any]]:
-        """What can be said of a sound now that the device has played all but what it holds."""
+        """Return what can be said of a sound now that the device has played all but what it holds."""
         if sound is None:
             return []
         played = self._given - self._held
@@ -454,7 +457,7 @@ _QUIET = {"aplay": ("-q",), "afplay": ()}
 
 
 def player_command() -> tuple[str, ...] | None:
-    """The command that plays the file that is added to it; None if there is no such program."""
+    """Return the command that plays the file that is added to it; None if there is no such program."""
     path = next((path for name in _QUIET if (path := shutil.which(name))), None)
     return (path, *_QUIET[Path(path).name]) if path else None
 
@@ -528,7 +531,7 @@ class CommandPlayer:
 
 
 def create_player(post: Post, rate: int, device: str, volume: float) -> Player:
-    """The player of this machine: one stream where miniaudio has a build, else a program for each sound."""
+    """Return the player of this machine: one stream where miniaudio has a build, else a program for each sound."""
     if miniaudio is None:
         return CommandPlayer(post, volume)
     return StreamPlayer(post, rate, device, volume)

@@ -235,7 +235,7 @@ class FurhatRealtime(RobotDriver):
 
 
 def _message(text: str | bytes) -> Mapping[str, Any]:
-    """Return what came, or something that nobody waits for if it is no message."""
+    """Return what came, or something that answers no request if it is no message."""
     try:
         message = json.loads(text)
     except (ValueError, RecursionError):

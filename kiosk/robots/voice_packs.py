@@ -1,4 +1,7 @@
-"""Voice packs: a folder of clips, one for each sentence or part of a sentence, with a manifest that names its voice."""
+"""Voice packs: a folder of clips, one for each part of a sentence.
+
+A manifest names the voice.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +33,7 @@ _SENTENCE_END = re.compile(r"(?<=[.!?\u2026\u3002\uff01\uff1f])\s+")
 
 
 def key_of(language: str, text: str) -> str:
-    """The name of the clip of a text: the beginning of the SHA-256 of its language and its words."""
+    """Return the name of the clip of a text: the beginning of the SHA-256 of its language and its words."""
     return hashlib.sha256(f"{language}\n{text}".encode()).hexdigest()[:_KEY_LENGTH]
 
 
@@ -91,7 +94,7 @@ class VoicePack:
         return self.folder / f"{key}.wav"
 
     def find(self, text: str) -> list[Path] | None:
-        """The clips that say a text, whole or part by part; None if one is missing."""
+        """Return the clips that say a text, whole or part by part; None if one is missing."""
         ends = [*(match.end() for match in _SENTENCE_END.finditer(text)), len(text)]
         begin, found = 0, []
         while begin < len(text):
@@ -104,7 +107,10 @@ class VoicePack:
         return found if found and all(path.is_file() for path in found) else None
 
     def clips_of(self, text: str) -> list[Clip] | None:
-        """The sounds that say a text; None if one is missing, cannot be read or was changed since it was made."""
+        """Return the sounds that say a text.
+
+        It is None if one is missing, cannot be read or was changed since it was made.
+        """
         clips = []
         for path in self.find(text) or ():
             try:
@@ -226,7 +232,7 @@ def write_pack(  # noqa: PLR0913 - a manifest has as many fields as it has
 
 
 def recording_name(number: int) -> str:
-    """The name of the recording of a numbered text."""
+    """Return the name of the recording of a numbered text."""
     return f"{number:03}.wav"
 
 

@@ -62,7 +62,7 @@ class App:
         ``robot`` helps in place of the one that the study file asks for; ``beat`` is called out of the event loop.
         """
         self.on_fault: Callable[[BaseException], None] = lambda _: None
-        """Is told of a fault of ours once the error screen is up."""
+        """Called with a fault of ours once the error screen is up."""
         self.assigner = assigner
         self._beat = beat
         self._window = Window(assigner.study, mode)
@@ -113,7 +113,7 @@ class App:
             self.experimenter.status_file.begin()
 
     def __enter__(self) -> Self:
-        """The kiosk itself."""
+        """Return the kiosk itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
@@ -136,7 +136,7 @@ class App:
         return self._loop.stop_requested
 
     def run(self) -> None:
-        """Run until somebody leaves the kiosk."""
+        """Run until the kiosk is left."""
         with heartbeat(self.window, self.screens.kiosk):
             self._loop.run()
 
@@ -159,20 +159,20 @@ class App:
         self._window.close()
 
     def fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
-        """A fault of ours: into the log with it, and an error screen for the visitor."""
+        """Log a fault of ours, and show the visitor an error screen."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.runner.pause()
         self.on_fault(fault)
 
     def _show(self, settings: Settings, display: WindowMode) -> KioskWindow | None:
-        """Show the window; over the full screen it is one that nobody leaves."""
+        """Show the window; over the full screen it is one that visitors cannot leave."""
         if display is WindowMode.FULL_SCREEN:
             return KioskWindow(self.window, settings.screen.display, self._window.owner)
         self._window.show()
         return None
 
     def _reached(self, recorder: Recorder) -> Services:
-        """What the experimenter can do something to."""
+        """Return what the experimenter can do something to."""
         return Services(
             runner=self.runner,
             assigner=self.assigner,
@@ -187,7 +187,7 @@ class App:
         )
 
     def _spoken_by(self) -> Mapping[str, Any]:
-        """What speaks the sentence under way; of a robot's own voice nothing is known."""
+        """Return what speaks the sentence under way; of a robot's own voice nothing is known."""
         body = self.embodiments.current
         return self.voice.spoken_by if body is not None and body.name is EmbodimentName.AVATAR else {}
 
@@ -210,7 +210,7 @@ def _clock(mode: RunMode, owner: QObject) -> Clock:
 
 
 def _virtual_wall_ms(clock: Clock) -> int:
-    """A wall's clock for virtual time, which began with the program."""
+    """Return a wall's clock for virtual time, which began with the program."""
     return _BEGAN_MS + clock.now_ms()
 
 

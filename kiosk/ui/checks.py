@@ -55,7 +55,7 @@ def screens_check(number: int) -> Iterator[CheckResult]:
 
 
 def covered_screen_check(there: list[QScreen], number: int) -> CheckResult:
-    """The screen that the kiosk will cover."""
+    """Return the screen that the kiosk will cover."""
     if number >= len(there):
         words = f"there is no screen {number}, so the kiosk covers the primary one; there are {len(there)}"
         return CheckResult.warning(DISPLAY, words, "plug it in, or change screen.number in the study file")
@@ -75,7 +75,7 @@ def _window_manager() -> str:
     from kiosk.ui.x11 import window_manager  # only where there is an X server
 
     name = window_manager()
-    return f"windows are placed by {name}" if name else "nobody places the windows, so the kiosk does"
+    return f"windows are placed by {name}" if name else "no window manager runs, so the kiosk places its windows"
 
 
 def _lit() -> CheckResult:
@@ -129,7 +129,7 @@ def frame_check(study: StudyConfig) -> Iterator[CheckResult]:
 
 
 def frame_result(usual_ms: float) -> CheckResult:
-    """What it means that a frame takes so long."""
+    """Return what it means that a frame takes so long."""
     words = f"a whole frame of {WIDTH} x {HEIGHT} takes {usual_ms:.0f} ms without a graphics card"
     if usual_ms > SLOW_MS:
         return CheckResult.warning(WHAT, words, "end other programs, or set screen.motion to false")
@@ -273,7 +273,7 @@ def _limit_memory() -> None:
 
 
 def run_check_process(what: str, command: Sequence[str], within_s: float, remedy: str) -> Iterator[CheckResult]:
-    """What the process of this command found; ``remedy`` is for when it comes to nothing."""
+    """Yield what the process of this command found; ``remedy`` is for when it comes to nothing."""
     try:
         done = subprocess.run(  # noqa: S603 - our own program
             command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=within_s, check=False
@@ -288,7 +288,10 @@ def run_check_process(what: str, command: Sequence[str], within_s: float, remedy
 
 
 def _said(stderr: str) -> str:
-    """The line that tells most: the first, for others follow from it; but the last of what a fault of ours leaves."""
+    """Return the line that says most: the first, but the last of a traceback.
+
+    The others follow from the first.
+    """
     lines = [line.strip() for line in stderr.splitlines() if line.strip()]
     if not lines:
         return ""

@@ -25,7 +25,7 @@ from kiosk.ui.screens.shell import KioskScreen
 from kiosk.units import MS_PER_SECOND
 
 _TICK_S = 0.0005
-"""How long a virtual clock that keeps pace with the wall's gives way to whoever it waits for."""
+"""How long a virtual clock that keeps pace with the wall's gives way to what it waits for."""
 
 
 class TimerWait(Protocol):
@@ -69,7 +69,7 @@ class WallClock:
         self._speed = speed
 
     def now_ms(self) -> int:
-        """Milliseconds since some fixed moment, on a clock that nobody can set back."""
+        """Milliseconds since some fixed moment, on a clock that cannot be set back."""
         return int(monotonic() * MS_PER_SECOND * self._speed)
 
     def after(self, ms: int, call: Callable[[], None]) -> TimerWait:
@@ -92,7 +92,7 @@ class _QueuedWait:
 
 
 class VirtualClock:
-    """Time that passes only by jumping to the end of the next wait, when it is told to."""
+    """Time that passes only by jumping to the end of the next wait, on request."""
 
     def __init__(self) -> None:
         """Begin at 0."""
@@ -171,7 +171,7 @@ class MainThreadExecutor(QObject):
                 self._landed.emit(job)
 
     def close(self) -> None:
-        """Do nothing more, whoever still comes."""
+        """Do nothing more, whatever is still asked."""
         with self._lock:
             self._open = False
 
@@ -189,7 +189,10 @@ class Executor(Protocol):
 
 
 class ThreadExecutor:
-    """Does one job after another on a thread of its own; a fault in one is raised on the interface's thread."""
+    """Does one job after another on a thread of its own.
+
+    A fault in one is raised on the interface's thread.
+    """
 
     def __init__(self, landing: MainThreadExecutor) -> None:
         """Results come back by this way."""
@@ -285,7 +288,7 @@ class EventLoop:
     """Runs the interface; on virtual time it lets time jump whenever the interface has nothing else to do."""
 
     def __init__(self, clock: Clock, owner: QObject, fault: Fault, beat: Callable[[], None] = lambda: None) -> None:
-        """``fault`` is told of what nobody caught.
+        """Call ``fault`` with every uncaught exception.
 
         ``beat`` is called out of the loop several times a second, and when the system asks for the end.
         """
@@ -305,7 +308,10 @@ class EventLoop:
         }
 
     def run(self) -> None:
-        """Run until ``quit``, or not at all once the system asked for the end, be it while all this was built."""
+        """Run until ``quit``, or not at all if the system has asked for the end.
+
+        It may have asked while all this was built.
+        """
         if self.stop_requested:
             return
         before, sys.excepthook = sys.excepthook, self._fault
@@ -328,7 +334,7 @@ class EventLoop:
         self._loop.quit()
 
     def close(self) -> None:
-        """Leave the system's requests to whoever had them before."""
+        """Give the system's requests back to their earlier handlers."""
         for ending, handler in self._signals_before.items():
             signal.signal(ending, handler)
 

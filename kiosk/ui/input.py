@@ -80,7 +80,7 @@ class HeldKeys(QObject):
 
 _HAND = frozenset({QEvent.Type.MouseButtonPress, QEvent.Type.TouchBegin, QEvent.Type.TouchUpdate, QEvent.Type.Wheel})
 POINTED_PX = 80
-"""How far a pointer has to be moved to show that somebody is there; a mouse on a table that is bumped moves less."""
+"""How far a pointer has to be moved to show that a person is there; a mouse on a table that is bumped moves less."""
 POINTED_MS = 1_000
 """A pointer that rests for so long begins to be moved anew."""
 _MODIFIERS = frozenset(

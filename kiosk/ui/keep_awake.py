@@ -28,10 +28,10 @@ _ES_DISPLAY_REQUIRED = 0x00000002
 
 
 class DBusInhibitor:
-    """A service on D-Bus that holds off as long as whoever asked is connected."""
+    """A service on D-Bus that holds off sleep as long as the caller is connected."""
 
     def __init__(self, name: str, bus: QDBusConnection.BusType, call: tuple[str, str, str, list[str]]) -> None:
-        """``call`` is the service, the path, the interface, and what its method Inhibit is told."""
+        """``call`` is the service, the path, the interface, and the arguments of its method Inhibit."""
         self.name = name
         self._bus_type = bus
         self._call = call

@@ -24,7 +24,7 @@ def numbered_screens() -> list[QScreen]:
 
 
 class FullScreen(QObject):
-    """Puts the window over the screen of a number, or over the primary one as long as there is none of that number."""
+    """Puts the window over the screen of a number, or over the primary one without such a screen."""
 
     def __init__(self, window: QWindow, number: int, parent: QObject | None = None) -> None:
         """Cover the screen now, and go on doing so."""
@@ -61,7 +61,7 @@ class FullScreen(QObject):
             self._follow(screen)
         if self._window.screen() is not screen:
             self._window.setScreen(screen)
-        # Without a window manager nobody obeys a wish for the full screen: take its size as well.
+        # Without a window manager a wish for the full screen is ignored: take its size as well.
         if self._window.geometry() != screen.geometry():
             self._window.setGeometry(screen.geometry())
         self._window.showFullScreen()
@@ -323,7 +323,7 @@ class KeepAwake:
         """Whether the screen stays lit, and thanks to whom."""
         if self._granted:
             return Health(is_ok=True, message=f"screen saver and sleep are held off by {', '.join(self._granted)}")
-        why = "; ".join(self._refused) or "nobody has answered yet"
+        why = "; ".join(self._refused) or "no service has answered yet"
         return Health(is_ok=False, message=f"screen saver and sleep are not held off: {why}")
 
     def release(self) -> None:
@@ -380,7 +380,7 @@ class KioskWindow:
 
 
 def desktop_of(window: QQuickWindow) -> Desktop:
-    """What there is to tell of the desktop that shows a window."""
+    """Return what there is to tell of the desktop that shows a window."""
     if QGuiApplication.platformName() != "xcb":
         return OpenDesktop()
     from kiosk.ui.x11 import XServer, XWayland  # noqa: PLC0415 - only where there is an X server

@@ -1,4 +1,6 @@
-"""Finds out whether Qt can open a window here, before Qt does: where it cannot, it ends the process with an abort.
+"""Finds out whether Qt can open a window here.
+
+Where it cannot, Qt itself would end the process with an abort.
 
 Nothing of Qt is imported for it.
 """

@@ -68,7 +68,7 @@ class LatencyMonitor(QObject):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """What happens meanwhile is not the interface's doing, and does not count."""
+        """Leave out what happens meanwhile, which is not the interface's doing."""
         begun = monotonic()
         yield
         if self._last is not None:
@@ -235,7 +235,7 @@ _DECIDING = ("attract", "consent", "age")
 """Where even the hasty look at what they tap."""
 
 _LINGERING = frozenset({Stage.CONSENT, Stage.ABOUT_YOU, Stage.PRACTICE, Stage.GAME, Stage.QUESTIONS})
-"""Stages that whoever leaves them leaves in the middle."""
+"""Stages that a visitor who leaves them leaves in the middle."""
 
 
 _USUAL = BehaviourProfile()
@@ -309,7 +309,7 @@ class Rehearsal:
         self._think()
 
     def _fail(self, fault: BaseException) -> None:
-        """A fault ends the rehearsal: whoever acts next may be the one that it came from."""
+        """End the rehearsal at a fault: the next actor may be the one that it came from."""
         where = traceback.extract_tb(fault.__traceback__)[-1:]
         at = "".join(f" ({Path(frame.filename).name}, line {frame.lineno})" for frame in where)
         self._give_up(UiTimeout(f"there was a fault in Recollect, {type(fault).__name__}: {fault}{at}"))
@@ -387,7 +387,7 @@ class Rehearsal:
             self._click("continue")
 
     def _wanted(self) -> tuple[Item, ...]:
-        """The items that this visitor answers."""
+        """Return the items that this visitor answers."""
         items = self._app.screens.form.shown
         if self._manner is not BehaviourKind.HASTY:
             return items
@@ -489,7 +489,7 @@ def draw_visitors(sessions: int, seed: int, languages: Sequence[str]) -> Iterato
 def rehearse_day(app: App, seed: int, visitors: Sequence[BehaviourProfile], data: Path) -> Iterator[ProcessUsage]:
     """Let them come one after another; after each, what the process holds. Raises Stuck if one cannot go on.
 
-    Nobody comes any more once the system asked the kiosk to end.
+    No visitor comes any more once the system asked the kiosk to end.
     """
     for number, visitor in enumerate(visitors):
         rehearsal = Rehearsal(app, seed + number, visitor=visitor)
@@ -500,7 +500,7 @@ def rehearse_day(app: App, seed: int, visitors: Sequence[BehaviourProfile], data
 
 
 def day_summary(visitors: Sequence[BehaviourProfile], holdings: Sequence[ProcessUsage]) -> dict[str, Any]:
-    """The day in figures: slopes per session after the warm-up, and what was held then and at the end."""
+    """Return the day in figures: slopes per session after the warm-up, and what was held then and at the end."""
     after = holdings[min(int(WARM_UP * len(holdings)), len(holdings) - 1) :]
     gaps = [holding.longest_gap_ms for holding in after]
     return {

@@ -76,7 +76,7 @@ class Renderer:
         screens.kiosk.screen_changed.connect(self._mind_screen)
 
     def begin(self, plan: SessionConfig) -> None:
-        """A session begins: everything speaks its language, and tells its contact."""
+        """Begin a session: everything speaks its language, and tells its contact."""
         self._plan = plan
         self.screens.set_language(plan.catalogue)
         self.screens.kiosk.begin(plan.languages, plan.language, plan.settings.consent)
@@ -213,19 +213,19 @@ class Renderer:
         return None if self.embodiments is None else self.embodiments.current
 
     def _watch_card(self, position: Position) -> None:
-        """The hinted card was turned: the avatar nods."""
+        """Let the avatar nod if the hinted card was turned."""
         board = self.screens.board
         if board.is_marked(position):
             self.screens.avatar.gesture("nod")
 
     def _start_calming(self) -> None:
-        """What the avatar feels about a move passes."""
+        """Let what the avatar feels about a move pass."""
         if self._calming is not None:
             self._calming.cancel()
         self._calming = self._clock.after(FEELING_MS, partial(self.screens.avatar.feel, None))
 
     def _let_be_rated(self, *, rated: bool) -> None:
-        """Nobody who is being rated looks on: the avatar leaves, a robot looks aside; both come back afterwards."""
+        """Let the avatar leave and a robot look aside while they are rated; both come back."""
         if rated == self._is_rated:
             return
         self._is_rated = rated

@@ -1,4 +1,4 @@
-"""A replay as a program: the kiosk's window with a player behind it in place of a session, or a folder of pictures."""
+"""A replay as a program: the kiosk's window with a player behind it, or a folder of pictures."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Replay:
         self._error: BaseException | None = None
 
     def __enter__(self) -> Self:
-        """The replay itself."""
+        """Return the replay itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
@@ -111,7 +111,7 @@ class Replay:
         return self._window.shown
 
     def run(self) -> None:
-        """Play until whoever watches has seen enough."""
+        """Play until the viewer closes it."""
         self.player.run()
         self._loop.run()
         if self._error is not None:
@@ -139,7 +139,7 @@ class Replay:
         return embodiments
 
     def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
-        """A fault of ours ends the replay; nobody waits in front of it."""
+        """End the replay at a fault of ours; no visitor waits in front of it."""
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self._error = fault
         self._loop.quit()

@@ -15,7 +15,7 @@ from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
 SLOWEST, FASTEST = 0.25, 32.0
 HIDDEN_CODE = "· · ·"
-"""Stands where the participant's code stood, which is nobody's business afterwards."""
+"""Stands where the participant's code stood, which stays private afterwards."""
 
 
 class ReplayPlayer:
@@ -130,7 +130,7 @@ class ReplayControls(QObject):
 
     changed = Signal()
     left = Signal()
-    """Whoever watches has seen enough."""
+    """The viewer has seen enough."""
 
     def __init__(self, title: str, player: ReplayPlayer, parent: QObject | None = None) -> None:
         """``title`` says which session it is."""
@@ -146,7 +146,7 @@ class ReplayControls(QObject):
 
     @Property(str, notify=changed)
     def position(self) -> str:
-        """The time since the session began, the stage, and what happened last."""
+        """Return the time since the session began, the stage, and what happened last."""
         return _place(self._player.last)
 
     @Property(str, notify=changed)

@@ -89,7 +89,7 @@ class ConditionAssigner:
         self._choice = None if condition is None else _Choice(condition)
 
     def next_session(self, language: str) -> Provenance:
-        """What the next session is to follow; raises StorageError."""
+        """Return what the next session is to follow; raises StorageError."""
         self._followed = self._choice
         slot = self._next_slot() if self._listed and self._choice is None else None
         condition = self.chosen or (slot.condition if slot else self._origin.condition)
@@ -134,14 +134,16 @@ class SessionRecording:
 
     @classmethod
     def resumed(cls, recorder: Recorder, provenance: Provenance, number: int) -> Self:
-        """The record of a stored session that goes on."""
+        """Return the record of a stored session that goes on."""
         record = cls(recorder, provenance)
         record.code = recorder.resume(number).code
         record._keeping = RecordingState.KEPT
         return record
 
     def write(self, event: WorldEvent, outcome: Outcome) -> None:
-        """Write, hold back or forget an event and what came of it; raises StorageError if the disk does not take it.
+        """Write, hold back or forget an event and what came of it.
+
+        Raises StorageError if the disk does not take it.
 
         Where it raises nothing has changed, so the same event can be written again after StoreBusy.
         """
@@ -178,7 +180,7 @@ class SessionRecording:
 RETRY_MS = 20
 """How long until the same is tried again."""
 TOLD_AFTER_MS = 1_000
-"""A longer wait is told to the person in front of the screen."""
+"""A longer wait is shown to the person in front of the screen."""
 LONGEST_MS = 120_000
 """After so long the database counts as failed."""
 
@@ -187,7 +189,7 @@ class BusyWait:
     """One wait for the database, from the first attempt that found it held to the one that did not."""
 
     def __init__(self, clock: Clock, recorder_waits_ms: int, show: Callable[[bool], None]) -> None:
-        """``show`` is told when the wait has become long, and again when a long wait is over.
+        """Call ``show`` when the wait has become long, and again when a long wait is over.
 
         A recorder that waits by itself at each attempt is tried again at once, so that virtual time stands still.
         """
@@ -251,14 +253,14 @@ class SessionRunner:
     """Runs one session after another; it is also the body's listener."""
 
     def __init__(self, screens: ScreenSet, recorder: Recorder, clock: Clock, assigner: ConditionAssigner) -> None:
-        """``assigner`` is asked once for each provenance, when it begins."""
+        """Ask ``assigner`` once for each provenance, when it begins."""
         self.on_event: EventObserver | None = None
         self.play_sound: Callable[[SoundEffect], None] = lambda _: None
         self.spoken_by: Callable[[], Mapping[str, Any]] = dict
         self.on_session_started: Callable[[], None] = lambda: None
-        """Is told when a visitor has begun, or a session goes on."""
+        """Called when a visitor has begun, or a session goes on."""
         self.on_idle: Callable[[], None] = lambda: None
-        """Is told when no session is under way any more."""
+        """Called when no session is under way any more."""
         self.last_activity_ms: Callable[[], int | None] = lambda: None
         """When the visitor last did anything to the screen, on the clock; None if they never did."""
         self._idle_since = 0
@@ -286,7 +288,7 @@ class SessionRunner:
 
     @property
     def is_blocked(self) -> bool:
-        """Whether the error screen is up, where nobody can begin."""
+        """Whether the error screen is up, where no session can begin."""
         return self._session is None and self._renderer.screens.kiosk.shown == "pause"
 
     def accepts(self, event: WorldEvent) -> bool:
@@ -304,7 +306,7 @@ class SessionRunner:
         self._renderer.embodiments = embodiments
 
     def start(self, language: str) -> None:
-        """A visitor begins, in this language; nothing happens while somebody else is at it."""
+        """Begin a session in this language; during another one, do nothing."""
         if self._session is None and not self._busy.under_way and self._renderer.screens.kiosk.shown == "attract":
             self._start(language, self._clock.now_ms())
 
@@ -330,7 +332,7 @@ class SessionRunner:
         past: tuple[WorldEvent, ...],
         noted: Callable[[], bool] = lambda: True,
     ) -> None:
-        """Go on with a session that was cut off after these events, from the start of the stage it was in.
+        """Go on with a session that was cut off after these events, from the start of its stage.
 
         ``noted`` writes that down once it is known to be possible; if it says no, everything stays as it is. So it does
         where this raises: InvalidTransition if that stage cannot begin anew, UserInputError or StorageError from the
@@ -365,7 +367,7 @@ class SessionRunner:
     def _timer_expired(self, timer: Timer) -> None:
         last = self.last_activity_ms()
         if timer is Timer.IDLE and last is not None and last > self._idle_since:
-            # Whoever scrolls, or goes about by keyboard, is there: the idle time counts from the last of it.
+            # Scrolling and moving by keyboard show that the visitor is there: the idle time counts from the last of it.
             self.dispatch(happened.UserActivity(at_ms=self.now_ms(), ago_ms=self._clock.now_ms() - last))
         else:
             self.dispatch(happened.TimerExpired(at_ms=self.now_ms(), timer=timer))
@@ -415,7 +417,7 @@ class SessionRunner:
             self._rest("attract")
 
     def set_closed(self, *, shut: bool) -> None:
-        """Let nobody begin, or everybody again; a session that is under way goes on to its end."""
+        """Close the kiosk to new sessions, or open it again; a session under way goes on to its end."""
         self._shut = shut
         if self._session is None and shut is not self.is_blocked:
             self._rest("attract")
@@ -434,7 +436,7 @@ class SessionRunner:
         self._renderer.begin(provenance.plan)
 
     def _with_body(self, provenance: Provenance) -> Provenance:
-        """The session with the body that it begins with, whichever was meant."""
+        """Return the session with the body that it begins with, whichever was meant."""
         body = self._renderer.body_name
         return provenance if body is None else replace(provenance, embodiment=str(body))
 

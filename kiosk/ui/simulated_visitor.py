@@ -41,7 +41,9 @@ class UiDriver:
         self._aside = aside
 
     def click(self, name: str, across: float = 0.5) -> None:
-        """Press and release the left button on the item of this name, ``across`` from its left (0) to its right (1).
+        """Press and release the left button on the item of this name.
+
+        ``across`` is from its left (0) to its right (1).
 
         A field to type into is touched, so that the keys on the screen come; a key on another layer is looked for.
         """
@@ -118,7 +120,7 @@ class UiDriver:
 
 @cache
 def touch_screen() -> QPointingDevice:
-    """The glass; Qt keeps every device that it was ever told of."""
+    """Return the glass; Qt keeps every device that it was ever told of."""
     return QTest.createTouchDevice()
 
 
@@ -133,12 +135,15 @@ def item_centre(item: QQuickItem) -> QPoint:
 
 
 def item_point(item: QQuickItem, across: float) -> QPoint:
-    """Where a place half way down an item is in its window, ``across`` from its left (0) to its right (1)."""
+    """Return where a place half way down an item is in its window.
+
+    ``across`` is from its left (0) to its right (1).
+    """
     return item.mapToScene(QPointF(item.width() * across, item.height() / 2)).toPoint()
 
 
 def find_item(item: QQuickItem, name: str) -> QQuickItem | None:
-    """The visible item of this object name; delegates are no children of their view for Qt's own search."""
+    """Return the visible item of this object name; delegates are no children of their view for Qt's own search."""
     if not item.isVisible():
         return None
     if item.objectName() == name:
@@ -147,7 +152,7 @@ def find_item(item: QQuickItem, name: str) -> QQuickItem | None:
 
 
 def _scroller(item: QQuickItem) -> QQuickItem | None:
-    """What an item scrolls in, if it does."""
+    """Return what an item scrolls in, if it does."""
     above: QQuickItem | None = item.parentItem()
     while above and not (above.inherits("QQuickFlickable") and above.property("interactive")):
         above = above.parentItem()
@@ -176,7 +181,7 @@ class FormFiller:
         self._chance = chance
 
     def errands(self, items: tuple[Item, ...]) -> Iterator[Errand]:
-        """What is to be done for these items, in their order."""
+        """Yield what is to be done for these items, in their order."""
         for number, item in enumerate(items):
             yield from map(self._do, item.simulate(self._chance, last=number == len(items) - 1))
 
@@ -208,7 +213,7 @@ class BehaviourKind(Enum):
 
 @dataclass(frozen=True)
 class MemoryTraits:
-    """How a visitor plays: the chance to forget a card per flip, to follow a hint, and to take any card at all.
+    """How a visitor plays: chances to forget a card per flip, to follow a hint, to guess.
 
     The study's people followed in .86 (noToM) and .92 (ToM) of the cases.
     """
@@ -230,7 +235,7 @@ class BehaviourProfile:
 
 @dataclass(frozen=True)
 class BoardView:
-    """What can be seen of an open board: the closed cards, the picture of the first card if one is up, and the mark."""
+    """What can be seen of an open board: closed cards, the first card's picture, and the mark."""
 
     closed: tuple[Position, ...]
     first: str | None
@@ -271,7 +276,7 @@ class SimulatedParticipant:
         self._flips = 0
 
     def choose(self, view: BoardView) -> Position:
-        """The closed card that it turns next."""
+        """Return the closed card that it turns next."""
         if view.first is None:
             self._recalled = self._recall()
         self._flips += 1
@@ -290,7 +295,7 @@ class SimulatedParticipant:
             self._seen[position] = (picture, self._flips)
 
     def _recall(self) -> dict[Position, str]:
-        """The cards that it recalls in this move."""
+        """Return the cards that it recalls in this move."""
         return {
             position: picture
             for position, (picture, flip) in self._seen.items()
@@ -304,6 +309,6 @@ def _mates(first: str, recalled: dict[Position, str]) -> set[Position]:
 
 
 def _pairs(recalled: dict[Position, str]) -> set[Position]:
-    """The cards of pairs that are believed to be known."""
+    """Return the cards of pairs that are believed to be known."""
     pictures = list(recalled.values())
     return {position for position, picture in recalled.items() if pictures.count(picture) > 1}

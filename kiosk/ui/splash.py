@@ -51,7 +51,7 @@ def show_splash(lines: Sequence[str]) -> None:
 
 
 def _window(engine: QQmlApplicationEngine, lines: Sequence[str]) -> QQuickWindow:
-    """The window, over the whole screen; it asks for no focus, which is the kiosk's."""
+    """Return the window, over the whole screen; it asks for no focus, which is the kiosk's."""
     engine.setInitialProperties({"lines": list(lines), "icon": QUrl.fromLocalFile(str(ASSETS / "icon.svg"))})
     engine.load(QUrl.fromLocalFile(str(QML)))
     window = engine.rootObjects()[0]

@@ -1,4 +1,6 @@
-"""The voice as the interface sees it: sentences in, three signals out. It may be missing, hang or die at any moment.
+"""The voice as the interface sees it: sentences in, three signals out.
+
+It may be missing, hang or die at any moment.
 
 The speech engine runs in a process of its own (kiosk/robots/tts_worker.py) that is never waited for.
 A sentence that does not start in time ends the process, which is started again for the next one.
@@ -164,7 +166,7 @@ class EngineVoice(Voice):
         self._failures = 0
         process = self._let_go_of_process()
         if process is not None:
-            # It puts its own things away when nobody is left to speak to.
+            # It puts its own things away when the kiosk is gone.
             process.closeWriteChannel()
             QTimer.singleShot(QUIT_MS, process, process.kill)
         self._start()
@@ -238,7 +240,7 @@ class EngineVoice(Voice):
                 event = json.loads(line)
                 kind = event["event"]
             except (ValueError, KeyError, TypeError):
-                _log.warning("the voice sent what nobody understands: %r", line[:100])
+                _log.warning("the voice sent an unknown message: %r", line[:100])
                 continue
             self._heard(kind, event)
 
@@ -271,7 +273,7 @@ class EngineVoice(Voice):
                 self._give_up(str(event.get("why")))
 
     def _notice_device(self, event: dict[str, Any]) -> None:
-        """The sound device was found, lost or found again."""
+        """Note that the sound device was found, lost or found again."""
         self._health = _found(self._language, self._name, str(event.get("device", "")), str(event.get("why", "")))
         if not self._health.is_ok:
             _log.warning("%s", self._health.message)
@@ -283,7 +285,7 @@ class EngineVoice(Voice):
             self.finished.emit(number)
 
     def _overdue(self) -> None:
-        """The engine hangs: end it, and start another."""
+        """End an engine that hangs, and start another."""
         _log.warning("the voice hangs and is ended")
         self._drop_process()
         self._give_up("the voice did not answer in time")
@@ -322,7 +324,7 @@ class EngineVoice(Voice):
 
 
 def _found(language: str, voice: object, device: str, why: str) -> Health:
-    """What an engine that is ready can do."""
+    """Return what an engine that is ready can do."""
     if voice is None:
         return Health(is_ok=False, message=f"sentences are only shown: no installed voice speaks {language!r}")
     if not device:

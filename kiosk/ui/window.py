@@ -125,7 +125,7 @@ def check_screen(display: WindowMode) -> None:
 
 
 def application(display: WindowMode) -> QGuiApplication:
-    """The application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
+    """Return the application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
     os.environ.setdefault("QT_QUICK_BACKEND", "software")
     os.environ.setdefault("QSG_RENDER_LOOP", "basic")
     if display is WindowMode.NOWHERE:

@@ -1,4 +1,4 @@
-"""What only the X server can be asked: to show a window on every desktop, to lower what lies over it, to stay lit.
+"""What only the X server can do: show a window on every desktop, lower others, stay lit.
 
 Law: once connected, nothing here raises; another program's window that is gone when it is asked about is no failure.
 """
@@ -33,13 +33,16 @@ class XServer:
         self._window = self._display.create_resource_object("window", window)
 
     def show_on_every_desktop(self) -> None:
-        """Show the window on every desktop: said to the window manager for now, and on the window for the next time."""
+        """Show the window on every desktop.
+
+        It is said to the window manager for now, and on the window for the next time.
+        """
         desktop = self._display.intern_atom("_NET_WM_DESKTOP")
         self._window.change_property(desktop, Xatom.CARDINAL, 32, [EVERY_DESKTOP])
         self._ask("_NET_WM_DESKTOP", EVERY_DESKTOP, AS_A_PAGER)
 
     def activate(self) -> None:
-        """Ask the window manager as whoever changes between windows does, which is never refused; then take it."""
+        """Ask the window manager as a window switcher does, which is never refused; then take it."""
         self._ask("_NET_ACTIVE_WINDOW", AS_A_PAGER, X.CurrentTime)
         self._focus()
 
@@ -48,7 +51,10 @@ class XServer:
         self._display.flush()
 
     def _focused(self) -> int:
-        """The number of the window that keys are for; Qt cannot tell as long as it takes them all anyway."""
+        """Return the number of the window that keys are for.
+
+        Qt cannot tell as long as it takes them all anyway.
+        """
         focus = self._display.get_input_focus().focus
         return int(focus.id) if isinstance(focus, Window) else X.NONE
 
@@ -77,7 +83,7 @@ class XServer:
             return []
 
     def _above(self) -> list[Window]:
-        """The windows above ours, as the server stacks them."""
+        """Return the windows above ours, as the server stacks them."""
         ours = self._window
         while (parent := ours.query_tree().parent) and parent.id != self._root.id:
             ours = parent
@@ -113,25 +119,25 @@ class XWayland(XServer):
         self._covered = False
 
     def show_on_every_desktop(self) -> None:
-        """The window is new: whatever was over it is so no more, wherever the server has it."""
+        """Start anew with a new window, which nothing covers yet."""
         self._below = {window.id for window in self._over()}
         self._covered = False
 
     def activate(self) -> None:
-        """The compositor would not hear of it, and we would only seem to be active."""
+        """Do nothing: the compositor would refuse, and we would only seem to be active."""
 
     def clear(self) -> bool:
         """Whether a window has come over ours since it was new, or was made the active one."""
         over, focused = {window.id for window in self._over()}, self._focused()
-        nobody = {X.NONE, self._root.id}
-        others = {self._active(), focused} - nobody - {self._window.id}
+        no_window = {X.NONE, self._root.id}
+        others = {self._active(), focused} - no_window - {self._window.id}
         self._covered = self._covered or bool(over - self._below) or bool(others)
-        if focused in nobody:
+        if focused in no_window:
             self._focus()
         return self._covered
 
     def _active(self) -> int:
-        """The number of the window that the compositor has made the active one."""
+        """Return the number of the window that the compositor has made the active one."""
         active = self._root.get_full_property(self._display.intern_atom("_NET_ACTIVE_WINDOW"), Xatom.WINDOW)
         return int(active.value[0]) if active is not None and active.value else X.NONE
 
@@ -167,7 +173,7 @@ def _connect() -> Display:
 
 
 def window_manager() -> str:
-    """The name of the window manager; empty if there is none. Raises OSError if the server cannot be reached."""
+    """Return the name of the window manager; empty if there is none. Raises OSError if the server cannot be reached."""
     display = _connect()
     try:
         manager = _property(display, display.screen().root, "_NET_SUPPORTING_WM_CHECK")

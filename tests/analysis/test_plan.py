@@ -146,7 +146,7 @@ def test_any_number_of_workers_gives_the_same_numbers_and_a_killed_run_goes_on(p
 
 @contextmanager
 def running_cluster(folder: Path, workers: int) -> Iterator[str]:
-    """A Dask scheduler of this machine with so many workers; its address."""
+    """Provide a Dask scheduler of this machine with so many workers; its address."""
     here = [sys.executable, "-m"]
     address = folder / "scheduler.json"
     scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]

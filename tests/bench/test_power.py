@@ -32,7 +32,7 @@ def test_two_workers_of_a_dask_cluster_are_faster_than_one(benchmark: Any, tmp_p
 
 
 def on_cluster(plan: Path, folder: Path, workers: int) -> float:
-    """The seconds that a cluster takes for the studies, once every worker has imported and compiled all."""
+    """Return the seconds that a cluster takes for the studies, once every worker has imported and compiled all."""
     folder.mkdir()
     wanted, warm = job(plan, STUDIES, (56,)), job(plan, 400, (28,))
     with running_cluster(folder, workers) as host:

@@ -82,7 +82,7 @@ class Ear:
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PulseServer]:
-    """A virtual loudspeaker."""
+    """Provide a virtual loudspeaker."""
     server = PulseServer(tmp_path_factory.mktemp("pulse"))
     server.start()
     with pytest.MonkeyPatch.context() as environment:
@@ -132,7 +132,7 @@ def latencies_ms(
 
 
 def told(benchmark: Any, found: Sequence[float], what: str = "") -> dict[str, float]:
-    """The middle and the slow end, also in the benchmark's report."""
+    """Return the middle and the slow end, also in the benchmark's report."""
     cuts = {"p50": round(median(found), 1), "p99": round(quantiles(found, n=100, method="inclusive")[98], 1)}
     benchmark.extra_info.update({f"{what} {name}_ms".strip(): value for name, value in cuts.items()})
     print(f"\n{benchmark.name} {what}: {cuts} ms")  # noqa: T201 - a benchmark is read on the terminal
@@ -191,7 +191,7 @@ def held_sentences() -> list[str]:
 
 
 def words_of(text: str) -> list[str]:
-    """The words as a recogniser writes them."""
+    """Return the words as a recogniser writes them."""
     return [NUMBERS.get(word, word) for word in re.findall(r"[a-z']+|\d+", text.lower().replace("\u2019", "'"))]
 
 
@@ -207,7 +207,7 @@ def word_errors(said: Sequence[str], recognised: Sequence[str]) -> int:
 
 @pytest.fixture(scope="module")
 def recognise() -> Callable[[Clip], list[str]]:
-    """The recogniser pocketsphinx with the American English model that comes in its package."""
+    """Return the recogniser pocketsphinx with the American English model that comes in its package."""
     sphinx = pytest.importorskip("pocketsphinx", reason="pocketsphinx is not installed: pip install pocketsphinx")
     decoder = sphinx.Decoder(samprate=RECOGNISER_RATE, loglevel="ERROR")
 
@@ -222,7 +222,7 @@ def recognise() -> Callable[[Clip], list[str]]:
 
 
 def word_error(engine: SpeechEngine, recognise: Callable[[Clip], list[str]]) -> float:
-    """The share of words of the held sentences that a recogniser gets wrong."""
+    """Return the share of words of the held sentences that a recogniser gets wrong."""
     wrong = whole = 0
     for text in held_sentences():
         silence = Clip(np.zeros(engine.rate // 4, np.int16), engine.rate)

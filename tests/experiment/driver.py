@@ -164,19 +164,19 @@ class Driver:
         return self.send(happened.ResponseGiven(at_ms=self.now, item=shown if item is None else item, value=value))
 
     def pause(self) -> Outcome:
-        """Return the experimenter stops the session for a while."""
+        """Stop the session for a while, as the experimenter."""
         return self.send(happened.PauseRequested(at_ms=self.now))
 
     def end_pause(self) -> Outcome:
-        """Return the experimenter lets it go on."""
+        """Let it go on, as the experimenter."""
         return self.send(happened.PauseEnded(at_ms=self.now))
 
     def repeat(self) -> Outcome:
-        """Return the experimenter wants the last sentence said again."""
+        """Have the last sentence said again, as the experimenter."""
         return self.send(happened.RepeatRequested(at_ms=self.now))
 
     def end(self, reason: str = "the fair is closing") -> Outcome:
-        """Return the experimenter ends the session."""
+        """End the session, as the experimenter."""
         return self.send(happened.AbortRequested(at_ms=self.now, reason=reason))
 
     def wait(self) -> Outcome:

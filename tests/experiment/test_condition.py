@@ -131,7 +131,7 @@ REMIND = {"remind": {"location": False}}
 
 
 def reminding(seed: int = 4, **settings: Any) -> Driver:
-    """A game in which every flip is preceded by a reminder."""
+    """Return a game in which every flip is preceded by a reminder."""
     driver = Driver(plan(Condition("remind"), always(ActionSpec.SUG_CARD), conditions=REMIND, **settings), seed)
     driver.to_the_game()
     driver.play(at_random(seed))

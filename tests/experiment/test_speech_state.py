@@ -18,7 +18,7 @@ from tests.samples import always, plan, whole
 
 
 def lose(driver: Driver) -> Outcome:
-    """Return the robot is lost now."""
+    """Lose the robot now."""
     return driver.send(happened.RobotDisconnected(at_ms=driver.now, why="the plug"))
 
 

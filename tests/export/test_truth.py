@@ -61,7 +61,7 @@ WRONG: dict[str, tuple[Callable[[Row], bool], Callable[[Row], Row]]] = {
 
 @pytest.fixture(scope="module")
 def checker(tmp_path_factory: pytest.TempPathFactory) -> Checker:
-    """A session of every condition that helps, in each language."""
+    """Return a session of every condition that helps, in each language."""
     return Checker(played(tmp_path_factory.mktemp("truth"), 3 * len(TOLD)))
 
 

@@ -126,7 +126,10 @@ class Day:
 
 @pytest.fixture(scope="package")
 def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
-    """Return the table is trained with the action; after so few games it still takes it often."""
+    """Provide a day with a table that was trained with the action.
+
+    After so few games it still takes it often.
+    """
     folder = tmp_path_factory.mktemp("day")
     study, data, dataset = folder / "study.toml", folder / "data", folder / "set"
     trained = lab.recollect("train", "--action", "encourage", "--episodes", 100, "--out", folder / "enc.json")

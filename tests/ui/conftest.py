@@ -33,7 +33,7 @@ from tests.ui.headless import headless, short
 
 @pytest.fixture(scope="session")
 def qapp_cls() -> type[QGuiApplication]:
-    """Return the kiosk has no widgets, and so neither have its tests."""
+    """Return an application without widgets, as the kiosk has none."""
     return QGuiApplication
 
 

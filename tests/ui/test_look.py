@@ -16,7 +16,7 @@ LOGO = '<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"><rect w
 
 
 def study(folder: Path, look: str) -> Path:
-    """A study file with these lines about its look."""
+    """Return a study file with these lines about its look."""
     file = folder / "study.toml"
     file.write_text(f'languages = ["en"]\n[look]\n{look}\n', "utf-8")
     return file

@@ -65,7 +65,7 @@ class AuditLog:
     """Writes down what happens at the booth, and remembers in words what the disk did not take."""
 
     def __init__(self, recorder: Recorder, clock: Clock) -> None:
-        """What another program keeps from being written is tried again on this clock."""
+        """Try again on this clock to write what another program holds up."""
         self.error = ""
         """Why the last thing could not be written; empty if it could."""
         self._recorder = recorder
@@ -133,10 +133,10 @@ class ActionController:
         upkeep: MaintenanceScheduler,
         catalogue: Catalogue,
     ) -> None:
-        """Nothing is done yet; ``panel`` is told to open or close by ``toggle_panel``."""
+        """Do nothing yet; ``toggle_panel`` opens or closes the panel."""
         self.toggle_panel: Callable[[], None] = lambda: None
         self.changed: Callable[[], None] = lambda: None
-        """Is told when what can be chosen looks different."""
+        """Called when what can be chosen looks different."""
         self.volume = booth.assigner.study.settings.voice.volume
         self.paused_by_panel = False
         """Whether the session goes on when the panel is closed."""
@@ -168,7 +168,7 @@ class ActionController:
         return self._turn
 
     def press(self, name: str) -> None:
-        """A shortcut was pressed."""
+        """Handle a pressed shortcut."""
         action = Action(name)
         if action is Action.CONDITION and self._turning_for is not None:
             self._choose_next_in_turn(self._turning_for)
@@ -386,7 +386,7 @@ class ActionController:
         self._upkeep.back_up()
 
     def _leave(self, _choice: str, reason: str) -> None:
-        # A disk that takes nothing keeps nobody here.
+        # The experimenter can leave even when the disk takes nothing.
         self._write.record(AuditEvent.APPLICATION_QUIT, {"stage": self.stage.value, "reason": reason})
         self._booth.leave()
 
@@ -422,7 +422,7 @@ class ActionController:
         return self.stage in (Stage.ATTRACT, Stage.OVER)
 
     def _begun(self) -> None:
-        """A session that begins in silence says so."""
+        """Record that a session begins in silence."""
         if self._booth.embodiments.is_muted:
             runner = self._booth.runner
             runner.dispatch(happened.MuteChanged(at_ms=runner.now_ms(), muted=True))

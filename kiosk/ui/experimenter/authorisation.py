@@ -20,10 +20,10 @@ Write = Callable[[AuditEvent, Mapping[str, Any]], object]
 
 
 class PinResult(Protocol):
-    """Is told whether a PIN was the right one."""
+    """Called with whether a PIN was the right one."""
 
     def __call__(self, *, right: bool) -> None:
-        """It was, or it was not."""
+        """Take the answer."""
         ...
 
 
@@ -31,7 +31,7 @@ class PinVerifier:
     """One booth's lock; without a PIN it is open.
 
     An attempt counts from the moment it is taken, and there is one at a time: whatever is typed while one is checked,
-    or while nobody may try, is refused without being looked at. So no burst gets more tries than the waits allow.
+    or before the next try is allowed, is refused unseen. So no burst gets more tries than the waits allow.
     """
 
     def __init__(self, line: str, wrong: WrongPins, now_ms: Callable[[], int], work: Executor, write: Write) -> None:
@@ -50,16 +50,16 @@ class PinVerifier:
 
     @property
     def checks(self) -> bool:
-        """Whether an attempt is being checked, so that nobody else may try."""
+        """Whether an attempt is being checked, so that no other may be made."""
         return self._checks
 
     @property
     def left_ms(self) -> int:
-        """How long nobody may try again after a wrong PIN, in ms; 0 while it is not known yet."""
+        """How long no try is allowed after a wrong PIN, in ms; 0 while it is not known yet."""
         return 0 if self._checks else self._wrong.left_ms(self._now_ms())
 
     def check_pin(self, pin: str, told: PinResult) -> None:
-        """Tell, soon, whether this is the PIN; while nobody may try, it is not even looked at."""
+        """Tell, soon, whether this is the PIN; while no try is allowed, it is not even looked at."""
         if self._checks or self.left_ms:
             told(right=False)
             return
@@ -96,7 +96,7 @@ LONGEST_REASON = 80
 DOT = "●"
 
 Then = Callable[[str], None]
-"""Is told the reason; empty if none was asked for."""
+"""Called with the reason; empty if none was asked for."""
 
 
 class AuthorisationFlow:
@@ -107,7 +107,7 @@ class AuthorisationFlow:
         self.unlocked = False
         """Whether the PIN was given for longer than one action, as for the panel."""
         self.changed: Callable[[], None] = lambda: None
-        """Is told when the card comes or goes."""
+        """Called when the card comes or goes."""
         self._card = card
         self._lock = lock
         self._clock = clock
@@ -140,12 +140,12 @@ class AuthorisationFlow:
     def cancel(self) -> None:
         """Ask no more."""
         self._then = None
-        # What is still being checked belongs to a question that nobody waits for.
+        # What is still being checked belongs to a question that was given up.
         self._question += 1
         self._show(AuthorisationStep.NOTHING)
 
     def type(self, text: str) -> None:
-        """A digit, or a letter, was typed."""
+        """Handle a typed digit or letter."""
         match self._card.asks_for:
             case AuthorisationStep.PIN if self._lock.checks:
                 # What is typed before the answer is no attempt, not even a part of the next one.
@@ -160,11 +160,11 @@ class AuthorisationFlow:
                 self._wait_for_answer()
 
     def erase(self) -> None:
-        """The last character is taken back."""
+        """Take back the last character."""
         self._show_typed(without_last(self._typed))
 
     def enter(self) -> None:
-        """What was typed is what is meant."""
+        """Submit what was typed."""
         step, typed = self._card.asks_for, self._typed
         if step is AuthorisationStep.PIN and typed and not self._lock.checks:
             question = self._question
@@ -198,7 +198,7 @@ class AuthorisationFlow:
         self._away = away
 
     def _go_on(self) -> None:
-        """The PIN was right, or not needed."""
+        """Go on after a right PIN, or without one."""
         if self._asks is Authorisation.PIN_AND_REASON:
             self._show(AuthorisationStep.REASON)
         else:

@@ -65,7 +65,7 @@ class InputCapture(QObject):
     def __init__(
         self, window: QWindow, asking: AuthorisationFlow, stirred: Callable[[], None], parent: QObject
     ) -> None:
-        """``stirred`` is told of every sign of the experimenter's hand."""
+        """Call ``stirred`` at every sign of the experimenter's hand."""
         super().__init__(parent)
         self._window = window
         self._asking = asking
@@ -134,7 +134,7 @@ class Panel:
     ) -> None:
         """``state`` tells how everything is now; ``look`` reads the records, and hands over what it found, soon."""
         self.changed: Callable[[], None] = lambda: None
-        """Is told when the panel comes or goes."""
+        """Called when the panel comes or goes."""
         self._screen = screen
         self._booth = booth
         self._actions = actions
@@ -162,7 +162,7 @@ class Panel:
         return self._screen.is_open
 
     def toggle(self) -> None:
-        """Close it, or open it for whoever has the PIN."""
+        """Close it, or ask for the PIN and open it."""
         if self.is_open:
             self.close()
         else:
@@ -181,7 +181,7 @@ class Panel:
         self.changed()
 
     def stir(self) -> None:
-        """Somebody is at it."""
+        """Note that the experimenter is at the panel."""
         self._stirred_at = self._booth.clock.now_ms()
 
     def _open(self) -> None:
@@ -247,7 +247,7 @@ class Panel:
         return self._actions.stage not in (Stage.ATTRACT, Stage.OVER)
 
     def _choices(self) -> Row:
-        """What can be chosen, and what is chosen now."""
+        """Return what can be chosen, and what is chosen now."""
         booth, actions, told = self._booth, self._actions, self._catalogue.text
         under_way = self._under_way
         embodiments = booth.embodiments
@@ -325,7 +325,7 @@ WORDS = (
 
 
 def wall_ms() -> int:
-    """The wall's clock, in ms since 1970."""
+    """Return the wall's clock, in ms since 1970."""
     return time.time_ns() // 1_000_000
 
 
@@ -398,7 +398,7 @@ class ExperimenterConsole:
         self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
 
     def _booth_status(self) -> BoothStatus:
-        """What status.json says, but for the day's sessions."""
+        """Return what status.json says, but for the day's sessions."""
         study = self._booth.assigner.study
         state = self._state()
         stage, since_ms = self._stage_since
@@ -453,7 +453,7 @@ def read_for(work: Executor, folder: Path) -> Callable[..., None]:
 
 
 def _read_day(folder: Path, now_ms: Callable[[], int], *, kind: SessionKind) -> Day:
-    """The sessions of today; none if they cannot be read, which the console says elsewhere."""
+    """Return the sessions of today; none if they cannot be read, which the console says elsewhere."""
     try:
         return read_day(folder, datetime.fromtimestamp(now_ms() / MS_PER_SECOND).astimezone(), kind=kind)
     except UserInputError:
@@ -461,7 +461,7 @@ def _read_day(folder: Path, now_ms: Callable[[], int], *, kind: SessionKind) -> 
 
 
 def _look(folder: Path, *, kind: SessionKind) -> DashboardSnapshot | str:
-    """The records since this morning, or why they cannot be read."""
+    """Return the records since this morning, or why they cannot be read."""
     today = datetime.now().astimezone().replace(hour=0, minute=0, second=0, microsecond=0)
     try:
         return read_snapshot(folder, int(today.timestamp() * MS_PER_SECOND), kind=kind)

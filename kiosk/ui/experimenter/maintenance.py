@@ -1,4 +1,4 @@
-"""What a booth does for itself between sessions: copies of its database, and a look at the room on the disk.
+"""Upkeep of a booth between sessions: copies of its database, and a look at the disk space.
 
 Both are slow work, done elsewhere; what comes of them is written down and shown, and never stops a session.
 """
@@ -57,7 +57,7 @@ class MaintenanceTasks:
 
 
 class Shut(Protocol):
-    """Lets nobody begin, or everybody again."""
+    """Closes the kiosk to new sessions, or opens it again."""
 
     def __call__(self, *, shut: bool) -> None:
         """From now on."""
@@ -78,7 +78,7 @@ class MaintenanceScheduler:
         resting: Callable[[], bool],
         shut: Shut,
     ) -> None:
-        """``resting`` tells whether no session is under way; ``shut`` lets nobody begin, or everybody again."""
+        """``resting`` tells whether no session is under way; ``shut`` closes the kiosk to new ones, or opens it."""
         self._care = care
         self._every_ms = every_minutes * MS_PER_MINUTE
         self._clock = clock
@@ -92,7 +92,7 @@ class MaintenanceScheduler:
         self.last_backup: BackupOutcome | None = None
         """What became of the last copy; None before the first."""
         self.free_space: FreeSpace | None = None
-        """The room that is left; None as long as nobody has looked, or can tell."""
+        """The room that is left; None before the first look, or if it cannot be found out."""
         self.changed: Callable[[], None] = lambda: None
 
     @property
@@ -183,7 +183,7 @@ class MaintenanceScheduler:
                 logging.INFO if level is SpaceLevel.ENOUGH else logging.WARNING,
                 "the disk has %s MiB left%s",
                 free_mib,
-                "; nobody can begin" if level is SpaceLevel.REFUSE else "",
+                "; no session can begin" if level is SpaceLevel.REFUSE else "",
             )
             self._write(AuditEvent.DISK_SPACE_CHANGED, {"level": level.value, "free_mib": free_mib})
             self._shut(shut=level is SpaceLevel.REFUSE)

@@ -26,7 +26,7 @@ from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 SHORT_SHA = 8
 MS_PER_HOUR = 60 * MS_PER_MINUTE
 DRIFT_MS = 60_000
-"""So far may the wall's clock go from one that nobody can set, or stand before what was last written."""
+"""So far may the wall's clock go from one that cannot be set, or stand before what was last written."""
 
 MIB_PER_GIB = 1024
 
@@ -44,7 +44,7 @@ class HealthLine:
 class Clocks:
     """The wall's clock, in ms since 1970: now, when the program began, and when anything was last written before that.
 
-    ``run_ms`` is how long the program has run by a clock that nobody can set.
+    ``run_ms`` is how long the program has run by a clock that cannot be set.
     """
 
     now_ms: int
@@ -65,7 +65,7 @@ class Clocks:
 
 @dataclass(frozen=True)
 class HealthInputs:
-    """Everything that health is told from."""
+    """Everything that the health lines are made from."""
 
     robot: Health | None
     """None if there is none."""
@@ -209,7 +209,7 @@ Translate = Callable[..., str]
 
 
 def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, *, played: bool) -> Row:
-    """Every list of the panel that follows from the records; while somebody plays, none tells of a condition."""
+    """Every list of the panel that follows from the records; during a session, none tells of a condition."""
     translate = _discreet(catalogue.text) if played else catalogue.text
     visits = {why.value: number for why, number in seen.counts.visits.items()}
     cells = {} if played else seen.counts.cells
@@ -224,7 +224,7 @@ def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, *, played: bool)
 
 
 def _discreet(translate: Translate) -> Translate:
-    """The same words, but for the names of conditions: from those before, the one of now could be guessed."""
+    """Return the same words, but for the names of conditions: from those before, the one of now could be guessed."""
 
     def tell(message: str, **what: str | int) -> str:
         return translate("console-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
@@ -239,7 +239,7 @@ _OF_CONDITIONS = ("console-condition-", "console-automatic")
 
 
 def condition_name(condition: Condition | None, translate: Translate) -> str:
-    """What a condition is called in the panel; None is the list's."""
+    """Return what a condition is called in the panel; None is the list's."""
     if condition is None:
         return translate("console-automatic")
     if not condition.is_known:
@@ -302,7 +302,7 @@ def _more(number: int, translate: Translate) -> str:
 
 
 def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
-    """The one thing that a note is about, in words."""
+    """Return the one thing that a note is about, in words."""
     payload: dict[str, Any] = noted.payload
     match noted.kind:
         case AuditEvent.CONDITION_CHOSEN:
@@ -328,7 +328,7 @@ def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
 
 
 def _reason(reason: str, translate: Translate) -> str:
-    """A reason of the list in the panel's language, one in the experimenter's words as it is."""
+    """Return a reason of the list in the panel's language, one in the experimenter's words as it is."""
     for each in DeviationReason:
         if reason == each.value:
             return translate(f"console-reason-{each.name.lower()}")
@@ -336,7 +336,7 @@ def _reason(reason: str, translate: Translate) -> str:
 
 
 def _time(when: datetime) -> str:
-    """The time of day; with the day if that is another one."""
+    """Return the time of day; with the day if that is another one."""
     local = when.astimezone()
     return f"{local:%H:%M}" if local.date() == datetime.now().astimezone().date() else f"{local:%d.%m. %H:%M}"
 

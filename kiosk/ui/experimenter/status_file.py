@@ -23,7 +23,10 @@ _log = logging.getLogger(__name__)
 
 
 class StatusFile:
-    """Keeps status.json true as long as the kiosk runs; a disk that does not take it is no fault of a session."""
+    """Keeps status.json true as long as the kiosk runs.
+
+    A disk that does not take it is no fault of a session.
+    """
 
     def __init__(
         self,

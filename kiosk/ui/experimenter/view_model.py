@@ -18,7 +18,7 @@ class AuthorisationStep(Enum):
     NOTHING = ""
     PIN = "pin"
     WAIT = "wait"
-    """A wrong PIN came; nobody may try again yet."""
+    """A wrong PIN came; no other try is allowed yet."""
     REASON = "reason"
     WORDS = "words"
     """The reason is none of the list."""
@@ -58,12 +58,12 @@ class CardScreen(QObject):
 
     @Property(str, notify=changed)
     def step(self) -> str:
-        """What it asks for: pin, wait, reason, words; nothing while it is away."""
+        """Return what it asks for: pin, wait, reason, words; nothing while it is away."""
         return self._step.value
 
     @Property(str, notify=changed)
     def title(self) -> str:
-        """What is wanted, in a word."""
+        """Return what is wanted, in a word."""
         return self._title
 
     @Property(str, notify=changed)
@@ -73,28 +73,28 @@ class CardScreen(QObject):
 
     @Property(str, notify=changed)
     def text(self) -> str:
-        """What was typed: dots for digits."""
+        """Return what was typed: dots for digits."""
         return self._text
 
     @Property(list, notify=changed)
     def reasons(self) -> list[str]:
-        """The reasons to choose from, in the order of their digits."""
+        """Return the reasons to choose from, in the order of their digits."""
         return self._reasons
 
     @Slot(int)
     def choose(self, number: int) -> None:
-        """The reason of this number, from 1, was chosen with the pointer."""
+        """Choose the reason of this number, from 1, with the pointer."""
         self.typed.emit(str(number))
 
     @Slot()
     def cancel(self) -> None:
-        """The card was put away."""
+        """Put the card away."""
         self.cancelled.emit()
 
 
 @QmlElement
 class NoteScreen(QObject):
-    """A note at the screen's edge, for a moment: a few words, or which of so many was chosen, as dots."""
+    """A note at the screen's edge, for a moment: a few words, or a choice as dots."""
 
     changed = Signal()
 
@@ -119,7 +119,7 @@ class NoteScreen(QObject):
 
     @Property(str, notify=changed)
     def text(self) -> str:
-        """The words; empty for none."""
+        """Return the words; empty for none."""
         return self._text
 
     @Property(int, notify=changed)
@@ -196,7 +196,7 @@ class PanelScreen(QObject):
 
     @Property("QVariantMap", notify=opened)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def words(self) -> dict[str, str]:
-        """The fixed texts, by the names of their messages."""
+        """Return the fixed texts, by the names of their messages."""
         return self._words
 
     @Property("QVariantMap", notify=health_changed)  # type: ignore[arg-type]
@@ -206,17 +206,17 @@ class PanelScreen(QObject):
 
     @Property("QVariantMap", notify=records_changed)  # type: ignore[arg-type]
     def records(self) -> Row:
-        """What is stored."""
+        """Return what is stored."""
         return self._records
 
     @Property("QVariantMap", notify=choices_changed)  # type: ignore[arg-type]
     def choices(self) -> Row:
-        """What can be chosen."""
+        """Return what can be chosen."""
         return self._choices
 
     @Slot(str, str)
     def wish(self, action: str, choice: str) -> None:
-        """The experimenter wants this done."""
+        """Ask for an action with a choice."""
         self.wished.emit(action, choice)
 
 
@@ -250,20 +250,20 @@ class ExperimenterScreen(QObject):
 
     @Property(CardScreen, constant=True)
     def card(self) -> CardScreen:
-        """The card that asks."""
+        """Return the card that asks."""
         return self._card
 
     @Property(NoteScreen, constant=True)
     def note(self) -> NoteScreen:
-        """The note at the edge."""
+        """Return the note at the edge."""
         return self._note
 
     @Property(PanelScreen, constant=True)
     def panel(self) -> PanelScreen:
-        """The panel."""
+        """Return the panel."""
         return self._panel
 
     @Slot(str)
     def press(self, action: str) -> None:
-        """A shortcut was pressed."""
+        """Report a pressed shortcut."""
         self.pressed.emit(action)

@@ -1,1 +1,1 @@
-"""What is on the screens: one small object each, which shows what it is told and says what was done to it."""
+"""The view models of the screens: each shows what it is given and reports what was done."""

@@ -1,4 +1,4 @@
-"""What draws people in: a game that plays itself, a helper that watches it, and a way in for each language."""
+"""The attract screen: a game that plays itself, a helper, and a start for each language."""
 
 from __future__ import annotations
 
@@ -52,11 +52,11 @@ class AttractScreen(QObject):
 
     @property
     def resting(self) -> Catalogue:
-        """The language while nobody is there."""
+        """The language while no visitor is there."""
         return self._catalogues[self._first]
 
     def rest_in(self, language: str) -> None:
-        """Show this language first, from the next time on that nobody is there."""
+        """Show this language first, from the end of the next session on."""
         self._first = [catalogue.language for catalogue in self._catalogues].index(language)
 
     def deal(self, rng: Random) -> None:
@@ -81,7 +81,7 @@ class AttractScreen(QObject):
         self.changed.emit()
 
     def keep(self) -> None:
-        """The cards that are up are found."""
+        """Keep the cards that are up as found."""
         self._found = list(self._up)
         self.changed.emit()
 
@@ -107,11 +107,11 @@ class AttractScreen(QObject):
 
     @property
     def greetings(self) -> tuple[str, ...]:
-        """What may be shown to whoever passes, in the language of the moment."""
+        """What may be shown to people who pass, in the language of the moment."""
         return self._catalogues[self._language].wordings("attract-greeting")
 
     def clear(self) -> None:
-        """Begin anew in the first language, with a pair that is found: so much is to be seen where nothing moves."""
+        """Begin anew in the first language, with a found pair, so that a still screen shows one."""
         self._language = self._first
         self._cards = self._at_rest
         self._up = self._found = [1, 1 + len(self._at_rest) // 2] if len(self._at_rest) > 2 else []  # noqa: PLR2004 - one pair
@@ -125,7 +125,7 @@ class AttractScreen(QObject):
 
     @Property(list, notify=dealt)
     def layout(self) -> list[str]:
-        """The pictures in the order of the places on the board, as addresses."""
+        """Return the pictures in the order of the places on the board, as addresses."""
         return list(self._cards)
 
     @Property(list, notify=changed)
@@ -140,17 +140,17 @@ class AttractScreen(QObject):
 
     @Property(str, notify=changed)
     def title(self) -> str:
-        """The title, in the language of the moment."""
+        """Return the title, in the language of the moment."""
         return self._text("attract-title")
 
     @Property(str, notify=changed)
     def line(self) -> str:
-        """The line below it, in the same language."""
+        """Return the line below it, in the same language."""
         return self._text("attract-line")
 
     @Property(str, notify=changed)
     def trial(self) -> str:
-        """That this is a trial, and how it is left, in the same language; empty if it is none."""
+        """Return that this is a trial, and how it is left; empty if it is none."""
         if self._trial is None:
             return ""
         text = self._catalogues[self._language].text
@@ -158,7 +158,7 @@ class AttractScreen(QObject):
 
     @Property(list, constant=True)
     def ways(self) -> list[dict[str, str]]:
-        """The ways in, one for each language: its code, its name, and "start" in it."""
+        """Return the ways in, one for each language: its code, its name, and "start" in it."""
         return [
             {
                 "language": catalogue.language,
@@ -170,7 +170,7 @@ class AttractScreen(QObject):
 
     @Slot(str)
     def start(self, language: str) -> None:
-        """A visitor begins, in this language."""
+        """Begin for a visitor, in this language."""
         self.started.emit(language)
 
     def _text(self, message: str) -> str:
@@ -178,9 +178,9 @@ class AttractScreen(QObject):
 
 
 REST_MS = (700, 1_600)
-"""Between two acts while nobody plays."""
+"""Between two acts without a session."""
 PLAYING_PAUSE_MS = (2_500, 6_000)
-"""The same while somebody does."""
+"""The same during a session."""
 BLINK_MS = 120
 GLANCE_MS = 900
 GLANCE_FAR = 0.3
@@ -200,7 +200,7 @@ Waits = Iterator[int]
 
 
 class IdleLife:
-    """Keeps the screen alive: plays a game while nobody is there, and blinks while somebody is."""
+    """Keeps the screen alive: plays a game while no visitor is there, and blinks while one is."""
 
     def __init__(
         self, kiosk: KioskScreen, avatar: AvatarScreen, attract: AttractScreen, clock: Clock, rng: Random
@@ -229,7 +229,7 @@ class IdleLife:
         self._clock.after(next(self._acts), self._step)
 
     def _mind_visitor(self) -> None:
-        """Somebody has come, or has gone: what was shown to the others goes, and what comes begins anew."""
+        """Begin anew when a visitor has come or gone; what was shown to the others goes."""
         if self._alone == self._nobody_plays:
             return
         self._alone = self._nobody_plays
@@ -305,7 +305,7 @@ class IdleLife:
         yield BLINK_MS
 
     def _greet(self) -> Waits:
-        """Show a word to whoever passes, which is never said; it stays until the language changes."""
+        """Show a word to people who pass, which is never said; it stays until the language changes."""
         self._greeting = self._rng.choice(self._attract.greetings)
         self._avatar.say(self._greeting)
         yield LOOK_MS

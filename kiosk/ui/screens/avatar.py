@@ -52,7 +52,7 @@ class AvatarScreen(QObject):
         self.changed.emit()
 
     def feel(self, mood: Mood | None) -> None:
-        """Let its face follow the game, for as long as the session shows no mood of its own; None: calm again."""
+        """Let its face follow the game while the session shows no mood; None: calm again."""
         if mood is not self._feeling:
             self._feeling = mood
             self.changed.emit()
@@ -83,7 +83,7 @@ class AvatarScreen(QObject):
         self.changed.emit()
 
     def clear(self) -> None:
-        """Say nothing, and look calmly at whoever comes."""
+        """Say nothing, and look calmly at the next visitor."""
         self._bubble = ""
         self._mood = Mood.IDLE
         self._ponders = self._away = False
@@ -125,7 +125,7 @@ class AvatarScreen(QObject):
 
     @Property(str, notify=changed)
     def mood(self) -> str:
-        """The name of the mood."""
+        """Return the name of the mood."""
         mood = self._mood
         if mood is Mood.IDLE:
             mood = Mood.THINKING if self._ponders else self._feeling or Mood.IDLE
@@ -143,7 +143,7 @@ class AvatarScreen(QObject):
 
     @Property(str, notify=changed)
     def bubble(self) -> str:
-        """The sentence in the bubble; empty for no bubble."""
+        """Return the sentence in the bubble; empty for no bubble."""
         return self._bubble
 
     @Property(float, notify=changed)
@@ -168,7 +168,7 @@ class AvatarScreen(QObject):
 
     @Property(str, notify=spoke)
     def mouthShape(self) -> str:  # noqa: N802 - QML's convention
-        """The shape of the sound that is spoken; empty where only its loudness is known."""
+        """Return the shape of the sound that is spoken; empty where only its loudness is known."""
         return self._mouth_shape
 
 

@@ -46,7 +46,10 @@ class Role(IntEnum):
 
 @dataclass
 class _Face:
-    """What one card shows; its picture stays known after it is turned back, for as long as it takes to turn."""
+    """What one card shows.
+
+    Its picture stays known after it is turned back, for as long as it takes to turn.
+    """
 
     card: str = ""
     up: bool = False
@@ -192,7 +195,7 @@ class BoardScreen(QAbstractListModel):
         return BoardPoint(across, down)
 
     def location(self, position: Position) -> int:
-        """The number of a card, row by row from 0."""
+        """Return the number of a card, row by row from 0."""
         return position.row * self._columns + position.column
 
     def _position(self, location: int) -> Position:
@@ -206,7 +209,7 @@ class BoardScreen(QAbstractListModel):
         self.dataChanged.emit(index, index)
 
     def roleNames(self) -> dict[int, QByteArray]:  # noqa: N802 - Qt's name
-        """The names under which QML asks."""
+        """Return the names under which QML asks."""
         return {role: QByteArray(role.name.lower().encode()) for role in Role}
 
     def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: ARG002, B008, N802 - Qt's signature
@@ -228,7 +231,7 @@ class BoardScreen(QAbstractListModel):
         return None
 
     def _picture(self, card: str) -> str:
-        """The address of a card's picture."""
+        """Return the address of a card's picture."""
         return QUrl.fromLocalFile(str(self._pictures / f"{card}.svg")).toString()
 
     def _label(self, location: int, face: _Face) -> str:
@@ -255,7 +258,7 @@ class BoardScreen(QAbstractListModel):
 
     @Property(list, notify=changed)
     def tray(self) -> list[str]:
-        """The pictures of the pairs that are found, as addresses, in the order in which they were found."""
+        """Return the pictures of the pairs that are found, as addresses, in the order in which they were found."""
         return list(self._tray)
 
     @Property(list, notify=dealt)
@@ -300,20 +303,20 @@ class BoardScreen(QAbstractListModel):
 
     @Property(int, notify=changed)
     def markRow(self) -> int:  # noqa: N802 - QML's convention
-        """The marked row, or that of the marked card, from 0; -1 for none."""
+        """Return the marked row, or that of the marked card, from 0; -1 for none."""
         return self._mark_row
 
     @Property(int, notify=changed)
     def markColumn(self) -> int:  # noqa: N802 - QML's convention
-        """The marked column, or that of the marked card, from 0; -1 for none."""
+        """Return the marked column, or that of the marked card, from 0; -1 for none."""
         return self._mark_column
 
     @Slot(int)
     def tap(self, location: int) -> None:
-        """The visitor taps a card."""
+        """Report a tapped card."""
         self.tapped.emit(self._position(location))
 
     @Slot()
     def skip(self) -> None:
-        """The visitor leaves the practice."""
+        """Leave the practice."""
         self.skipped.emit()

@@ -71,28 +71,28 @@ class ConsentScreen(QObject):
 
     @Property(str, notify=changed)
     def title(self) -> str:
-        """The title."""
+        """Return the title."""
         return "" if self._page is None else self._page.title
 
     @Property(list, notify=changed)
     def paragraphs(self) -> list[str]:
-        """The paragraphs, in their order."""
+        """Return the paragraphs, in their order."""
         return [] if self._page is None else list(self._page.paragraphs)
 
     @Property(list, notify=changed)
     def purposes(self) -> list[dict[str, Any]]:
-        """The purposes, in their order: name, text, and whether each is required."""
+        """Return the purposes, in their order: name, text, and whether each is required."""
         shown = () if self._page is None else self._page.purposes
         return [{"id": purpose.id, "text": purpose.text, "required": purpose.required} for purpose in shown]
 
     @Property(list, notify=marked)
     def ticks(self) -> list[str]:
-        """The purposes that are ticked."""
+        """Return the purposes that are ticked."""
         return sorted(self._ticks)
 
     @Property(list, notify=marked)
     def missing(self) -> list[str]:
-        """The purposes whose ticks are missed."""
+        """Return the purposes whose ticks are missed."""
         return list(self._missing)
 
     @Property(bool, notify=marked)
@@ -102,17 +102,17 @@ class ConsentScreen(QObject):
 
     @Slot(str, bool)
     def tick(self, purpose: str, ticked: bool) -> None:  # noqa: FBT001 - QML gives no names
-        """The visitor sets a tick, or takes it away."""
+        """Set a tick, or take it away."""
         self.ticked.emit(purpose, ticked)
 
     @Slot()
     def agree(self) -> None:
-        """The visitor agrees to what is ticked."""
+        """Agree to what is ticked."""
         self.agreed.emit()
 
     @Slot()
     def decline(self) -> None:
-        """The visitor plays without taking part."""
+        """Play without taking part."""
         self.declined.emit()
 
 
@@ -146,10 +146,10 @@ class AgeScreen(QObject):
 
     @Property(str, notify=changed)
     def question(self) -> str:
-        """The question."""
+        """Return the question."""
         return self._catalogue.text("age-question", adult=self._adult) if self._adult else ""
 
     @Slot(bool)
     def answer(self, adult: bool) -> None:  # noqa: FBT001 - QML gives no names
-        """The visitor answers."""
+        """Answer."""
         self.answered.emit(adult)

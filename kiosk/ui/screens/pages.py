@@ -32,7 +32,7 @@ class ReadingScreen(QObject):
 
     @Slot()
     def proceed(self) -> None:
-        """The visitor goes on."""
+        """Go on to the next page."""
         self.continued.emit()
 
 
@@ -58,12 +58,12 @@ class PageScreen(ReadingScreen):
 
     @Property(str, notify=changed)
     def title(self) -> str:
-        """The title."""
+        """Return the title."""
         return "" if self._page is None else self._page.title
 
     @Property(list, notify=changed)
     def paragraphs(self) -> list[str]:
-        """The paragraphs, in their order."""
+        """Return the paragraphs, in their order."""
         return [] if self._page is None else list(self._page.paragraphs)
 
 
@@ -135,7 +135,7 @@ class ResultScreen(ReadingScreen):
 
     @Property(list, notify=changed)
     def pictures(self) -> list[str]:
-        """The pictures of the pairs that were found, as addresses."""
+        """Return the pictures of the pairs that were found, as addresses."""
         return self._pictures
 
     @Property(str, notify=changed)
@@ -195,7 +195,7 @@ class DebriefScreen(PageScreen):
 
     @property
     def payload(self) -> str:
-        """What stands in the QR code: a letter that needs only to be sent, or else what to write in one."""
+        """The content of the QR code: a letter to be sent, or else what to write in one."""
         if not self._code:
             return ""
         subject = self._catalogue.text("debrief-subject", code=self._code)
@@ -205,17 +205,17 @@ class DebriefScreen(PageScreen):
 
     @Property(str, notify=given)
     def summary(self) -> str:
-        """What the study was about."""
+        """Return what the study was about."""
         return self._summary
 
     @Property(str, notify=given)
     def code(self) -> str:
-        """The code; empty if there is none."""
+        """Return the code; empty if there is none."""
         return self._code
 
     @Property(str, notify=given)
     def withdrawing(self) -> str:
-        """What the code is for, in words."""
+        """Return what the code is for, in words."""
         if not self._code:
             return ""
         if not self._contact:
@@ -224,7 +224,7 @@ class DebriefScreen(PageScreen):
 
     @Property(str, notify=given)
     def picture(self) -> str:
-        """The QR code as a data address, one pixel for each of its squares, with its white frame."""
+        """Return the QR code as a data address, one pixel for each of its squares, with its white frame."""
         if not self._code:
             return ""
         return str(segno.make(self.payload, micro=False).png_data_uri(scale=1, border=QUIET_MODULES))
@@ -242,4 +242,4 @@ class ThanksScreen(ReadingScreen):
     """The end."""
 
     def clear(self) -> None:
-        """It is the same for everybody."""
+        """Do nothing: it is the same for every visitor."""

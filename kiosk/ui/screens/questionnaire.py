@@ -28,7 +28,7 @@ from kiosk.ui.input import before, fitting
 
 
 def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) -> dict[str, Any]:
-    """An item as QML shows it; ``scale`` tells where the pictures of a scale are."""
+    """Return an item as QML shows it; ``scale`` tells where the pictures of a scale are."""
     shown: dict[str, Any] = {"id": item.id, "kind": item.kind, "text": in_language(item.text, catalogue.language)}
     shown["required"] = not isinstance(item, TextPage) and item.required is True
     shown |= item.view(catalogue.language) | {
@@ -51,7 +51,7 @@ QML_IMPORT_MAJOR_VERSION = 1
 
 
 KEYSTROKES = 5
-"""After so many letters it is told again that somebody types: nobody who does is asked whether they are there."""
+"""After so many letters typing is reported again, so that visitors who type are not asked if they are there."""
 
 
 @QmlElement
@@ -69,7 +69,7 @@ class FormScreen(QObject):
     answered = Signal(str, object)
     """The visitor answered an item; None takes the answer back."""
     typed = Signal()
-    """The visitor is typing; told every few letters."""
+    """The visitor is typing; sent every few letters."""
     filled = Signal(str, str)
     """A field is to show this text: its answer came without anybody typing here, as in a replay."""
     continued = Signal()
@@ -142,7 +142,7 @@ class FormScreen(QObject):
 
     @Property(list, notify=changed)
     def items(self) -> list[dict[str, Any]]:
-        """What is shown of the items, in their order."""
+        """Return what is shown of the items, in their order."""
         return [item_view(item, self._catalogue, self._scale) for item in self._items]
 
     @Property(str, notify=changed)
@@ -154,33 +154,33 @@ class FormScreen(QObject):
 
     @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def answers(self) -> dict[str, Any]:
-        """The chosen answers, by their items."""
+        """Return the chosen answers, by their items."""
         return {item: list(value) if isinstance(value, tuple) else value for item, value in self._answers.items()}
 
     @Property(list, notify=marked)
     def missing(self) -> list[str]:
-        """The items that have to be answered first, or have an answer that cannot be."""
+        """Return the items that have to be answered first, or have an answer that cannot be."""
         return list(self._missing)
 
     @Property(list, notify=marked)
     def wrong(self) -> list[str]:
-        """The fields in which something stands that cannot be an answer, and was left or sent."""
+        """Return the fields in which something stands that cannot be an answer, and was left or sent."""
         return [item for item in self._missing if item in self._drafts and self._is_wrong(item)]
 
     @Property("QVariantMap", notify=changed)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def keys(self) -> dict[str, list[str]]:
-        """The rows of the keys on the screen: letters, accents and signs."""
+        """Return the rows of the keys on the screen: letters, accents and signs."""
         rows = self._catalogue.key_rows
         return {"letters": list(rows.letters), "accents": list(rows.accents), "signs": list(rows.signs)}
 
     @Slot(str, result=str)
     def capital(self, letter: str) -> str:
-        """The letter as a key types it in capitals."""
+        """Return the letter as a key types it in capitals."""
         return capital(letter, self._catalogue.language)
 
     @Property(list, notify=marked)
     def refused(self) -> list[str]:
-        """The fields in which a character stands that cannot be kept."""
+        """Return the fields in which a character stands that cannot be kept."""
         return [item for item, text in self._drafts.items() if not can_be_kept(text)]
 
     @Property(bool, notify=marked)
@@ -191,17 +191,17 @@ class FormScreen(QObject):
 
     @Slot(str, int)
     def rate(self, item: str, value: int) -> None:
-        """The visitor chooses a point of a scale."""
+        """Choose a point of a scale."""
         self._answer(item, value)
 
     @Slot(str, str)
     def choose(self, item: str, option: str) -> None:
-        """The visitor chooses one of several options."""
+        """Choose one of several options."""
         self._answer(item, option)
 
     @Slot(str, str)
     def toggle(self, item: str, option: str) -> None:
-        """The visitor adds one of several options, or takes it away."""
+        """Add one of several options, or take it away."""
         before = self._given.get(item, ())
         chosen = before if isinstance(before, tuple) else ()
         after = set(chosen) ^ {option}
@@ -225,7 +225,7 @@ class FormScreen(QObject):
 
     @Slot(str, str)
     def draft(self, item: str, text: str) -> None:
-        """The visitor is typing; this is what stands there now."""
+        """Take the text that the visitor has typed so far."""
         self._drafts[item] = text
         self.marked.emit()
         self._keystrokes += 1
@@ -234,13 +234,13 @@ class FormScreen(QObject):
 
     @Slot(str, str, int, result=str)
     def step(self, item: str, text: str, by: int) -> str:
-        """What stands in a number's field after one step up or down from this text."""
+        """Return what stands in a number's field after one step up or down from this text."""
         asked = self._item(item)
         return str(asked.input.step(text, by)) if isinstance(asked, Integer) else text
 
     @Slot(str, str, result=str)
     def negate(self, item: str, text: str) -> str:
-        """What stands in a number's field once its minus sign came, or went."""
+        """Return what stands in a number's field once its minus sign came, or went."""
         asked = self._item(item)
         return asked.input.negate(text) if isinstance(asked, Integer) else text
 
@@ -251,12 +251,12 @@ class FormScreen(QObject):
 
     @Slot(str, int, int, result=int)
     def fitting(self, text: str, place: int, longest: int) -> int:
-        """Where the part before a place has to end for a text to be no longer than a number of characters."""
+        """Return where the part before a place has to end for a text of limited length."""
         return fitting(text, place, longest)
 
     @Slot(str)
     def finish(self, item: str) -> None:
-        """The visitor has done with typing, for now."""
+        """End typing, for now."""
         if item not in self._drafts:
             return
         if self._is_wrong(item):
@@ -269,7 +269,7 @@ class FormScreen(QObject):
 
     @Slot()
     def proceed(self) -> None:
-        """The visitor goes on; what is typed is answered first, and what cannot be an answer has to be mended."""
+        """Go on; what is typed is answered first, and what cannot be an answer has to be mended."""
         self.finish_typing()
         wrong = tuple(item for item in self._drafts if self._is_wrong(item))
         if wrong:
@@ -287,7 +287,7 @@ class FormScreen(QObject):
         self.answered.emit(item, value)
 
     def _typed(self, name: str) -> Answer | None:
-        """What stands in a field, as an answer, spaces and all.
+        """Return what stands in a field, as an answer, spaces and all.
 
         None for blanks alone, which say nothing, and for what is no number where one is asked for.
         """

@@ -60,7 +60,7 @@ class ScreenSet:
 
     @classmethod
     def of(cls, study: StudyConfig, owner: QObject) -> ScreenSet:
-        """The screens of a study, all of them empty; they live as long as ``owner``."""
+        """Return the screens of a study, all of them empty; they live as long as ``owner``."""
         catalogues = [plan.catalogue for plan in study.plans]
         first, resolve = catalogues[0], study.settings.resolve_asset
         avatar = AvatarScreen(owner)
@@ -83,7 +83,7 @@ class ScreenSet:
 
     @property
     def resting(self) -> Catalogue:
-        """The language while nobody is there."""
+        """The language while no visitor is there."""
         return self.attract.resting
 
     @property
@@ -154,6 +154,6 @@ class ScreenSet:
 
 
 def _pictures(study: StudyConfig, folder_of: Callable[[str], Path]) -> list[str]:
-    """The addresses of the pictures of the game's deck."""
+    """Return the addresses of the pictures of the game's deck."""
     folder = folder_of(study.settings.game.deck)
     return [QUrl.fromLocalFile(str(folder / f"{card}.svg")).toString() for card in study.plans[0].deck]

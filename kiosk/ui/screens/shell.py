@@ -59,7 +59,7 @@ class KioskScreen(QObject):
         self._asks: str = ""
 
     def begin(self, languages: Sequence[str], language: str, consent: ConsentConfig) -> None:
-        """A visitor is there, who can go on in one of these languages, or stop."""
+        """Show that a visitor can go on in one of these languages, or stop."""
         self._languages, self._language, self._consent = tuple(languages), language, consent
         self.controls.emit()
 
@@ -99,7 +99,7 @@ class KioskScreen(QObject):
         self._start_input_guard()
 
     def end_input_guard(self) -> None:
-        """Take input: whoever clicked twice on the last screen has let go by now."""
+        """Take input: a double click on the last screen is over by now."""
         self._takes_input = True
         self.changed.emit()
 
@@ -159,12 +159,12 @@ class KioskScreen(QObject):
 
     @Property("QVariantMap", notify=spoken)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def words(self) -> dict[str, str]:
-        """The fixed texts, by the names of their messages."""
+        """Return the fixed texts, by the names of their messages."""
         return self._words
 
     @Property(str, notify=changed)
     def screen(self) -> str:
-        """The name of the screen that is shown."""
+        """Return the name of the screen that is shown."""
         return self._screen
 
     @Property(bool, notify=changed)
@@ -204,7 +204,7 @@ class KioskScreen(QObject):
 
     @Slot()
     def confirm(self) -> None:
-        """The visitor is still there."""
+        """Report that the visitor is still there."""
         self.confirmed.emit()
 
     # The corner
@@ -221,7 +221,7 @@ class KioskScreen(QObject):
 
     @Property(str, notify=controls)
     def asks(self) -> str:
-        """What the corner asks over the screen: ``stop``, ``language``, or nothing."""
+        """Return what the corner asks over the screen: ``stop``, ``language``, or nothing."""
         return self._asks
 
     @Property(float, notify=controls)
@@ -231,7 +231,7 @@ class KioskScreen(QObject):
 
     @Property(int, notify=controls)
     def textStep(self) -> int:  # noqa: N802 - QML's convention
-        """The step of the text size, from 0."""
+        """Return the step of the text size, from 0."""
         return list(TextSize).index(self._text_size)
 
     @Property(bool, notify=controls)
@@ -241,17 +241,17 @@ class KioskScreen(QObject):
 
     @Property(str, notify=controls)
     def language(self) -> str:
-        """The code of the language that is shown."""
+        """Return the code of the language that is shown."""
         return self._language
 
     @Property(list, notify=controls)
     def languages(self) -> list[str]:
-        """The codes of the languages to choose from; fewer than two are no choice."""
+        """Return the codes of the languages to choose from; fewer than two are no choice."""
         return list(self._languages)
 
     @Property(str, notify=controls)
     def stopLine(self) -> str:  # noqa: N802 - QML's convention
-        """What becomes of what is recorded if the visitor stops now."""
+        """Return what becomes of what is recorded if the visitor stops now."""
         if self._consent is None or not self._code:
             return self._catalogue.text("stop-line-nothing")
         if self._consent.on_withdrawal == "delete":
@@ -267,36 +267,36 @@ class KioskScreen(QObject):
 
     @Slot()
     def stop(self) -> None:
-        """The visitor stops, and was asked."""
+        """Stop, after the visitor was asked."""
         self.ask("")
         self.stopped.emit()
 
     @Slot()
     def goBack(self) -> None:  # noqa: N802 - QML's convention
-        """The visitor goes back to the page before."""
+        """Go back to the page before."""
         self.went_back.emit()
 
     @Slot()
     def sayAgain(self) -> None:  # noqa: N802 - QML's convention
-        """The visitor wants to hear the last sentence again."""
+        """Say the last sentence again."""
         self.asked_again.emit()
 
     @Slot(str)
     def selectLanguage(self, language: str) -> None:  # noqa: N802 - QML's convention
-        """The visitor goes on in this language."""
+        """Go on in this language."""
         self.ask("")
         if language != self._language:
             self.language_selected.emit(language)
 
     @Slot()
     def changeTextSize(self) -> None:  # noqa: N802 - QML's convention
-        """The visitor wants the next size of texts; after the largest comes the usual one."""
+        """Show the next size of texts; after the largest comes the usual one."""
         sizes = list(TextSize)
         self.text_size_selected.emit(sizes[(sizes.index(self._text_size) + 1) % len(sizes)].value)
 
     @Slot()
     def changeSound(self) -> None:  # noqa: N802 - QML's convention
-        """The visitor wants silence, or sound again."""
+        """Turn sound off, or on again."""
         self.sound_selected.emit(not self._sound)
 
     def _start_input_guard(self) -> None:

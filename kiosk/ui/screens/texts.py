@@ -75,5 +75,5 @@ FIXED = (
 
 
 def fixed_texts(catalogue: Catalogue) -> dict[str, str]:
-    """The fixed texts, by the names of their messages."""
+    """Return the fixed texts, by the names of their messages."""
     return {message: catalogue.text(message) for message in FIXED}

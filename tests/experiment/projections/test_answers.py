@@ -33,17 +33,17 @@ TWO = questionnaire("two", likert("a"))
 
 
 def entered(at_ms: int, stage: Stage = Stage.QUESTIONS) -> Event:
-    """Return a stage begins."""
+    """Begin a stage."""
     return happened.StageEntered(at_ms=at_ms, stage=stage)
 
 
 def shown(at_ms: int, *items: str, of: str = "one") -> Event:
-    """Return a page comes."""
+    """Show a page."""
     return happened.QuestionnairePageShown(at_ms=at_ms, questionnaire=of, items=items)
 
 
 def said(at_ms: int, item: str, value: Answer | None) -> Event:
-    """Return an item is answered."""
+    """Answer an item."""
     return happened.ResponseGiven(at_ms=at_ms, item=item, value=value)
 
 
@@ -121,7 +121,7 @@ def test_other_questionnaires_do_not_matter() -> None:
 
 
 def resumed(at_ms: int) -> list[Event]:
-    """Return the stage begins anew after a cut."""
+    """Begin the stage anew after a cut."""
     return [happened.SessionResumed(at_ms=at_ms, embodiment=EmbodimentName.AVATAR), entered(at_ms)]
 
 

@@ -50,17 +50,17 @@ def hint(
 
 
 def opened(at_ms: int) -> Event:
-    """Return the board opens again."""
+    """Open the board again."""
     return happened.BoardUnlocked(at_ms=at_ms)
 
 
 def entered(stage: Stage, at_ms: int = 0) -> Event:
-    """Return the session goes on to a stage."""
+    """Go on to a stage."""
     return happened.StageEntered(at_ms=at_ms, stage=stage)
 
 
 def paused(since: int, until: int) -> list[Event]:
-    """Return the experimenter stops the session from then to then."""
+    """Stop the session from then to then, as the experimenter."""
     return [happened.PauseRequested(at_ms=since), happened.PauseEnded(at_ms=until)]
 
 

@@ -23,27 +23,27 @@ ROBOT, AVATAR = EmbodimentName.robot("furhat"), EmbodimentName.AVATAR
 
 
 def asked(number: int, at_ms: int = 0) -> happened.Event:
-    """Return a sentence is to be said."""
+    """Ask for a sentence."""
     return happened.SentenceRequested(at_ms=at_ms, utterance=number, sentence="x")
 
 
 def started(number: int, at_ms: int = 0) -> happened.SpeechStarted:
-    """Return a body began to say a sentence."""
+    """Begin to say a sentence."""
     return happened.SpeechStarted(at_ms=at_ms, utterance=number)
 
 
 def finished(number: int, at_ms: int = 0) -> happened.Event:
-    """Return a sentence was said to its end."""
+    """Finish a sentence."""
     return happened.SpeechFinished(at_ms=at_ms, utterance=number)
 
 
 def failed(number: int, at_ms: int = 0) -> happened.Event:
-    """Return a body failed to say a sentence."""
+    """Fail to say a sentence."""
     return happened.SpeechFailed(at_ms=at_ms, utterance=number, why="x")
 
 
 def lost(at_ms: int = 0) -> list[happened.Event]:
-    """Return the robot is lost, and the avatar helps from then on."""
+    """Lose the robot, and let the avatar help from then on."""
     return [
         happened.RobotDisconnected(at_ms=at_ms, why="x"),
         happened.EmbodimentChanged(at_ms=at_ms, embodiment=AVATAR, why="x"),

@@ -200,7 +200,7 @@ def test_little_room_is_told_once_and_no_room_lets_nobody_begin_until_there_is_s
     place.room = NONE
     place.wait(1)
     assert place.shut[-1]
-    assert "the disk has 10 MiB left; nobody can begin" in caplog.text
+    assert "the disk has 10 MiB left; no session can begin" in caplog.text
     place.room = PLENTY
     place.wait(1)
     assert not place.shut[-1]

@@ -64,7 +64,7 @@ class Writing:
             self.clock.jump()
 
     def read(self) -> BoothStatus:
-        """The file as it is now."""
+        """Return the file as it is now."""
         return BoothStatus.from_json(self.file.read_text("utf-8"))
 
 

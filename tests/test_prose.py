@@ -1,0 +1,70 @@
+"""Docstrings and pages are written in short, plain sentences."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+CODE = [*sorted((ROOT / "kiosk").rglob("*.py")), *sorted((ROOT / "packaging").rglob("*.py"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "packaging").rglob("*.md"))]
+
+AVOIDED = re.compile(r"\b(whoever|whosever|nobody|somebody|lies\s+with|is\s+told|be\s+it|shall)\b", re.IGNORECASE)
+FIRST_LINE_WORDS = 20
+SENTENCE_WORDS = 40
+
+
+def avoided_words(text: str) -> list[str]:
+    """Find avoided words, each with its line."""
+    return [f"line {text.count(chr(10), 0, found.start()) + 1}: {found[0]}" for found in AVOIDED.finditer(text)]
+
+
+def long_first_lines(source: str) -> list[str]:
+    """Find the docstrings, of private things too, that begin with too long a line."""
+    kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    docs = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, kinds)]
+    first_lines = [doc.partition("\n")[0] for doc in docs]
+    return [line for line in first_lines if len(line.split()) > FIRST_LINE_WORDS]
+
+
+def long_sentences(page: str) -> list[str]:
+    """Find long sentences in the running text of a page: not in code, tables, headings or generated parts."""
+    text = re.sub(r"<!-- (\w+) -->.*?<!-- /\1 -->|^ *```.*?^ *```", "\n", page, flags=re.M | re.S)
+    text = re.sub(r"^(\||#|    ).*$", "\n", re.sub(r"\]\([^)]*\)", "]", text), flags=re.M)
+    paragraphs = re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text)
+    sentences = [each for paragraph in paragraphs for each in re.split(r"(?<=[.!?])[*)\"_]*\s", paragraph)]
+    return [" ".join(each.split()) for each in sentences if len(each.split()) > SENTENCE_WORDS]
+
+
+def test_the_code_and_its_messages_use_plain_words() -> None:
+    found = {path.relative_to(ROOT).as_posix(): avoided_words(path.read_text("utf-8")) for path in CODE}
+    assert {path: words for path, words in found.items() if words} == {}
+
+
+def test_the_docstrings_begin_with_a_short_line() -> None:
+    found = {path.relative_to(ROOT).as_posix(): long_first_lines(path.read_text("utf-8")) for path in CODE}
+    assert {path: lines for path, lines in found.items() if lines} == {}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_a_page_has_plain_words_and_short_sentences(page: Path) -> None:
+    text = page.read_text("utf-8")
+    assert avoided_words(text) == []
+    assert long_sentences(text) == []
+
+
+def test_avoided_words_are_found() -> None:
+    assert avoided_words("Ask whoever is there.\nIt is\ntold. The nobody_set is a name.") == [
+        "line 1: whoever",
+        "line 2: is\ntold",
+    ]
+
+
+def test_long_lines_and_sentences_are_found() -> None:
+    words = "word " * FIRST_LINE_WORDS
+    assert long_first_lines(f'def short():\n    """{words.strip()}."""\n') == []
+    assert long_first_lines(f'class Long:\n    """{words}and."""\n') == [f"{words}and."]
+    assert long_sentences(f"A page. {words * 2}and more.\n\n| {words * 3} |\n") == [f"{words * 2}and more."]
