@@ -10,6 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 CODE = [*sorted((ROOT / "kiosk").rglob("*.py")), *sorted((ROOT / "packaging").rglob("*.py"))]
+SCREENS = sorted((ROOT / "kiosk").rglob("*.qml"))
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "packaging").rglob("*.md"))]
 
 AVOIDED = re.compile(r"\b(whoever|whosever|nobody|somebody|lies\s+with|is\s+told|be\s+it|shall)\b", re.IGNORECASE)
@@ -40,7 +41,7 @@ def long_sentences(page: str) -> list[str]:
 
 
 def test_the_code_and_its_messages_use_plain_words() -> None:
-    found = {path.relative_to(ROOT).as_posix(): avoided_words(path.read_text("utf-8")) for path in CODE}
+    found = {path.relative_to(ROOT).as_posix(): avoided_words(path.read_text("utf-8")) for path in [*CODE, *SCREENS]}
     assert {path: words for path, words in found.items() if words} == {}
 
 

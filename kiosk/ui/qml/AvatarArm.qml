@@ -1,4 +1,4 @@
-// One arm, from the shoulder to a hand that can point. Law: it only reaches where it is told; at rest it is out of sight.
+// One arm, from the shoulder to a hand that can point. Law: it only reaches where it is sent; at rest it is out of sight.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes

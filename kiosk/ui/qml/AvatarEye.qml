@@ -1,4 +1,4 @@
-// One eye. Law: the eye only shows what it is told (lids, gaze); it never moves by itself.
+// One eye. Law: the eye only shows what it is given (lids, gaze); it never moves by itself.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes

@@ -1,4 +1,4 @@
-// A button that nobody misses: large, and the same by mouse, touch and keyboard.
+// A button that is hard to miss: large, and the same by mouse, touch and keyboard.
 import QtQuick
 import QtQuick.Controls.Basic
 import "."

@@ -231,7 +231,7 @@ FocusScope {
             readonly property bool marked: (view.board.markRow === row || view.board.markRow < 0)
                                            && (view.board.markColumn === column || view.board.markColumn < 0)
                                            && view.board.markRow + view.board.markColumn > -2
-            // A tap would change nothing: two cards are open, somebody speaks, or this one is up.
+            // A tap would change nothing: two cards are open, a sentence is said, or this one is up.
             readonly property bool refuses: !view.board.open || up
             readonly property bool missed: up && !found && view.board.missed
             // How far a found card has come forward, and how far it has come to rest for good.
@@ -337,7 +337,7 @@ FocusScope {
             TapHandler {
                 id: tap
                 gesturePolicy: TapHandler.ReleaseWithinBounds
-                // However long somebody presses, it is a tap: in seconds, longer than any visitor has.
+                // However long the press, it is a tap: in seconds, longer than any visitor has.
                 longPressThreshold: 3600
                 onPressedChanged: if (pressed) place.answer()
                 onTapped: view.board.tap(place.index)

@@ -8,7 +8,7 @@ Item {
 
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
-    property string speaker: ""         // whose words they are; empty where nobody has a name
+    property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit

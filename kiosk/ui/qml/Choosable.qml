@@ -1,4 +1,4 @@
-// A button with a state: ticked or not, chosen or not. It shows and tells the state that it is told, not what a click
+// A button with a state: ticked or not, chosen or not. It shows and tells the state that it is given, not what a click
 // would make of it; a double click is one click.
 import QtQuick
 import QtQuick.Controls.Basic

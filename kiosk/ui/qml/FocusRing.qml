@@ -1,5 +1,5 @@
 // The keyboard's place: a ring outside of a control, which no colour of the control can hide. It is there for as long as
-// somebody works by keyboard, on a screen that has only just come too.
+// a person works by keyboard, on a screen that has only just come too.
 import QtQuick
 import QtQuick.Templates as T
 import "."

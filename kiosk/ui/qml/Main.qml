@@ -68,7 +68,7 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
-        // A form that nobody looks on at stands in the middle.
+        // A form without an onlooker stands in the middle.
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
         height: root.wide ? root.room - root.said : root.room * 0.64
@@ -255,7 +255,7 @@ Window {
         anchors.fill: parent
         experimenter: root.experimenter
     }
-    // Whoever points at something does not work by keyboard. It lies over everything to know, and takes nothing.
+    // A person who points at something does not work by keyboard. It lies over everything to know, and takes nothing.
     Item {
         anchors.fill: parent
         PointHandler { onActiveChanged: if (active) Theme.byKeyboard = false }

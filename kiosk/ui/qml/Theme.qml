@@ -6,7 +6,7 @@ QtObject {
     // Set by the window, as all that is not readonly: pixels of one unit of a 1080-line screen, and the factor for texts.
     property real unit: 1
     property real textSize: 1
-    // Whether whoever is there works by keyboard: what has it then shows so, on a screen that only just came too.
+    // Whether the person who is there works by keyboard: what has the focus then shows so, on a screen that only just came too.
     property bool byKeyboard: false
     // When the keys on the screen come: "touch", "always" or "never".
     property string screenKeys: "touch"

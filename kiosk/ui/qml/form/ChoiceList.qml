@@ -1,4 +1,4 @@
-// Options to choose one or several from. It shows the choice that it is told.
+// Options to choose one or several from. It shows the choice that it is given.
 pragma ComponentBehavior: Bound
 import QtQuick
 import ".."

@@ -14,7 +14,7 @@ TextField {
     property bool digits: false
     property bool minus: false          // whether a number may be negative
     property int longest: 32767         // in characters; some take two places of Qt's own count
-    // By touch, or by mouse where the study says so: whoever comes by keyboard has one.
+    // By touch, or by mouse where the study says so: a person who comes by keyboard has one.
     signal pointed()
     // The minus key on the screen was pressed.
     signal negated()

@@ -43,7 +43,7 @@ Rectangle {
             radius: 12 * Theme.unit
             color: Theme.paper
             border { color: pin.card.step === "wait" ? Theme.deepAmber : Theme.sea; width: 2 * Theme.unit }
-            // The keys come here wherever the keyboard is; of a PIN no more is told than how long it is.
+            // The keys come here wherever the keyboard is; of a PIN it shows only how long it is.
             Accessible.role: Accessible.EditableText
             Accessible.name: pin.card.title
             Accessible.description: pin.card.text
