@@ -101,7 +101,14 @@ def _laid_out(window: QQuickWindow) -> Iterator[QQuickItem]:
 
 
 def _bars(window: QQuickWindow) -> list[QRect]:
-    return [place(item) for item in items(window.contentItem()) if item.inherits("QQuickScrollBar")]
+    """Return where the bars are that can be seen; a number's keys stand over the page, and over its bar."""
+    found = [place(item) for item in items(window.contentItem()) if item.inherits("QQuickScrollBar")]
+    keys = [
+        place(item)
+        for item in items(window.contentItem())
+        if item.metaObject().className().startswith("ScreenKeyboard")
+    ]
+    return [bar for bar in found if not any(over.contains(bar.center()) for over in keys)]
 
 
 def _is_astray(window: QQuickWindow, item: QQuickItem, side: str) -> bool:

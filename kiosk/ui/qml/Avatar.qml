@@ -128,21 +128,21 @@ Item {
     }
     SequentialAnimation {
         id: nodding
-        NumberAnimation { target: avatar; property: "dip"; to: 15; duration: 150; easing.type: Easing.OutQuad }
-        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: 190; easing.type: Easing.InOutQuad }
-        NumberAnimation { target: avatar; property: "dip"; to: 9; duration: 140; easing.type: Easing.OutQuad }
-        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: 220; easing.type: Easing.InOutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 15; duration: avatar.motion > 0 ? 150 : 0; easing.type: Easing.OutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: avatar.motion > 0 ? 190 : 0; easing.type: Easing.InOutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 9; duration: avatar.motion > 0 ? 140 : 0; easing.type: Easing.OutQuad }
+        NumberAnimation { target: avatar; property: "dip"; to: 0; duration: avatar.motion > 0 ? 220 : 0; easing.type: Easing.InOutQuad }
     }
     SequentialAnimation {
         id: greeting
-        NumberAnimation { target: avatar; property: "waving"; to: 1; duration: 350; easing.type: Easing.OutBack }
+        NumberAnimation { target: avatar; property: "waving"; to: 1; duration: avatar.motion > 0 ? 350 : 0; easing.type: Easing.OutBack }
         SequentialAnimation {
             loops: 3
-            NumberAnimation { target: avatar; property: "sway"; to: 1; duration: 170; easing.type: Easing.InOutSine }
-            NumberAnimation { target: avatar; property: "sway"; to: -1; duration: 250; easing.type: Easing.InOutSine }
-            NumberAnimation { target: avatar; property: "sway"; to: 0; duration: 130; easing.type: Easing.InOutSine }
+            NumberAnimation { target: avatar; property: "sway"; to: 1; duration: avatar.motion > 0 ? 170 : 0; easing.type: Easing.InOutSine }
+            NumberAnimation { target: avatar; property: "sway"; to: -1; duration: avatar.motion > 0 ? 250 : 0; easing.type: Easing.InOutSine }
+            NumberAnimation { target: avatar; property: "sway"; to: 0; duration: avatar.motion > 0 ? 130 : 0; easing.type: Easing.InOutSine }
         }
-        NumberAnimation { target: avatar; property: "waving"; to: 0; duration: 350; easing.type: Easing.InQuad }
+        NumberAnimation { target: avatar; property: "waving"; to: 0; duration: avatar.motion > 0 ? 350 : 0; easing.type: Easing.InQuad }
     }
     SequentialAnimation {
         id: poking
@@ -150,8 +150,8 @@ Item {
         PauseAnimation { duration: 500 }
         SequentialAnimation {
             loops: 2
-            NumberAnimation { target: avatar; property: "jab"; to: 1; duration: 130; easing.type: Easing.OutQuad }
-            NumberAnimation { target: avatar; property: "jab"; to: 0; duration: 220; easing.type: Easing.InOutQuad }
+            NumberAnimation { target: avatar; property: "jab"; to: 1; duration: avatar.motion > 0 ? 130 : 0; easing.type: Easing.OutQuad }
+            NumberAnimation { target: avatar; property: "jab"; to: 0; duration: avatar.motion > 0 ? 220 : 0; easing.type: Easing.InOutQuad }
         }
     }
     // Breath is slow: in steps of a third of a pixel it looks the same as at every frame, at a tenth of the cost.
@@ -159,8 +159,8 @@ Item {
         loops: Animation.Infinite
         running: avatar.visible && avatar.motion > 0
         paused: running && !avatar.breathes
-        NumberAnimation { target: avatar; property: "air"; to: 1; duration: 1900; easing.type: Easing.InOutSine }
-        NumberAnimation { target: avatar; property: "air"; to: 0; duration: 1900; easing.type: Easing.InOutSine }
+        NumberAnimation { target: avatar; property: "air"; to: 1; duration: avatar.motion > 0 ? 1900 : 0; easing.type: Easing.InOutSine }
+        NumberAnimation { target: avatar; property: "air"; to: 0; duration: avatar.motion > 0 ? 1900 : 0; easing.type: Easing.InOutSine }
     }
     Behavior on reaching { enabled: avatar.motion > 0; NumberAnimation { duration: avatar.motion * 1.2; easing.type: Easing.OutBack; easing.overshoot: 1 } }
     Behavior on shut { enabled: avatar.motion > 0; NumberAnimation { duration: Math.min(60, avatar.motion / 3) } }

@@ -311,9 +311,9 @@ FocusScope {
                 id: refusal
                 // Seen in the very next frame.
                 PropertyAction { target: face; property: "shift"; value: place.width * 0.05 }
-                NumberAnimation { target: face; property: "shift"; to: -place.width * 0.04; duration: 90; easing.type: Easing.InOutSine }
-                NumberAnimation { target: face; property: "shift"; to: place.width * 0.02; duration: 80; easing.type: Easing.InOutSine }
-                NumberAnimation { target: face; property: "shift"; to: 0; duration: 70; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "shift"; to: -place.width * 0.04; duration: Theme.motion > 0 ? 90 : 0; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "shift"; to: place.width * 0.02; duration: Theme.motion > 0 ? 80 : 0; easing.type: Easing.InOutSine }
+                NumberAnimation { target: face; property: "shift"; to: 0; duration: Theme.motion > 0 ? 70 : 0; easing.type: Easing.InOutSine }
             }
             // Where nothing moves, this alone answers a tap that does not count.
             Rectangle {

@@ -54,11 +54,12 @@ FocusScope {
         spacing: 1.6 * Theme.gap
 
         Line {
+            id: title
             room: view.width - 4 * Theme.gap
             text: view.words["introduction-title"]
             font { pixelSize: Theme.title; bold: true }
         }
-        Rule { text: view.words["introduction-turn"]; leftCard: view.attract.pictures[0] }
+        Rule { id: turn; text: view.words["introduction-turn"]; leftCard: view.attract.pictures[0] }
         Rule {
             text: view.words["introduction-match"]
             leftCard: view.attract.pictures[2]
@@ -70,7 +71,8 @@ FocusScope {
             leftCard: view.attract.pictures[4]
         }
         WayOn {
-            width: parent.width
+            // Not the column's: that follows the widest of what it holds, and would never become narrower again.
+            width: Math.max(title.width, turn.width)
             kiosk: view.kiosk
             words: view.words
             label: view.words["introduction-continue"]
