@@ -195,7 +195,7 @@ def _rule(folder: Path) -> TargetRule:
 
 
 @dataclass(frozen=True, slots=True)
-class Interval:
+class CredibleInterval:
     """An estimate with its 95 % interval, and the standard error on the scale on which it was estimated."""
 
     value: float
@@ -213,7 +213,7 @@ class PersonEstimate:
     """One participant's forgetting: the mean and the 95 % interval of its posterior."""
 
     participant: str
-    forgetting: Interval
+    forgetting: CredibleInterval
 
 
 @dataclass(frozen=True)
@@ -223,10 +223,10 @@ class Calibration:
     ``following`` is None where there was no hint. ``posteriors`` has the shape people x grid.
     """
 
-    mean: Interval
-    spread: Interval
-    following: Interval | None
-    lapse: Interval
+    mean: CredibleInterval
+    spread: CredibleInterval
+    following: CredibleInterval | None
+    lapse: CredibleInterval
     log_likelihood: float
     people: tuple[PersonEstimate, ...]
     posteriors: Array
@@ -374,20 +374,22 @@ def _fall(loss: Callable[[Array], float], theta: Array, number: int, end: float)
     return near
 
 
-def _back(number: int, theta: Array, intervals: dict[int, tuple[float, float, float | None]]) -> Interval | None:
+def _back(
+    number: int, theta: Array, intervals: dict[int, tuple[float, float, float | None]]
+) -> CredibleInterval | None:
     """Return an estimate on the scale on which people read it."""
     if number not in intervals:
         return None
     turn = (float, np.exp, expit, expit)[number]
     low, high, se = intervals[number]
-    return Interval(float(turn(theta[number])), float(turn(low)), float(turn(high)), se)
+    return CredibleInterval(float(turn(theta[number])), float(turn(low)), float(turn(high)), se)
 
 
-def _person(weights: Array) -> Interval:
+def _person(weights: Array) -> CredibleInterval:
     forgetting = expit(GRID)
     below = np.cumsum(weights) - weights / 2
     low, high = np.interp([0.025, 0.975], below, forgetting)
-    return Interval(float(weights @ forgetting), float(low), float(high))
+    return CredibleInterval(float(weights @ forgetting), float(low), float(high))
 
 
 def theta_of(player: PopulationPlayer) -> Array:

@@ -21,7 +21,7 @@ from kiosk.analysis.calibrate import (
     GRID,
     STEP,
     Calibration,
-    Interval,
+    CredibleInterval,
     PlayedStudy,
     posterior,
     theta_of,
@@ -306,7 +306,7 @@ _CSS = (
 
 def _estimates(calibration: Calibration) -> Iterator[tuple[str, ...]]:
     mean = calibration.mean
-    middle = Interval(*(float(expit(value)) for value in (mean.value, mean.low, mean.high)))
+    middle = CredibleInterval(*(float(expit(value)) for value in (mean.value, mean.low, mean.high)))
     rows = {
         "forgetting, mean of the logit": mean,
         "forgetting, median per flip": middle,

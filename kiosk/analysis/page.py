@@ -25,7 +25,7 @@ NOTHING = "\N{EN DASH}"
 
 
 @dataclass(frozen=True)
-class Table:
+class ReportTable:
     """A table; the first cell of each row is its head."""
 
     id: str
@@ -56,14 +56,14 @@ class Gallery:
 
 
 @dataclass(frozen=True)
-class Source:
+class DataSource:
     """A text to be copied."""
 
     label: str
     text: str
 
 
-Block = str | Table | Picture | Gallery | Source
+Block = str | ReportTable | Picture | Gallery | DataSource
 """A part of a section; a text is a paragraph."""
 
 
@@ -77,7 +77,7 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Page:
+class ReportPage:
     """A page; ``badge`` is printed on every sheet, and ``facts`` are pairs of a name and a value."""
 
     title: str
@@ -122,7 +122,7 @@ def factor(value: float) -> str:
 # HTML
 
 
-def to_html(page: Page) -> str:
+def to_html(page: ReportPage) -> str:
     """Return the page as one HTML file; it asks for nothing outside itself, and prints."""
     counts = {"Table": 0, "Figure": 0}
     body = "".join(_section(section, counts) for section in page.sections)
@@ -155,10 +155,10 @@ def _block(block: Block, counts: dict[str, int]) -> str:
     match block:
         case str():
             return f"<p>{html.escape(block)}</p>\n"
-        case Table():
+        case ReportTable():
             counts["Table"] += 1
             return _table(block, f"Table {counts['Table']}. ")
-        case Source():
+        case DataSource():
             return (
                 f"<details class=source><summary>{html.escape(block.label)}</summary>"
                 f'<pre tabindex="0" role="region" aria-label="{html.escape(block.label)}">'
@@ -186,7 +186,7 @@ def _drawing(picture: Picture) -> str:
 _NUMBERS = re.compile(r"[tUWF]?[\[\]()\d.,%<=\s/e+-]*")
 
 
-def _table(table: Table, label: str) -> str:
+def _table(table: ReportTable, label: str) -> str:
     numeric = [all(_is_numeric(row[at]) for row in table.rows) for at in range(len(table.head))]
     numeric[0] = False
     heads = "".join(
@@ -221,7 +221,7 @@ def _class(right: bool) -> str:  # noqa: FBT001 - one column's kind
 # Other forms
 
 
-def to_markdown(page: Page) -> str:
+def to_markdown(page: ReportPage) -> str:
     """Return the page as Markdown; figures are named, not drawn."""
     lines = [f"# {_escaped(page.title)}", "", f"**{page.badge}**: {_escaped(page.badge_reason)}.", ""]
     lines += [f"- {_escaped(name)}: {_escaped(value)}" for name, value in page.facts]
@@ -236,13 +236,13 @@ def _markdown(block: Block) -> Iterator[str]:
     match block:
         case str():
             yield _escaped(block)
-        case Table():
+        case ReportTable():
             yield f"*{_escaped(block.caption)}*"
             yield ""
             yield from markdown_table(block).splitlines()
             if block.note:
                 yield from ("", _escaped(block.note))
-        case Source():
+        case DataSource():
             yield from (f"{_escaped(block.label)}:", "", "```", *block.text.splitlines(), "```")
         case Picture():
             yield f"![{_escaped(block.alt)}](figures/{block.id}.svg)"
@@ -254,7 +254,7 @@ def _escaped(text: str) -> str:
     return re.sub(r"([\\`*_<\[\]|])", r"\\\1", text)
 
 
-def markdown_table(table: Table) -> str:
+def markdown_table(table: ReportTable) -> str:
     """Return a table in Markdown."""
     rows = [table.head, ("---",) * len(table.head), *table.rows]
     cells = [[cell if row is rows[1] else _escaped(cell) for cell in row] for row in rows]
@@ -265,7 +265,7 @@ _LATEX = {"\\": r"\textbackslash{}", MINUS: "$-$", NOTHING: "--", "<": "$<$", ">
 _LATEX |= {each: "\\" + each for each in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
 
 
-def latex_table(table: Table) -> str:
+def latex_table(table: ReportTable) -> str:
     """Return a table in LaTeX, with the rules of the package booktabs."""
     columns = "l" + "r" * (len(table.head) - 1)
     rows = [" & ".join(_latex(cell) for cell in row) + r" \\" for row in table.rows]
@@ -290,7 +290,7 @@ def _latex(text: str) -> str:
     return "".join(_LATEX.get(each, each) for each in text)
 
 
-def csv_table(table: Table) -> str:
+def csv_table(table: ReportTable) -> str:
     """Return a table as CSV, with plain minus signs and empty cells where there is nothing."""
     written = io.StringIO()
     writer = csv.writer(written, lineterminator="\r\n")
@@ -300,12 +300,12 @@ def csv_table(table: Table) -> str:
     return written.getvalue()
 
 
-def tables(page: Page) -> Iterator[Table]:
+def tables(page: ReportPage) -> Iterator[ReportTable]:
     """All tables of a page."""
-    yield from (block for section in page.sections for block in section.blocks if isinstance(block, Table))
+    yield from (block for section in page.sections for block in section.blocks if isinstance(block, ReportTable))
 
 
-def pictures(page: Page) -> Iterator[Picture]:
+def all_pictures(page: ReportPage) -> Iterator[Picture]:
     """All drawings of a page."""
     for section in page.sections:
         for block in section.blocks:

@@ -10,7 +10,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from kiosk.analysis.page import Section, Table, interval, number, p_value
+from kiosk.analysis.page import ReportTable, Section, interval, number, p_value
 from kiosk.analysis.statistics import holm, standardised, two_sided
 
 N = 28
@@ -132,7 +132,7 @@ def paper_section() -> Section:
         effect = f"{number(found.d)} {interval(found.d_low, found.d_high)}"
         rows.append((each.measure, *cells, *statistics, effect, each.printed or "\N{EN DASH}"))
     head = ("measure", "ToM: M (SD)", "noToM: M (SD)", "t(54)", "t, by rounding", "p", "p, Holm", "d [95 %]", "printed")
-    table = Table(
+    table = ReportTable(
         "paper-table",
         f"The paper's comparisons, recomputed from its means and SDs ({N} + {N} people, Student's t, two-sided).",
         head,

@@ -1,6 +1,6 @@
 """Analyse a data set under a plan: flow, descriptives, hypotheses, sensitivity, reliability, models, looks.
 
-Nothing here draws or writes; ``to_json`` gives every number of a report, and kiosk.analysis.report_page shows them.
+Nothing here draws or writes; ``report_json`` gives every number of a report, and kiosk.analysis.report_page shows them.
 """
 
 from __future__ import annotations
@@ -520,7 +520,7 @@ def _first(sample: Sample, measure: str, condition: str, n: int) -> Floats:
 # All numbers
 
 
-def to_json(report: Report) -> dict[str, Any]:
+def report_json(report: Report) -> dict[str, Any]:
     """Every number of a report, for programs; what does not apply is null."""
     sample = report.sample
     return {

@@ -14,11 +14,11 @@ from kiosk.analysis.compare import Comparison, Line
 from kiosk.analysis.page import (
     NOTHING,
     Block,
+    DataSource,
     Gallery,
-    Page,
+    ReportPage,
+    ReportTable,
     Section,
-    Source,
-    Table,
     factor,
     interval,
     latex_table,
@@ -44,7 +44,7 @@ TEST_NAMES = {
 }
 
 
-def report_page(report: Report, *, with_paper: bool = False) -> Page:
+def report_page(report: Report, *, with_paper: bool = False) -> ReportPage:
     """Return the whole report as a page."""
     sample, standing = report.sample, report.standing
     first, second = report.pair
@@ -59,7 +59,7 @@ def report_page(report: Report, *, with_paper: bool = False) -> Page:
     if with_paper:
         sections.append(paper_section())
     sections += [_paste(report), _methods(report)]
-    return Page(sample.study.title, standing.status, standing.reason, tuple(facts), tuple(sections))
+    return ReportPage(sample.study.title, standing.status, standing.reason, tuple(facts), tuple(sections))
 
 
 def _sections(report: Report) -> Iterator[Section]:
@@ -95,7 +95,7 @@ def _hypotheses(report: Report) -> Iterator[Block]:
         yield _looks_table(report)
 
 
-def hypotheses_table(report: Report) -> Table:
+def hypotheses_table(report: Report) -> ReportTable:
     """Return the hypotheses with their tests, the table of a paper."""
     first, second = report.pair
     rows = []
@@ -122,7 +122,7 @@ def hypotheses_table(report: Report) -> Table:
         f"One-sided p where a hypothesis has a direction; the verdict compares the corrected p with {level:.4g}. "
         "g: Hedges' g with its 95 % interval. BF10: Bayes factor for a difference (JZS, r = .707)."
     )
-    return Table(
+    return ReportTable(
         "hypotheses-table", "The hypotheses of the plan.", (*head, "g [95 %]", "BF10", "verdict"), tuple(rows), note
     )
 
@@ -174,7 +174,7 @@ def sentence(report: Report, each: HypothesisResult) -> str:
     )
 
 
-def _looks_table(report: Report) -> Table:
+def _looks_table(report: Report) -> ReportTable:
     rows = tuple(
         (
             f"{each.per_arm} an arm",
@@ -191,7 +191,7 @@ def _looks_table(report: Report) -> Table:
     taken = ", ".join(str(n) for plan in report.sample.study.plans for n in plan.looks) or "none"
     note = f"Two-sided p, corrected within each family, of the first people of each arm. Looks recorded: {taken}."
     head = ("look", "hypothesis", "p", "level", "BF10", "rule")
-    return Table("looks-table", f"The declared looks that were reached ({how}).", head, rows, note)
+    return ReportTable("looks-table", f"The declared looks that were reached ({how}).", head, rows, note)
 
 
 def _level(level: float) -> str:
@@ -222,12 +222,12 @@ def _participants(report: Report) -> Iterator[Block]:
         if not math.isnan(tested.estimate)
         else f"No test: {tested.note}."
     )
-    yield Table("completion-table", "Who completed the game, and where the others left.", head, tuple(rows), note)
+    yield ReportTable("completion-table", "Who completed the game, and where the others left.", head, tuple(rows), note)
     conditions = [each.condition for each in report.completion]
     steps = report.sample.steps
     if steps:
         excluded = tuple((step.rule, *(str(step.counts.get(name, 0)) for name in conditions)) for step in steps)
-        yield Table(
+        yield ReportTable(
             "exclusions-table", "Exclusions, in the order in which they apply.", ("rule", *conditions), excluded
         )
     else:
@@ -269,7 +269,7 @@ def _measures(report: Report) -> Iterator[Block]:
         "Shares of hints exist only for people who had such hints, so n differs there. Time with speech grows with the "
         "length of the sentences; compare conditions by the time without."
     )
-    yield Table("descriptives-table", "Measures by condition.", head, tuple(rows), note)
+    yield ReportTable("descriptives-table", "Measures by condition.", head, tuple(rows), note)
 
 
 def _tests(report: Report) -> Iterator[Block]:
@@ -283,7 +283,7 @@ def _tests(report: Report) -> Iterator[Block]:
         rows = tuple(_test_row(line, measure) for line in compared.lines if not line.name.startswith("bayes_"))
         caption = f"{measure.title}: {first} (n = {compared.n[0]}) and {second} (n = {compared.n[1]})."
         name = f"tests-{compared.measure.replace('.', '-')}"
-        yield Table(name, caption, ("test", "statistic", "p", "estimate", "95 % interval", "note"), rows)
+        yield ReportTable(name, caption, ("test", "statistic", "p", "estimate", "95 % interval", "note"), rows)
 
 
 _IN_THE_UNIT = ("welch", "student", "equivalence", "bootstrap")
@@ -311,7 +311,7 @@ def _sensitivity(report: Report) -> Iterator[Block]:
         yield _sensitivity_table(report, each)
 
 
-def _sensitivity_table(report: Report, result: SensitivityResult) -> Table:
+def _sensitivity_table(report: Report, result: SensitivityResult) -> ReportTable:
     row = next(row for row in report.plan.sensitivity if row.name == result.name)
     rows = tuple(
         (
@@ -335,7 +335,7 @@ def _sensitivity_table(report: Report, result: SensitivityResult) -> Table:
         else ""
     )
     name = "".join(letter if letter.isalnum() else "-" for letter in result.name.lower())
-    return Table(f"sensitivity-{name}", caption, head, rows, note)
+    return ReportTable(f"sensitivity-{name}", caption, head, rows, note)
 
 
 def _bayes(report: Report) -> Iterator[Block]:
@@ -347,7 +347,9 @@ def _bayes(report: Report) -> Iterator[Block]:
     )
     head = ("measure", *(f"r = {name.removeprefix('bayes_')}" for name in scales))
     note = "BF10: above 1 the data speak for a difference, below 1 for none; 3 or 1/3 is little, 10 or 1/10 is much."
-    yield Table("bayes-table", "Bayes factors for a difference of means, by the scale of the prior.", head, rows, note)
+    yield ReportTable(
+        "bayes-table", "Bayes factors for a difference of means, by the scale of the prior.", head, rows, note
+    )
 
 
 def _design(report: Report) -> Iterator[Block]:
@@ -361,7 +363,9 @@ def _design(report: Report) -> Iterator[Block]:
             rows.append((label, effect.name, f, p_value(effect.p), f"{effect.size:.3f}".removeprefix("0")))
     head = ("measure", "effect", "F", "p", "partial eta squared")
     note = "Sums of squares of type III; p values are not corrected."
-    yield Table("design-table", "Target (mentalised or random) by reason (given or not).", head, tuple(rows), note)
+    yield ReportTable(
+        "design-table", "Target (mentalised or random) by reason (given or not).", head, tuple(rows), note
+    )
 
 
 def _other_pairs(report: Report) -> Iterator[Block]:
@@ -370,7 +374,9 @@ def _other_pairs(report: Report) -> Iterator[Block]:
     )
 
 
-def _comparison_table(report: Report, name: str, caption: str, compared: Sequence[tuple[Comparison, float]]) -> Table:
+def _comparison_table(
+    report: Report, name: str, caption: str, compared: Sequence[tuple[Comparison, float]]
+) -> ReportTable:
     rows = []
     corrected = any(not math.isnan(p) for _, p in compared)
     for each, p in compared:
@@ -381,7 +387,7 @@ def _comparison_table(report: Report, name: str, caption: str, compared: Sequenc
         cells += [p_value(welch.p), *([p_value(p)] if corrected else [])]
         rows.append((measure.title, *cells, f"{number(g.estimate)} {interval(g.low, g.high)}"))
     head = ("measure", "conditions", "n", "M", "Welch", "p", *(["p, Holm"] if corrected else []), "g [95 %]")
-    return Table(name, caption, head, tuple(rows), "Holm within each measure." if corrected else "")
+    return ReportTable(name, caption, head, tuple(rows), "Holm within each measure." if corrected else "")
 
 
 def _course(report: Report) -> Iterator[Block]:
@@ -411,7 +417,7 @@ def _course(report: Report) -> Iterator[Block]:
         )
         note += f" {each.model.note[:1].upper()}{each.model.note[1:]}." if each.model.note else ""
         name = "".join(letter if letter.isalnum() else "-" for letter in each.name)
-        yield Table(f"model-{name}", f"{each.name}: {each.about}.", head, rows, note)
+        yield ReportTable(f"model-{name}", f"{each.name}: {each.about}.", head, rows, note)
 
 
 def _reliability(report: Report) -> Iterator[Block]:
@@ -429,7 +435,7 @@ def _reliability(report: Report) -> Iterator[Block]:
         rows.append((each.name, str(len(each.items)), str(each.found.n), *cells, each.found.omega_note or rest))
     head = ("scale", "items", "n", "alpha [95 %]", "omega", "item-rest correlations")
     note = "Alpha with Feldt's interval; omega of one factor by maximum likelihood. People with all items answered."
-    yield Table("reliability-table", "Reliability of the scales.", head, tuple(rows), note)
+    yield ReportTable("reliability-table", "Reliability of the scales.", head, tuple(rows), note)
 
 
 # The end
@@ -440,9 +446,9 @@ def _paste(report: Report) -> Section:
     blocks: list[Block] = [
         "Table 1 can be marked and pasted into a word processor as it is. For other programs it stands here as a text; "
         "a click marks all of it.",
-        Source("Table 1 in Markdown", markdown_table(table)),
-        Source("Table 1 in LaTeX (needs the package booktabs)", latex_table(table)),
-        Source("The sentences of the hypotheses", "\n".join(sentence(report, each) for each in report.hypotheses)),
+        DataSource("Table 1 in Markdown", markdown_table(table)),
+        DataSource("Table 1 in LaTeX (needs the package booktabs)", latex_table(table)),
+        DataSource("The sentences of the hypotheses", "\n".join(sentence(report, each) for each in report.hypotheses)),
     ]
     return Section("paste", "For a paper", tuple(blocks))
 
@@ -470,9 +476,9 @@ def _methods(report: Report) -> Section:
     )
 
 
-def paper_page() -> Page:
+def paper_page() -> ReportPage:
     """Return the paper's numbers alone, without a data set."""
-    return Page(
+    return ReportPage(
         "The paper's numbers, recomputed",
         "EXPLORATORY",
         "worked out from published means and standard deviations",

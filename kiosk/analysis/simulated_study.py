@@ -50,7 +50,7 @@ class StudyCell:
 
 
 @dataclass(frozen=True, slots=True)
-class SimulatedParticipant:
+class SimulatedRecord:
     """One simulated person: the arm, the game and the measures, missing ones NaN."""
 
     name: str
@@ -61,7 +61,7 @@ class SimulatedParticipant:
 
 def simulate_participants(
     policy: QTable, player: SimulatedPlayer, rule: TargetRule, cells: Sequence[StudyCell], seed: int
-) -> Iterator[SimulatedParticipant]:
+) -> Iterator[SimulatedRecord]:
     """Simulate every participant of some arms; fixed by ``seed`` (0 or more).
 
     ``player`` should be drawn anew for every game, as people differ; ``rule`` is the rule of mentalised conditions.
@@ -74,7 +74,7 @@ def simulate_participants(
         game_seed = int(rng.integers(2**62))
         for game in record_games(table, player, where or TargetRule.RANDOM, cell.n, game_seed):
             number += 1
-            yield SimulatedParticipant(f"s{number:04}", cell.condition, game, _measures(game, rng, cell.shifts))
+            yield SimulatedRecord(f"s{number:04}", cell.condition, game, _measures(game, rng, cell.shifts))
 
 
 def game_measures(game: RecordedGame) -> Numbers:
@@ -128,7 +128,7 @@ def _measures(game: RecordedGame, rng: np.random.Generator, shifts: Mapping[str,
 
 
 def write_dataset(
-    folder: Path, people: Sequence[SimulatedParticipant], policy: QTable, rule: TargetRule, title: str
+    folder: Path, people: Sequence[SimulatedRecord], policy: QTable, rule: TargetRule, title: str
 ) -> None:
     """Write simulated participants as a data set that ``report`` and ``calibrate`` read; ``folder`` must be new.
 
@@ -173,7 +173,7 @@ def _cell(value: Any) -> str:
     return str(value)
 
 
-def _tables(people: Sequence[SimulatedParticipant], policy: QTable) -> dict[str, list[dict[str, Any]]]:
+def _tables(people: Sequence[SimulatedRecord], policy: QTable) -> dict[str, list[dict[str, Any]]]:
     tables: dict[str, list[dict[str, Any]]] = {name: [] for name in (*COLUMNS, "cards")}
     for person in people:
         tables["participants"].append(_participant(person, policy))
@@ -193,7 +193,7 @@ def _tables(people: Sequence[SimulatedParticipant], policy: QTable) -> dict[str,
     return tables
 
 
-def _participant(person: SimulatedParticipant, policy: QTable) -> dict[str, Any]:
+def _participant(person: SimulatedRecord, policy: QTable) -> dict[str, Any]:
     fixed = {
         "condition": person.condition.name,
         "allocation_source": "list",
@@ -205,7 +205,7 @@ def _participant(person: SimulatedParticipant, policy: QTable) -> dict[str, Any]
     return {"participant_id": person.name} | fixed | done | person.measures
 
 
-def _cards(person: SimulatedParticipant) -> Iterator[dict[str, Any]]:
+def _cards(person: SimulatedRecord) -> Iterator[dict[str, Any]]:
     for place in range(CARDS):
         picture = f"picture-{min(place, person.game.mates[place]):02}"
         row, column = divmod(place, BOARD_COLUMNS)
@@ -215,7 +215,7 @@ def _cards(person: SimulatedParticipant) -> Iterator[dict[str, Any]]:
         }
 
 
-def _flips(person: SimulatedParticipant) -> Iterator[tuple[dict[str, Any], dict[str, Any] | None]]:
+def _flips(person: SimulatedRecord) -> Iterator[tuple[dict[str, Any], dict[str, Any] | None]]:
     """Yield the rows of the tables of flips and hints."""
     game = person.game
     pace = round(person.measures["completion_ms"] / person.measures["flips"])

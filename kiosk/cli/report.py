@@ -52,7 +52,7 @@ def report_command(
     if out is not None and _is_page(out):
         check_writable(out)
     found = _analysed(export, plan, exclude) if export is not None else None
-    document: dict[str, Any] = analysis("report").to_json(found) if found is not None else {}
+    document: dict[str, Any] = analysis("report").report_json(found) if found is not None else {}
     if paper:
         document["paper"] = analysis("paper").paper_json()
     if out is not None:
@@ -88,7 +88,7 @@ def _write(out: Path, page: Any, document: dict[str, Any]) -> None:
         for table in module.tables(page):
             write_text(folder / "tables" / f"{table.id}.csv", module.csv_table(table))
             write_text(folder / "tables" / f"{table.id}.tex", module.latex_table(table) + "\n")
-        for picture in module.pictures(page):
+        for picture in module.all_pictures(page):
             write_text(folder / "figures" / f"{picture.id}.svg", picture.svg)
 
 

@@ -175,7 +175,7 @@ def missing_command(context: click.Context, folder: Path, study: Path | None) ->
 @voice_group.command("check")
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.pass_context
-def check_command(context: click.Context, folder: Path) -> None:
+def check_pack_command(context: click.Context, folder: Path) -> None:
     """Look at every clip of the pack in FOLDER: there, unchanged, neither silent nor clipped, equally loud."""
     pack = VoicePack.read(folder)
     faults = tuple(pack.faults())

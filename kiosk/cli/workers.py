@@ -46,7 +46,7 @@ def screens_command(number: int) -> None:
 @display_command.command()
 def pictures() -> None:
     """Draw the pictures that are named on standard input."""
-    from kiosk.ui.checks import draw as draw_pictures
+    from kiosk.ui.checks import draw_files as draw_pictures
 
     draw_pictures(sys.stdin, sys.stdout)
 

@@ -56,7 +56,7 @@ def helped(policy: QTable) -> list[State]:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class PolicyComparison:
     """Two tables side by side, over the states that both have visited (all, where a file does not say)."""
 
     compared: tuple[State, ...]
@@ -70,12 +70,12 @@ class Comparison:
         return 1 - len(self.different) / len(self.compared) if self.compared else 1.0
 
 
-def compare_policies(one: QTable, other: QTable) -> Comparison:
+def compare_policies(one: QTable, other: QTable) -> PolicyComparison:
     """Compare the greedy actions and the values of two tables."""
     both = [state for state in one.states if state in other.states and _known(one, state) and _known(other, state)]
     different = [state for state in both if one.action(state) is not other.action(state)]
     gaps = [abs(a - b) for state in both for a, b in _shared_values(one, other, state)]
-    return Comparison(tuple(both), tuple(different), max(gaps, default=0.0))
+    return PolicyComparison(tuple(both), tuple(different), max(gaps, default=0.0))
 
 
 def _shared_values(one: QTable, other: QTable, state: State) -> list[tuple[float, float]]:

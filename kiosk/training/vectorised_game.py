@@ -123,7 +123,7 @@ def new_game(seed: int, actions: int = USUAL) -> Ints:
 
 
 @compiled_rule
-def draw(game: Ints) -> int:
+def draw_bits(game: Ints) -> int:
     """Return the next random word of 32 bits: multiply with carry, its two halves joined (period about 2^62).
 
     MULTIPLIER is below 2^31, so that nothing overflows 63 bits, and makes MULTIPLIER 2^32 - 1 a safe prime.
@@ -136,13 +136,13 @@ def draw(game: Ints) -> int:
 @compiled_rule
 def below(game: Ints, number: int) -> int:
     """Return a random whole number from 0 to ``number`` - 1."""
-    return (draw(game) * number) >> BITS
+    return (draw_bits(game) * number) >> BITS
 
 
 @compiled_rule
 def unit(game: Ints) -> float:
     """Return a random number from 0 up to, not including, 1."""
-    return draw(game) * UNIT
+    return draw_bits(game) * UNIT
 
 
 @compiled_rule

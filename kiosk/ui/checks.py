@@ -237,7 +237,7 @@ class _Child:
             each.join()
 
 
-def draw(source: IO[str], out: IO[str]) -> None:
+def draw_files(source: IO[str], out: IO[str]) -> None:
     """Be the process: draw one file after another, and say what came of each."""
     _limit_memory()
     from PySide6.QtGui import QGuiApplication  # not before memory is limited

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from kiosk import UserInputError
 from kiosk.analysis import memory_likelihood as ml
-from kiosk.analysis.calibrate import GRID, STEP, Calibration, Interval, fit, read_games
+from kiosk.analysis.calibrate import GRID, STEP, Calibration, CredibleInterval, fit, read_games
 from kiosk.analysis.calibration_checks import CalibrationChecks, RankCheck, calibration_page, check_calibration
 from kiosk.analysis.memory_likelihood import FOLLOW, FREE, LAPSE, NO_FLIP, PlayedGame
 from kiosk.analysis.plan import TEMPLATE
@@ -166,9 +166,15 @@ def test_too_few_games_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_spread_below_the_step_of_the_grid_is_warned_of() -> None:
-    same = Interval(0.9, 0.8, 1.0)
+    same = CredibleInterval(0.9, 0.8, 1.0)
     found = Calibration(
-        Interval(-1.4, -1.6, -1.2), Interval(STEP / 2, 0.01, 0.2), same, same, 0.0, (), np.ones((0, len(GRID)))
+        CredibleInterval(-1.4, -1.6, -1.2),
+        CredibleInterval(STEP / 2, 0.01, 0.2),
+        same,
+        same,
+        0.0,
+        (),
+        np.ones((0, len(GRID))),
     )
     assert "below the grid's step" in found.warnings[0]
     page = calibration_page("x", found, CalibrationChecks((), RankCheck((1,) * 10, 1.0), {"tom": ([40], [50])}))
@@ -178,9 +184,11 @@ def test_a_spread_below_the_step_of_the_grid_is_warned_of() -> None:
 
 def test_a_wrong_population_fails_the_predictive_check(tmp_path: Path) -> None:
     study = read_games(write_study(tmp_path / "study", 8))
-    same = Interval(0.9, 0.8, 1.0)
-    mean = Interval(1.0, 0.9, 1.1)
-    wrong = Calibration(mean, Interval(0.5, 0.4, 0.6), same, Interval(0.02, 0, 0.1), 0.0, (), np.ones((0, len(GRID))))
+    same = CredibleInterval(0.9, 0.8, 1.0)
+    mean = CredibleInterval(1.0, 0.9, 1.1)
+    wrong = Calibration(
+        mean, CredibleInterval(0.5, 0.4, 0.6), same, CredibleInterval(0.02, 0, 0.1), 0.0, (), np.ones((0, len(GRID)))
+    )
     checks = check_calibration(study, wrong, studies=40)
     assert all(row.p < 0.1 for row in checks.predicted if row.name.endswith("flips, mean"))
 

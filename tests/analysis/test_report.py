@@ -18,11 +18,11 @@ from click.testing import CliRunner
 from kiosk import UserInputError
 from kiosk.analysis.data import load_study
 from kiosk.analysis.page import (
-    Page,
+    DataSource,
     Picture,
+    ReportPage,
+    ReportTable,
     Section,
-    Source,
-    Table,
     latex_table,
     markdown_table,
     to_html,
@@ -124,9 +124,9 @@ def test_the_same_data_give_the_same_bytes(export: Path, written: Path, tmp_path
 
 def test_no_text_of_a_study_can_break_the_page() -> None:
     bad = "<script>alert('1')</script> & |co"
-    table = Table("t", bad, (bad, bad), ((bad, bad),), bad)
-    blocks = (bad, table, Source(bad, bad), Picture("p", bad, "<svg ></svg>", bad, wide=True))
-    shown = Page(bad, "EXPLORATORY", bad, ((bad, bad),), (Section("s", bad, blocks),))
+    table = ReportTable("t", bad, (bad, bad), ((bad, bad),), bad)
+    blocks = (bad, table, DataSource(bad, bad), Picture("p", bad, "<svg ></svg>", bad, wide=True))
+    shown = ReportPage(bad, "EXPLORATORY", bad, ((bad, bad),), (Section("s", bad, blocks),))
     assert "<script" not in to_html(shown)
     assert "<script" not in to_markdown(shown).replace("\\<", "").replace(f"```\n{bad}\n```", "")
 
