@@ -27,8 +27,8 @@ class Stage(Enum):
 
     ATTRACT = "attract"
     ABOUT = "about"
-    CONSENT = "consent"
     AGE = "age"
+    CONSENT = "consent"
     ABOUT_YOU = "about_you"
     INTRODUCTION = "introduction"
     PRACTICE = "practice"

@@ -133,7 +133,7 @@ def test_the_voices_own_process_renders_and_plays_nothing(tmp_path: Path) -> Non
         f" def play(self, *a): pathlib.Path({str(tmp_path / 'played')!r}).touch()\n"
         " def stop(self): pass\n"
         " tend = close = stop\n"
-        "s.create_engine = lambda *a: E()\n"
+        "s.create_engine = lambda *a, **k: E()\n"
         "s.create_player = lambda *a: P()\n"
         "s.run_tts_worker({'language': 'en', 'rate': 150, 'volume': 1.0})\n"
     )

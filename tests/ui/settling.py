@@ -112,6 +112,7 @@ SOURCES = {
     name: SOURCE % {"name": name, "screen": f"{name.title()}Screen", "view": f"{name.title()}View", "more": more}
     for name, more in dict.fromkeys(("form", "about", "consent", "debrief"), "kiosk: root.kiosk").items()
 }
+SOURCES["debrief"] = SOURCES["debrief"].replace("kiosk: root.kiosk", 'kiosk: root.kiosk; labName: "A lab"')
 
 ITEMS: TypeAdapter[Item] = TypeAdapter(Item)
 Filling = Callable[[ScreenSet], None]

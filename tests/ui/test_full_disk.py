@@ -92,9 +92,11 @@ def test_a_full_disk_in_any_stage_is_calm_for_the_visitor_and_told_in_the_log(
 def test_a_disk_that_is_full_before_anything_is_kept_stops_nobody_who_does_not_take_part(
     booth: Booth, disk: SmallDisk, caplog: pytest.LogCaptureFixture
 ) -> None:
-    go_to(booth, Stage.AGE)
+    go_to(booth, Stage.CONSENT)
+    for purpose in ("take_part", "store"):
+        booth.click(f"purpose-{purpose}")
     disk.fill()
-    booth.click("age-yes")
+    booth.click("agree")
     assert booth.screen == "pause"
     assert "disk full" in caplog.text
     disk.empty()

@@ -54,8 +54,8 @@ def test_a_key_that_is_held_down_is_pressed_once(booth: Booth) -> None:
 
 def test_the_booth_lives_while_nobody_is_there(qtbot: QtBot, tmp_path: Path) -> None:
     with headless(Settings(), tmp_path, mode=RunMode(WindowMode.NOWHERE, speed=50)) as app:
-        seen: set[int] = set()
+        seen: set[tuple[int, ...]] = set()
         blinks: set[bool] = set()
-        app.screens.attract.changed.connect(lambda: seen.add(int(str(app.screens.attract.property("shown")))))
+        app.screens.attract.changed.connect(lambda: seen.add(app.screens.attract.closed))
         app.screens.avatar.changed.connect(lambda: blinks.add(bool(app.screens.avatar.property("blinking"))))
         qtbot.waitUntil(lambda: len(seen) > 3 and blinks == {True, False})

@@ -51,7 +51,7 @@ def test_a_session_that_was_ended_tells_in_which_stage_and_how(stage: Stage) -> 
     seen = SessionState.from_events(driver.events)
     assert (seen.last_stage, seen.status) == (stage, Status.STOPPED)
     assert seen.game_completed is (UNDERWAY.index(stage) > UNDERWAY.index(Stage.GAME))
-    assert (seen.consent is None) is (stage in {Stage.ABOUT, Stage.CONSENT})
+    assert (seen.consent is None) is (stage in {Stage.ABOUT, Stage.AGE, Stage.CONSENT})
 
 
 def test_every_pair_found_is_not_yet_a_completed_game() -> None:

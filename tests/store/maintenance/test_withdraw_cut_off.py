@@ -124,7 +124,7 @@ def check_finished(folder: Path, code: str) -> None:
         assert connection.execute("SELECT session FROM tombstone").fetchall() == [(2,)]
         assert connection.execute("SELECT count(*) FROM unfinished_withdrawal").fetchall() == [(0,)]
     assert set(holding(folder, OTHERS)) == {FILE, copy.name}
-    with pytest.raises(UserInputError, match="nobody in"):
+    with pytest.raises(UserInputError, match="no participant in"):
         find_withdrawal(folder, code)
 
 

@@ -74,7 +74,9 @@ Rectangle {
         required property string leads
         objectName: `key-${leads}`
         visible: !keyboard.numbers && keyboard.shown !== leads
-        Accessible.name: keyboard.words[`keyboard-${leads}`]
+        Accessible.name: ({ letters: keyboard.words["keyboard-letters"],
+                            accents: keyboard.words["keyboard-accents"],
+                            signs: keyboard.words["keyboard-signs"] })[leads]
         onClicked: keyboard.shown = leads
     }
 
