@@ -124,6 +124,8 @@ INTERRUPTED = """
 import os, signal, sys
 from kiosk.cli.main import main
 from kiosk.ui.window import Window
+# A shell that runs the tests in the background lets them ignore it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 def interrupt(*_):
     os.kill(os.getpid(), signal.SIGINT)
     signal.pause()  # another thread may take the signal, a moment later
