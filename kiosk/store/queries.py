@@ -222,23 +222,41 @@ def _event(record: dict[str, Any]) -> Event:
     return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
 
 
+class DecisionExplainer:
+    """Lays open the decisions of one stored session, which is read once."""
+
+    def __init__(self, archive: SessionRepository, number: int) -> None:
+        """Read the session of this number; raises UserInputError if no game was dealt in it."""
+        self._number = number
+        self._events = archive.events(number)
+        game = SessionState.from_events(self._events).game
+        if game is None:
+            raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")
+        self._game = game
+        self._plan = archive.plan(number)
+
+    def explain(self, flip: int) -> Explanation:
+        """Return the decision before a flip (from 1), laid open.
+
+        Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
+        """
+        number, game, plan = self._number, self._game, self._plan
+        spoken = plan.translation(language_before_flip(self._events, flip) or plan.language)
+        plan = plan if spoken is None else replace(plan, catalogue=spoken.catalogue)
+        if flip not in game.decisions and (plan.cell.helps or flip > len(game.flips)):
+            raise UserInputError(
+                f"session {number} has {len(game.flips)} flips; nothing was decided about a flip {flip}"
+            )
+        explanation = DecisionContext.before(flip, game, plan).explained()
+        if not agrees_with_record(explanation, game, flip):
+            raise UserInputError(f"flip {flip} of session {number} comes out otherwise today than it was decided then")
+        said = game.hints.get(flip) or game.remarks.get(flip)
+        return replace(explanation, spoken=said.given.sentence if said else None)
+
+
 def explain_stored_decision(archive: SessionRepository, number: int, flip: int) -> Explanation:
     """Return the decision before a flip (from 1) of a stored session, laid open.
 
     Raises UserInputError if there was none, or if it comes out otherwise today than it was recorded.
     """
-    events = archive.events(number)
-    game = SessionState.from_events(events).game
-    if game is None:
-        raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")
-    plan = archive.plan(number)
-    spoken = plan.translation(language_before_flip(events, flip) or plan.language)
-    plan = plan if spoken is None else replace(plan, catalogue=spoken.catalogue)
-    helped = plan.cell.helps
-    if flip not in game.decisions and (helped or flip > len(game.flips)):
-        raise UserInputError(f"session {number} has {len(game.flips)} flips; nothing was decided about a flip {flip}")
-    explanation = DecisionContext.before(flip, game, plan).explained()
-    if not agrees_with_record(explanation, game, flip):
-        raise UserInputError(f"flip {flip} of session {number} comes out otherwise today than it was decided then")
-    said = game.hints.get(flip) or game.remarks.get(flip)
-    return replace(explanation, spoken=said.given.sentence if said else None)
+    return DecisionExplainer(archive, number).explain(flip)

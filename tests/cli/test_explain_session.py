@@ -18,7 +18,7 @@ from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, P
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
-from kiosk.store.queries import explain_stored_decision, open_repository
+from kiosk.store.queries import DecisionExplainer, explain_stored_decision, open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from tests.experiment.driver import Driver, at_random
 from tests.samples import mixed, plan, whole
@@ -42,8 +42,9 @@ def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: C
     driver = stored(tmp_path, condition)
     given = {hint.flip: hint for hint in driver.noted(HintGiven)}
     with open_repository(tmp_path) as sessions:
-        for then in driver.noted(AssistanceDecided)[::5]:
-            now = explain_stored_decision(sessions, 1, then.flip)
+        explainer = DecisionExplainer(sessions, 1)
+        for then in driver.noted(AssistanceDecided):
+            now = explainer.explain(then.flip)
             assert (now.decision.action, now.decision.gate_decision) == (then.action, then.gate)
             assert (now.decision.state.game, now.decision.state.last) == (then.game, then.last)
             assert now.decision.state.outcome is then.outcome
@@ -57,19 +58,19 @@ def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: C
 def test_the_other_target_rule_is_followed_too(tmp_path: Path) -> None:
     driver = stored(tmp_path, assistance={"target_rule": "most_recent"})
     with open_repository(tmp_path) as sessions:
-        for hint in driver.noted(HintGiven)[::5]:
-            assert explain_stored_decision(sessions, 1, hint.flip).candidates == (hint.target,)
+        explainer = DecisionExplainer(sessions, 1)
+        for hint in driver.noted(HintGiven):
+            assert explainer.explain(hint.flip).candidates == (hint.target,)
 
 
 def test_a_table_that_went_on_learning_is_explained_as_it_stood_at_that_flip(tmp_path: Path) -> None:
     driver = stored(tmp_path, assistance={"step": 0.05})
     decisions = driver.noted(AssistanceDecided)
     with open_repository(tmp_path) as sessions:
-        first, last = (
-            explain_stored_decision(sessions, 1, then.flip).decision for then in (decisions[0], decisions[-1])
-        )
-        for then in decisions[::7]:
-            assert explain_stored_decision(sessions, 1, then.flip).decision.action is then.action
+        explainer = DecisionExplainer(sessions, 1)
+        first, last = (explainer.explain(then.flip).decision for then in (decisions[0], decisions[-1]))
+        for then in decisions:
+            assert explainer.explain(then.flip).decision.action is then.action
     policy = driver.plan.policy
     assert first.q == policy.row(first.state)
     assert last.q != policy.row(last.state)
