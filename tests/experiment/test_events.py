@@ -132,7 +132,7 @@ def test_a_record_can_be_read_without_the_program() -> None:
     [
         (
             Stage,
-            "attract about consent age about_you introduction practice game result questions debrief thanks over",
+            "attract about age consent about_you introduction practice game result questions debrief thanks over",
         ),
         (
             Timer,

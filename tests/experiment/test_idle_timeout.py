@@ -22,8 +22,8 @@ from tests.samples import INFORMATION, always, likert, questionnaire, whole
 
 LONG_ENOUGH = {
     Stage.ABOUT: 60_000,
-    Stage.CONSENT: 90_000,
     Stage.AGE: 45_000,
+    Stage.CONSENT: 90_000,
     Stage.ABOUT_YOU: 60_000,
     Stage.INTRODUCTION: 45_000,
     Stage.PRACTICE: 60_000,
