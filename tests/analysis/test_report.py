@@ -243,3 +243,25 @@ def test_a_browser_shows_the_page_without_an_error_a_request_or_a_cut(written: P
     assert all(name for role, name in seen if role in {"table", "image", "region", "navigation"})
     assert next(name for role, name in seen if role == "table").startswith("Table 1. The hypotheses")
     assert roles["image"] == page.count("<svg ")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("participant_id\n1\n", "needs a first line with the columns participant_id and reason"),
+        ("participant_id,reason\n1,\n", "row 2: participant_id and reason must both be given"),
+        ("participant_id,reason\n1,ill\n1,ill\n", "row 3: 1 is excluded twice"),
+        ("participant_id,reason\nnot-there,ill\n", "not-there"),
+    ],
+    ids=["a column is missing", "no reason", "twice", "not in the data"],
+)
+def test_exclusions_that_cannot_be_used_are_refused_in_one_sentence(
+    export: Path, tmp_path: Path, text: str, says: str
+) -> None:
+    (tmp_path / "exclude.csv").write_text(text)
+    words = ["report", str(export), "--out", str(tmp_path / "out.html"), "--exclude", str(tmp_path / "exclude.csv")]
+    with pytest.raises(UserInputError) as refused:
+        CliRunner().invoke(recollect, words, catch_exceptions=False)
+    (sentence,) = refused.value.sentences
+    assert says in sentence
+    assert not (tmp_path / "out.html").exists()
