@@ -125,12 +125,8 @@ def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> li
     if len(before) != len(after):
         return [f"{len(before)} items were there, now {len(after)}"]
     changed = ((one, dict(other.items() - one.items())) for one, other in zip(before, after, strict=True))
-    return [(one, new) for one, new in changed if any(not is_rounding(key, one[key], new[key]) for key in new)]
-
-
-def is_rounding(key: str, before: str, after: str) -> bool:
-    """Whether an item stands a pixel lower or higher: words of another language were laid out there meanwhile."""
-    return key == "y" and abs(float(before) - float(after)) <= 1
+    # Where an item without a name stands follows from what was laid out beside it, and tells nothing of a visitor.
+    return [(one, new) for one, new in changed if new and (one["name"] or set(new) != {"y"})]
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
