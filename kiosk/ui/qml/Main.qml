@@ -85,6 +85,7 @@ Window {
             cardShadow: root.cardShadow
             labName: root.labName
             labLogo: root.labLogo
+            onVisibleChanged: if (visible) helper.stopNoticing()
             onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
         AboutView {
@@ -171,7 +172,7 @@ Window {
     // Where the mouse is; a finger is only seen where it touches.
     HoverHandler {
         acceptedDevices: PointerDevice.Mouse | PointerDevice.TouchPad
-        onPointChanged: helper.follow(helper.mapFromItem(null, point.position.x, point.position.y))
+        onPointChanged: helper.follow(point.position)
     }
     SidePanel {
         id: helper

@@ -13,7 +13,8 @@ Item {
     property point marked
     // Whether something else moves that needs every frame; the face then does not breathe.
     property bool quiet: false
-    // Where the visitor's pointer was last seen, in this item.
+    // Where the visitor's pointer was last seen, in the window and in this item.
+    property var seen: null
     property point pointer
     // What the visitor has just touched, in this item; for a moment the face looks there.
     property point noticed
@@ -31,8 +32,13 @@ Item {
         attention.stop()
         following.stop()
     }
+    // Where it first appears, and where it is pressed or let go, the pointer has not been moved.
     function follow(place: point) {
-        pointer = place
+        const moved = seen !== null && (seen.x !== place.x || seen.y !== place.y)
+        seen = Qt.point(place.x, place.y)
+        if (!moved)
+            return
+        pointer = mapFromItem(null, place.x, place.y)
         following.restart()
     }
     function towards(place: real, middle: real): real {
@@ -52,7 +58,9 @@ Item {
     }
 
     Bubble {
-        anchors { left: parent.left; right: parent.right; top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: 4 * Theme.unit }
+        // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
+        width: parent.width
+        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: 4 * Theme.unit }
         sentence: panel.avatar.bubble
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
