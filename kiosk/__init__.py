@@ -1,8 +1,7 @@
 """Recollect: a kiosk for studies in which a robot helps a person play Concentration.
 
-The rooms, from the bottom: game, assistant, study, robot and store (which never meet), then ui, training and
-analysis (which never meet), and cli, the front door; keeping stands beside them. Imports go one way only;
-``tests/test_walls.py`` holds the walls.
+The packages, from the bottom: game, assistance, experiment, then study, robots and store, which never import each
+other, then export, ui, training and analysis, and cli on top. ``tests/test_walls.py`` checks the direction of imports.
 """
 
 import errno

@@ -15,15 +15,16 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "errors", "config", "extensions", "language_codes", "preflight", "units"}
-"""The package itself, user errors, the study file's types, extensions, language codes, check results and units: every
-package may import them, and they import no package."""
+BELOW_ALL = {"kiosk", "errors", "config", "extensions", "files", "language_codes", "preflight", "units"}
+"""The package itself, user errors, the study file's types, extensions, whole files, language codes, check results and
+units: every package may import them, and they import no package."""
 
 ROOMS: dict[str, set[str]] = {
     "kiosk": set(),
     "errors": set(),
     "config": set(),
     "extensions": set(),
+    "files": set(),
     "language_codes": set(),
     "preflight": set(),
     "units": set(),

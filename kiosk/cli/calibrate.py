@@ -11,7 +11,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option, progress_bar
-from kiosk.training.policies import check_writable, write_policy
+from kiosk.files import check_writable, write_file
 
 
 def analysis(module: str) -> Any:
@@ -52,9 +52,9 @@ def calibrate_command(
         checked = checks.check_calibration(study, found, seed, progress)
     document = {"model": player} | found.to_json() | {"left_out": study.left_out}
     if out is not None:
-        write_policy(out, json.dumps(document, indent=2) + "\n")
+        write_file(out, json.dumps(document, indent=2) + "\n")
     if page is not None:
-        write_policy(page, checks.calibration_page(dataset.resolve().name, found, checked))
+        write_file(page, checks.calibration_page(dataset.resolve().name, found, checked))
     if as_json:
         click.echo(json.dumps(document | checked.to_json()))
         return

@@ -22,6 +22,7 @@ from kiosk.cli import evidence
 from kiosk.cli.options import progress_bar
 from kiosk.config import KNOWN_CONDITIONS
 from kiosk.experiment.condition import Condition, target_rule
+from kiosk.files import check_writable, write_file
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
 from kiosk.training.rewards import Reward
@@ -160,14 +161,14 @@ def train_command(out: Path, name: str | None, reward: str, json_: bool, **optio
     """Learn a table and freeze it. What is not said follows from the reward; see docs/learning.md."""
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
-    policies.check_writable(out)
+    check_writable(out)
     learner = Learner(recipe)
     with progress_bar("training", recipe.episodes, hidden=json_) as progress, ctrl_c() as pressed:
         learner.study(progress, pressed)
     if learner.episodes < recipe.episodes:
         _leave_checkpoint(learner, name, out)
     table = learner.freeze(name, train_command_line(recipe, name))
-    policies.write_policy(out, table.to_json())
+    write_file(out, table.to_json())
     _say(
         {"policy": name, "file": str(out), "episodes": learner.episodes, "sha256": table.sha256},
         f"{out}: the table {name!r} after {learner.episodes:,} episodes, sha256 {table.sha256}",
@@ -180,7 +181,7 @@ def _leave_checkpoint(learner: Learner, name: str, out: Path) -> None:
         click.echo("recollect: stopped before the first episodes were through; nothing was written", err=True)
         sys.exit(STOPPED)
     beside = out.with_suffix(f".checkpoint{out.suffix}")
-    policies.write_policy(beside, learner.freeze(name, train_command_line(learner.recipe, name)).to_json())
+    write_file(beside, learner.freeze(name, train_command_line(learner.recipe, name)).to_json())
     click.echo(
         f"recollect: stopped after {learner.episodes:,} of {learner.recipe.episodes:,} episodes; "
         f"what is known so far is a usable policy in {beside}, and {out} is as it was",
@@ -326,7 +327,7 @@ def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: F
     """Print a table: what it does in each state, the values, and how often the state was met in training."""
     table = QTable.named(file)
     if figure is not None:
-        policies.write_policy(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
+        write_file(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
     met = policies.visits(table)
     rows = {state.label: {"action": table.action(state).label, "visits": met.get(state, 0)} for state in table.states}
     document = {"policy": table.name, "sha256": table.sha256, "training": dict(table.training), "states": rows}
@@ -422,5 +423,5 @@ def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_
 def _draw_figures(folder: Path, games: int, seed: int) -> None:
     drawn = _drawn()
     table = QTable.named("default")
-    policies.write_policy(folder / "policy.svg", drawn.heat_map(table, policies.visits(table), "svg"))
-    policies.write_policy(folder / "games.svg", drawn.distributions(evidence.figure_samples(games, seed), "svg"))
+    write_file(folder / "policy.svg", drawn.heat_map(table, policies.visits(table), "svg"))
+    write_file(folder / "games.svg", drawn.distributions(evidence.figure_samples(games, seed), "svg"))

@@ -16,8 +16,8 @@ from kiosk.assistance.policy import QTable
 from kiosk.cli.calibrate import analysis
 from kiosk.cli.options import data_option, json_option, progress_bar
 from kiosk.experiment.condition import Condition
+from kiosk.files import check_writable, write_file
 from kiosk.store.plans import freeze_plan, frozen_plans, games_per_condition, record_look
-from kiosk.training.policies import check_writable, write_policy
 from kiosk.training.simulated_players import PopulationPlayer
 
 LARGEST_SIZE = 10_000
@@ -51,7 +51,7 @@ def plan_new(file: Path, *, as_json: bool) -> None:
     """Write a plan to begin with: the paper's study with modern defaults."""
     if file.exists():
         raise UserInputError(f"{file} is there already; choose another name")
-    write_policy(file, analysis("plan").TEMPLATE)
+    write_file(file, analysis("plan").TEMPLATE)
     click.echo(json.dumps({"plan": str(file)}) if as_json else f"Written: {file}")
 
 
@@ -221,7 +221,7 @@ def plan_power(
         found = power.sequential_rejections(job, signed)
         document["sequential"] = {name: {"rejected": r, "mean_n": n} for name, (r, n) in found.items()}
     if curve is not None:
-        write_policy(curve, power.curve(rows))
+        write_file(curve, power.curve(rows))
     click.echo(json.dumps(document) if as_json else _in_words(document))
 
 

@@ -12,7 +12,7 @@ from kiosk import UserInputError
 from kiosk.cli.calibrate import analysis
 from kiosk.cli.options import json_option
 from kiosk.export.layouts import new_folder, write_text
-from kiosk.training.policies import check_writable, write_policy
+from kiosk.files import check_writable, write_file
 
 PAGE = Path("report.html")
 
@@ -79,7 +79,7 @@ def _write(out: Path, page: Any, document: dict[str, Any]) -> None:
     """Write the page into its file, or the page, its parts and all numbers into a new folder."""
     module = analysis("page")
     if _is_page(out):
-        write_policy(out, module.to_html(page))
+        write_file(out, module.to_html(page))
         return
     with new_folder(out) as folder:
         write_text(folder / "report.html", module.to_html(page))

@@ -18,10 +18,11 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from tomlkit.items import Array, InlineTable, Table
 
-from kiosk import UserInputError, unwritable
+from kiosk import UserInputError
 from kiosk.errors import error_message, validation_errors, validation_messages
 from kiosk.experiment.items import BaseItem, Question
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
+from kiosk.files import write_file
 from kiosk.language_codes import is_right, standard
 
 _YES = dict.fromkeys(
@@ -361,13 +362,7 @@ def write_questionnaire(questionnaire: Questionnaire, out: Path) -> None:
     text = as_toml(questionnaire)
     if out.exists():
         raise UserInputError(f"{out} is there already; choose another name")
-    part = out.with_name(f"{out.name}.part")
-    try:
-        part.write_text(text, "utf-8", newline="\n")
-        part.replace(out)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise unwritable(f"{out} cannot be written", error) from error
+    write_file(out, text)
 
 
 def as_toml(questionnaire: Questionnaire) -> str:

@@ -1,44 +1,13 @@
-"""Policy files: those that are shipped, writing one atomically, and claims about a table.
+"""Policy files: those that are shipped, and claims about a table.
 
 What a table must do to be the paper's policy stands here as checks; how well it does so is for simulation.
 """
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 
-from kiosk import UserInputError, unwritable
 from kiosk.assistance.policy import ActionSpec, Gate, MoveOutcome, Phase, QTable, State
-
-
-def check_writable(path: Path) -> Path:
-    """Where a file is to be written, links followed; raises UserInputError for what no file can take the place of."""
-    place = path.resolve()
-    if place.exists() and not place.is_file():
-        raise UserInputError(f"{path} cannot be written: it is not a file")
-    if not place.parent.is_dir():
-        raise UserInputError(f"{path} cannot be written: there is no folder {place.parent}")
-    return place
-
-
-def write_policy(path: Path, content: str | bytes) -> None:
-    """Put a file in its place whole, or raise UserInputError and leave what was there untouched."""
-    path = check_writable(path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.new")
-    data = content.encode() if isinstance(content, str) else content
-    try:
-        with beside.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
-    except OSError as error:
-        with suppress(OSError):
-            beside.unlink()
-        raise unwritable(f"{path} cannot be written", error) from error
 
 
 def visits(policy: QTable) -> dict[State, int]:

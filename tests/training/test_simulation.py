@@ -5,9 +5,7 @@ The games here are few, and the intervals wide; the figures in docs/learning.md 
 
 from __future__ import annotations
 
-import errno
 import math
-import os
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kiosk import StorageError, UserInputError
+from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, MoveOutcome, PolicyError, QTable, State
 from kiosk.cli.evidence import difference
@@ -206,24 +204,3 @@ def test_every_shipped_table_is_found_by_its_name_and_has_a_card(name: str) -> N
 def test_a_policy_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(PolicyError, match="cannot be read: No such file or directory"):
         QTable.named(str(tmp_path / "nothing.json"))
-
-
-def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
-    file = tmp_path / "policy.json"
-    policies.write_policy(file, "old")
-    policies.write_policy(file, "new")
-    assert file.read_text("utf-8") == "new"
-    assert list(tmp_path.iterdir()) == [file]
-
-
-def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(_: int) -> None:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    file = tmp_path / "policy.json"
-    policies.write_policy(file, "old")
-    monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(StorageError, match=r"policy\.json cannot be written: disk full"):
-        policies.write_policy(file, "new")
-    assert file.read_text("utf-8") == "old"
-    assert list(tmp_path.iterdir()) == [file]

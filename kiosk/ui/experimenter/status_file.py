@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import logging
-import secrets
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from kiosk import why
 from kiosk.experiment.booth_status import CLOSED, FILE, WRITE_EVERY_S, BoothStatus, DayCounts, EndedSession
+from kiosk.files import replace_file
 from kiosk.ui.event_loop import Clock, Executor, TimerWait
 from kiosk.units import MS_PER_SECOND
 
@@ -88,13 +88,8 @@ class StatusFile:
 
 def write_status(file: Path, status: BoothStatus) -> str:
     """Replace the file as a whole, for its owner alone; returns why it could not be, or an empty text."""
-    fresh = file.with_name(f"{file.name}.{secrets.token_hex(4)}")
     try:
-        fresh.touch(0o600, exist_ok=False)
-        fresh.write_text(status.to_json(), "utf-8")
-        fresh.replace(file)
+        replace_file(file, status.to_json(), 0o600, durable=False)
     except OSError as error:
-        with suppress(OSError):
-            fresh.unlink(missing_ok=True)
-        return error.strerror or str(error)
+        return why(error)
     return ""
