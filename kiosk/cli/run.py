@@ -73,11 +73,11 @@ def run_command(
 ) -> None:
     """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
     if supervise:
-        options = ("--data", str(data), "--site", site, *(("--study", str(study)) if study else ()))
-        robot = (*(("--robot-host", robot_host) if robot_host is not None else ()),)
-        robot += ("--robot-port", str(robot_port)) if robot_port is not None else ()
         _refuse_without_pin(study)
-        kiosk = program("run", "--unattended", *options, *robot, *(("--window",) if window else ()))
+        given = {"--study": study, "--robot-host": robot_host, "--robot-port": robot_port}
+        options = (str(word) for option in given.items() if option[1] is not None for word in option)
+        flags = ("--unattended", "--window") if window else ("--unattended",)
+        kiosk = program("run", *flags, "--data", str(data), "--site", site, *options)
         context.exit(_supervise(kiosk, data, silence, as_json=as_json))
     with guarded() as beat:
         told = _open(data, study, site, robot_host, robot_port, beat, unattended=unattended, window=window)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,7 @@ from kiosk.ui.rehearsal import make_folder
 from kiosk.ui.replay import Replay
 from kiosk.ui.replay_controls import FASTEST, SLOWEST
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
-from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
+from kiosk.units import MS_PER_SECOND
 
 WIDTH = 150
 """Characters that a line of the list may need."""
@@ -226,8 +226,9 @@ def _status_lines(status: BoothStatus, now: datetime, *, alive: bool) -> Iterato
 
 
 def _minutes(iso: str, now: datetime) -> str:
-    minutes = int((now - datetime.fromisoformat(iso)).total_seconds() // SECONDS_PER_MINUTE)
-    return f"{minutes} min" if minutes < SECONDS_PER_MINUTE else f"{minutes // 60} h {minutes % 60} min"
+    minutes = (now - datetime.fromisoformat(iso)) // timedelta(minutes=1)
+    hours, rest = divmod(minutes, 60)
+    return f"{hours} h {rest} min" if hours else f"{minutes} min"
 
 
 def _printable(text: str) -> str:

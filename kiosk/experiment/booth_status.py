@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from typing import Any, Self
 
+from kiosk.units import MS_PER_SECOND
+
 FORMAT = "recollect-status-1"
 FILE = "status.json"
 """What the file in the data folder is called."""
@@ -112,7 +114,7 @@ class BoothStatus:
 
 def utc(wall_ms: int) -> str:
     """Return a time of the wall's clock, in ms since 1970, as status.json writes it."""
-    return datetime.fromtimestamp(wall_ms / 1000, UTC).isoformat(timespec="seconds")
+    return datetime.fromtimestamp(wall_ms / MS_PER_SECOND, UTC).isoformat(timespec="seconds")
 
 
 def _without_time(status: BoothStatus) -> Mapping[str, Any]:

@@ -63,7 +63,7 @@ def newest_write(folder: Path) -> datetime | None:
     return datetime.fromtimestamp(written_ms / MS_PER_SECOND, UTC) if written_ms else None
 
 
-DATABASE, SESSIONS, COPY, LIST = "database", "sessions", "backup", "allocation_list"
+DATABASE, SESSIONS, COPY, LIST = "database", "sessions", "backup", "allocation list"
 
 OLD = timedelta(days=1)
 """A copy that is older than a day's sessions leaves a day to be lost."""

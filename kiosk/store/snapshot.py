@@ -20,9 +20,7 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment, participant_name
 from kiosk.store.recorder import Provenance
-from kiosk.units import MS_PER_SECOND
-
-SECONDS_PER_HOUR = 3600
+from kiosk.units import MS_PER_HOUR, MS_PER_SECOND
 
 LAST = 8
 """How many sessions are shown."""
@@ -88,7 +86,7 @@ def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCoun
     Looks at no more than the newest DAY_LIMIT sessions. Raises UserInputError if there is no database to read.
     """
     midnight = now.replace(hour=0, minute=0, second=0, microsecond=0).timestamp() * MS_PER_SECOND
-    hour_ago = (now.timestamp() - SECONDS_PER_HOUR) * MS_PER_SECOND
+    hour_ago = now.timestamp() * MS_PER_SECOND - MS_PER_HOUR
     with _looking_at(folder) as connection:
         rows = connection.execute(_DAY, {"kind": int(kind), "limit": DAY_LIMIT}).fetchall()
     today = [(status, ended_ms, stage) for began, status, ended_ms, stage in rows if _ms(began) >= midnight]

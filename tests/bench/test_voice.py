@@ -107,7 +107,7 @@ def latencies_ms(
         with server.microphone() as microphone:
             ear = Ear(microphone)
             listening = time.monotonic()
-            # The virtual loudspeaker took samples ahead while nobody listened.
+            # The virtual loudspeaker took samples ahead before the listener began.
             qtbot.waitUntil(lambda: time.monotonic() - listening > SETTLING_S, timeout=int(PATIENCE_S * 1000))
 
             def say() -> None:

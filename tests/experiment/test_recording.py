@@ -87,7 +87,7 @@ def test_it_is_kept_with_the_first_stage_past_deciding_whichever_that_is(chosen:
 
 
 def declined() -> Driver:
-    """Return a visitor who has just said that nothing shall be stored."""
+    """Return a visitor who has just declined to be stored."""
     driver = driven_to(Stage.CONSENT)
     driver.decline()
     return driver

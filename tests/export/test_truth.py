@@ -51,7 +51,7 @@ WRONG: dict[str, tuple[Callable[[Row], bool], Callable[[Row], Row]]] = {
         any_hint,
         lambda h: {"move_card": "first" if h["move_card"] == "second" else "second"},
     ),
-    "a sentence that nobody knows": (any_hint, lambda _: {"sentence": "You are doing well, go on."}),
+    "a sentence of no language": (any_hint, lambda _: {"sentence": "You are doing well, go on."}),
     "no reason where one is given": (
         lambda h: h["sentence"].startswith("You have seen") and ". " in h["sentence"],
         lambda h: {"sentence": h["sentence"].split(". ", 1)[1]},

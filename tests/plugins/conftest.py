@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 
+from kiosk import UserInputError
 from kiosk.assistance.policy import find_action
 from kiosk.extensions import installed
 
@@ -150,6 +151,14 @@ def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[
     checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
     results = json.loads(checked.stdout)["results"]
     return {result["name"]: (result["severity"], result["message"]) for result in results}
+
+
+def assert_refused(load: Callable[[], object], what: str, why: str) -> None:
+    """Check that a broken extension of the package a-lab is refused, with its name and the reason."""
+    with pytest.raises(UserInputError) as refused:
+        load()
+    assert str(refused.value).startswith(f"{what} of the package a-lab 0.1 cannot be used: ")
+    assert why in str(refused.value)
 
 
 Beside = Callable[[Path], None]

@@ -10,10 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import UserInputError
 from kiosk.assistance.policy import load_action
 from kiosk.extensions import ExtensionGroup, find
-from tests.plugins.conftest import Beside, Day, Lab, Register
+from tests.plugins.conftest import Beside, Day, Lab, Register, assert_refused
 
 FILES = ("pyproject.toml", "recollect_encourage/__init__.py", "recollect_encourage/sentences/en.ftl")
 SENTENCES = ("You are doing well, go on.", "Take your time, you can do it.", "Every card you see helps you later.")
@@ -81,10 +80,7 @@ BROKEN = {
 @pytest.mark.parametrize(("code", "why"), BROKEN.values(), ids=BROKEN)
 def test_it_is_said_what_is_wrong_with_a_broken_one(beside: Beside, register: Register, code: str, why: str) -> None:
     beside(register("a-lab", "recollect.actions", {"encourage": "a_lab:ENCOURAGE"}, a_lab=code))
-    with pytest.raises(UserInputError) as refused:
-        load_action(find(ExtensionGroup.ACTIONS, "encourage"))
-    assert str(refused.value).startswith("the action 'encourage' of the package a-lab 0.1 cannot be used: ")
-    assert why in str(refused.value)
+    assert_refused(lambda: load_action(find(ExtensionGroup.ACTIONS, "encourage")), "the action 'encourage'", why)
 
 
 def test_a_study_with_a_broken_one_is_refused_without_a_traceback(

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import UserInputError
 from kiosk.experiment.questionnaire import load_item
 from kiosk.extensions import ExtensionGroup, find
-from tests.plugins.conftest import QUESTIONS, Beside, Day, Lab, Register
+from tests.plugins.conftest import QUESTIONS, Beside, Day, Lab, Register, assert_refused
 
 FILES = ("pyproject.toml", "recollect_ranking/__init__.py", "recollect_ranking/Ranking.qml")
 
@@ -71,10 +70,7 @@ BROKEN = {
 @pytest.mark.parametrize(("code", "why"), BROKEN.values(), ids=BROKEN)
 def test_it_is_said_what_is_wrong_with_a_broken_one(beside: Beside, register: Register, code: str, why: str) -> None:
     beside(register("a-lab", "recollect.items", {"ranking": "a_lab:Ranking"}, a_lab=code))
-    with pytest.raises(UserInputError) as refused:
-        load_item(find(ExtensionGroup.ITEMS, "ranking"))
-    assert str(refused.value).startswith("the kind of item 'ranking' of the package a-lab 0.1 cannot be used: ")
-    assert why in str(refused.value)
+    assert_refused(lambda: load_item(find(ExtensionGroup.ITEMS, "ranking")), "the kind of item 'ranking'", why)
 
 
 def test_a_broken_kind_gets_a_sentence_where_it_is_used_and_nowhere_else(

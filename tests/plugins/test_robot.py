@@ -7,12 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import UserInputError
 from kiosk.cli.check import extensions_check
 from kiosk.extensions import ExtensionGroup, find
 from kiosk.preflight import Severity
 from kiosk.robots.registry import load_driver
-from tests.plugins.conftest import Beside, Day, Lab, Register
+from tests.plugins.conftest import Beside, Day, Lab, Register, assert_refused
 
 
 def study(folder: Path, more: str = "") -> Path:
@@ -66,10 +65,7 @@ BROKEN = {
 @pytest.mark.parametrize(("code", "why"), BROKEN.values(), ids=BROKEN)
 def test_it_is_said_what_is_wrong_with_a_broken_one(beside: Beside, register: Register, code: str, why: str) -> None:
     beside(register("a-lab", "recollect.robots", {"printing": "a_lab:PrintingRobot"}, a_lab=code))
-    with pytest.raises(UserInputError) as refused:
-        load_driver(find(ExtensionGroup.ROBOTS, "printing"))
-    assert str(refused.value).startswith("the robot 'printing' of the package a-lab 0.1 cannot be used: ")
-    assert why in str(refused.value)
+    assert_refused(lambda: load_driver(find(ExtensionGroup.ROBOTS, "printing")), "the robot 'printing'", why)
 
 
 def test_a_study_with_a_broken_one_is_refused_without_a_traceback(

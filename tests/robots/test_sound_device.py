@@ -164,7 +164,7 @@ def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_pla
 
 @pytest.fixture
 def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
-    """Provide a loudspeaker that nobody hears."""
+    """Provide a virtual loudspeaker."""
     server = PulseServer(tmp_path)
     server.start()
     for name in ("PULSE_SERVER", "PULSE_RUNTIME_PATH", "XDG_RUNTIME_DIR"):

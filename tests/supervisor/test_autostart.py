@@ -13,7 +13,7 @@ from kiosk.preflight import Severity
 
 @pytest.fixture
 def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a machine on which nobody keeps anything; its user's home and programs."""
+    """Return a machine without a supervisor: its user's home and programs."""
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(looked, "supervisor_runs", lambda: False)

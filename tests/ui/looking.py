@@ -90,7 +90,7 @@ def painted(text: QQuickItem) -> QRect:
 
 
 def described(item: QQuickItem) -> tuple[QAccessible.Role, str]:
-    """Return what a program that reads the screen is told of an item: its role and its name."""
+    """Return the role and the name of an item for screen readers."""
     told = QAccessible.queryAccessibleInterface(item)
     if not isinstance(told, QAccessibleInterface):
         return QAccessible.Role.NoRole, ""

@@ -57,7 +57,7 @@ class Stage:
 
 @pytest.fixture
 def stage(qapp: object) -> Stage:
-    """Return a screen that nobody plays on."""
+    """Return a screen without a game."""
     assert qapp is not None
     return Stage()
 

@@ -143,7 +143,7 @@ class FakeDesktop:
 
 @pytest.fixture
 def desktop() -> FakeDesktop:
-    """Return a desktop that does as it is told."""
+    """Return a desktop that answers every request."""
     return FakeDesktop()
 
 

@@ -21,10 +21,9 @@ from kiosk.store.participants import CountCell, Disposition
 from kiosk.store.snapshot import DashboardSnapshot, SnapshotAuditEvent, SnapshotSession
 from kiosk.ui.experimenter.maintenance import BackupOutcome
 from kiosk.ui.experimenter.view_model import Row
-from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
+from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, MS_PER_SECOND
 
 SHORT_SHA = 8
-MS_PER_HOUR = 60 * MS_PER_MINUTE
 DRIFT_MS = 60_000
 """So far may the wall's clock go from one that cannot be set, or stand before what was last written."""
 
