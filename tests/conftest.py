@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 from tempfile import TemporaryDirectory
 
 import pytest
@@ -18,6 +19,16 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     config.stash[HOME] = TemporaryDirectory(prefix="recollect-tests-")
     os.environ["XDG_DATA_HOME"] = config.stash[HOME].name
+    _keep_bytecode()
+
+
+def _keep_bytecode() -> None:
+    """Let this process, and those that it starts, keep compiled modules, also where the environment forbids it.
+
+    The tests start the program some two hundred times, and each start would compile all of it anew.
+    """
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False
 
 
 def pytest_collection_finish() -> None:

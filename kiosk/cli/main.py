@@ -16,35 +16,101 @@ from typing import Never
 import click
 
 from kiosk import DISK_FULL, StorageError, UserInputError, __version__, why
-from kiosk.ui.qt_platform import missing_library
 
 DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
 
 _COMMANDS = {
-    "run": "kiosk.cli.run:run_command",
-    "rehearse": "kiosk.cli.rehearse:rehearse",
-    "check": "kiosk.cli.check:check_command",
-    "study": "kiosk.cli.study:study",
-    "robot": "kiosk.cli.robot:robot_command",
-    "voice": "kiosk.cli.voice:voice_group",
-    "status": "kiosk.cli.sessions:status_command",
-    "sessions": "kiosk.cli.sessions:sessions_command",
-    "events": "kiosk.cli.sessions:events_command",
-    "replay": "kiosk.cli.sessions:replay_command",
-    "explain": "kiosk.cli.explain:explain_command",
-    "backup": "kiosk.cli.data:backup_command",
-    "verify": "kiosk.cli.data:verify_command",
-    "withdraw": "kiosk.cli.data:withdraw_command",
-    "merge": "kiosk.cli.data:merge_command",
-    "export": "kiosk.cli.data:export_command",
-    "report": "kiosk.cli.report:report_command",
-    "calibrate": "kiosk.cli.calibrate:calibrate_command",
-    "plan": "kiosk.cli.plan:plan_group",
-    "train": "kiosk.cli.learning:train_command",
-    "simulate": "kiosk.cli.learning:simulate_command",
-    "policy": "kiosk.cli.learning:policy_group",
+    "run": (
+        "kiosk.cli.run:run_command",
+        "Open the kiosk for visitors; Ctrl+Shift+Q leaves it.",
+    ),
+    "rehearse": (
+        "kiosk.cli.rehearse:rehearse",
+        "Let a simulated visitor go through a session at the real window, or many of them through a day.",
+    ),
+    "check": (
+        "kiosk.cli.check:check_command",
+        "Try everything that a booth needs; exit code 1 if no session can be held.",
+    ),
+    "study": (
+        "kiosk.cli.study:study",
+        "Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN.",
+    ),
+    "robot": (
+        "kiosk.cli.robot:robot_command",
+        "Try a robot step by step, and say what it has and what it does.",
+    ),
+    "voice": (
+        "kiosk.cli.voice:voice_group",
+        "Make voice packs from an engine or from a person's recordings, and look at them.",
+    ),
+    "status": (
+        "kiosk.cli.sessions:status_command",
+        "Show how the booth is now: stage, today's sessions, robot, voice, disk, backup.",
+    ),
+    "sessions": (
+        "kiosk.cli.sessions:sessions_command",
+        "List the stored sessions: when, in which condition, how and where they ended.",
+    ),
+    "events": (
+        "kiosk.cli.sessions:events_command",
+        "List what happened in a SESSION, in the order in which it was written.",
+    ),
+    "replay": (
+        "kiosk.cli.sessions:replay_command",
+        "Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.",
+    ),
+    "explain": (
+        "kiosk.cli.explain:explain_command",
+        "Explain one decision: of a moment in a case file, or, with --flip, of a stored session.",
+    ),
+    "backup": (
+        "kiosk.cli.data:backup_command",
+        "Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed.",
+    ),
+    "verify": (
+        "kiosk.cli.data:verify_command",
+        "Check the database row by row; exit code 1 if anything is wrong.",
+    ),
+    "withdraw": (
+        "kiosk.cli.data:withdraw_command",
+        "Delete all that is stored of the participant who has this CODE; only a count stays.",
+    ),
+    "merge": (
+        "kiosk.cli.data:merge_command",
+        "Bring the data folders A, B and so on together in a new one; they stay as they are.",
+    ),
+    "export": (
+        "kiosk.cli.data:export_command",
+        "Write a data set for publishing: every table with a codebook, as Psych-DS asks for.",
+    ),
+    "report": (
+        "kiosk.cli.report:report_command",
+        "Analyse an exported data set: who took part, every test, figures, and tables for a paper.",
+    ),
+    "calibrate": (
+        "kiosk.cli.calibrate:calibrate_command",
+        "Estimate forgetting, following and lapses of the people in an exported DATASET.",
+    ),
+    "plan": (
+        "kiosk.cli.plan:plan_group",
+        "Plan a study before its first participant; see docs/plan.md.",
+    ),
+    "train": (
+        "kiosk.cli.learning:train_command",
+        "Learn a table and freeze it.",
+    ),
+    "simulate": (
+        "kiosk.cli.learning:simulate_command",
+        "Play many games with a simulated player under a frozen table, and measure them as the study does.",
+    ),
+    "policy": (
+        "kiosk.cli.learning:policy_group",
+        "Look at policy files.",
+    ),
 }
+"""Each command by its name: where it is, and the first sentence of its help, which loads none of them."""
 _WORKERS = {
     "_display": "kiosk.cli.workers:display_command",
     "_splash": "kiosk.cli.workers:splash_command",
@@ -64,12 +130,21 @@ class RootGroup(click.Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
         """Load one command."""
-        place = (_COMMANDS | _WORKERS).get(cmd_name)
+        place = _COMMANDS[cmd_name][0] if cmd_name in _COMMANDS else _WORKERS.get(cmd_name)
         if place is None:
             return None
         module, name = place.split(":")
         command: click.Command = getattr(import_module(module), name)
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
+        """Write the list of commands as click does, from the table instead of the commands."""
+        room = formatter.width - 6 - max(map(len, _COMMANDS))
+        rows = [
+            (name, click.Command(name, help=told).get_short_help_str(room)) for name, (_, told) in _COMMANDS.items()
+        ]
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)
 
 
 @click.group(cls=RootGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
@@ -96,6 +171,8 @@ def main() -> Never:
         _say(str(failure))
         sys.exit(DISK_FAILED)
     except ImportError as error:
+        from kiosk.ui.qt_platform import missing_library  # noqa: PLC0415 - most commands never need it
+
         missing = missing_library(error)
         if missing is None:
             raise

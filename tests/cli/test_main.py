@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import errno
 import os
+import subprocess
+import sys
 
+import click
 import pytest
 
 from kiosk import StorageError, UserInputError
@@ -49,3 +52,23 @@ def test_a_fault_of_ours_is_not_called_a_full_disk(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(main, "recollect", fail)
     with pytest.raises(PermissionError):
         main.main()
+
+
+def test_the_help_lists_each_command_by_the_first_sentence_of_its_own_help() -> None:
+    context = click.Context(main.recollect)
+    for name in main.recollect.list_commands(context):
+        command = main.recollect.get_command(context, name)
+        assert command is not None
+        assert main._COMMANDS[name][1] == command.get_short_help_str(200)
+
+
+def test_the_help_loads_no_command_and_no_large_library() -> None:
+    program = (
+        "import sys; from kiosk.cli.main import recollect\n"
+        "recollect(['--help'], standalone_mode=False)\n"
+        "print(*sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.splitlines()[-1].split())
+    assert {name for name in loaded if name.startswith("kiosk")} == {"kiosk", "kiosk.cli", "kiosk.cli.main"}
+    assert not loaded & {"pydantic", "numpy", "PySide6", "rich", "cattrs"}
