@@ -199,6 +199,7 @@ class AuditEvent(Enum):
     BACKUP_MADE = "BackupMade"
     BACKUP_FAILED = "BackupFailed"
     DISK_SPACE_CHANGED = "DiskSpaceChanged"
+    VOICE_CHANGED = "VoiceChanged"
 
 
 DEVIATIONS = frozenset(
@@ -214,6 +215,7 @@ DEVIATIONS = frozenset(
         AuditEvent.APPLICATION_QUIT,
         AuditEvent.BACKUP_FAILED,
         AuditEvent.DISK_SPACE_CHANGED,
+        AuditEvent.VOICE_CHANGED,
     }
 )
 """What a day's protocol has to tell; the rest is routine."""

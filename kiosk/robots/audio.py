@@ -42,6 +42,15 @@ STALLED_S = 1.5
 REOPEN_S = 2.0
 """How long after a failure the device is tried again."""
 
+PROVEN_S = 0.1
+"""A device that is opened again counts as back when it asks for samples this long after: all ask for some at once."""
+
+LOOK_S = 2.0
+"""How often a sound server is asked which devices it has."""
+
+RATES = (48_000, 44_100)
+"""Samples a second that are tried with a device that does not take the clips' own."""
+
 FADE_MS = 5
 """A sound that is broken off fades in this time: cut at once, it would click."""
 
@@ -49,6 +58,14 @@ NOWHERE = "null"
 """The device that keeps the time of a real one and is heard by no one; for rehearsals and tests."""
 
 NO_DEVICE = "there is no sound device"
+BUSY = "another program uses the sound device"
+GONE = "the sound device is gone"
+_BUSY_RESULTS = frozenset({-19, -103})
+"""miniaudio's ``MA_BUSY`` and ``MA_ALREADY_IN_USE``."""
+_PLACEHOLDER = b"auto_null\0"
+"""The sink that PulseAudio and PipeWire make up while there is no sound card; its name is translated, its id is not."""
+_SOUND_SERVER = "PulseAudio"
+"""The backend that moves a stream to another device, or to the placeholder, without a word."""
 
 FULL_LOUDNESS = 0.25
 """The root mean square, of full scale, at which the mouth is wide open: loud vowels reach about this."""
@@ -282,8 +299,9 @@ class _Sound:
 class StreamPlayer:
     """Plays through one stream that stays open: silence runs when nothing else does, so that a sound begins at once.
 
-    Starts and ends are posted when the samples have left the device's buffer. A device that goes away breaks off the
-    sound; it is tried again every two seconds.
+    Starts and ends are posted when the samples have left the device's buffer. A device that goes away, or that stops
+    asking for samples, breaks off the sound; it is tried again every two seconds. A device that does not take the rate
+    of the clips is opened at its own, and every clip is converted.
     """
 
     def __init__(self, post: Post, rate: int, device: str = "", volume: float = 1.0) -> None:
@@ -302,7 +320,11 @@ class StreamPlayer:
         self._asked_at = 0.0
         self._tried_at = 0.0
         self._stream: Any = None
-        self._is_open()
+        self._name = ""
+        self._missing = ""
+        self._closing = threading.Event()
+        if self._is_open():
+            self.device = self._name
 
     @property
     def busy(self) -> bool:
@@ -311,11 +333,11 @@ class StreamPlayer:
 
     def play(self, number: int | None, clip: Clip) -> None:
         """Begin to play, in place of any other sound."""
-        samples = clip.at_rate(self._rate).samples
-        if self._stream is None:
+        if not self.device:
             if number is not None:
                 self._post({"event": "broken", "id": number, "why": self.why})
             return
+        samples = clip.at_rate(self._rate).samples
         with self._lock:
             self._fade_out()
             self._sound = _Sound(number, samples, self._given)
@@ -333,50 +355,89 @@ class StreamPlayer:
         """Break off what a lost device played, and look for one."""
         now = time.monotonic()
         if self._stream is None:
-            if now - self._tried_at > REOPEN_S and self._is_open():
-                self._post({"event": "device", "device": self.device})
+            if now - self._tried_at > REOPEN_S:
+                self._is_open()
+        elif self._missing:
+            self._lose(self._missing)
         elif now - self._asked_at > STALLED_S:
-            self._lose("the sound device is gone")
+            self._lose(GONE)
+        elif not self.device and self._asked_at - self._tried_at > PROVEN_S:
+            self.device = self._name
+            self._post({"event": "device", "device": self.device})
 
     def close(self) -> None:
         """Let go of the device."""
+        self._closing.set()
         stream, self._stream = self._stream, None
         if stream is not None:
             stream.close()
 
     def _is_open(self) -> bool:
-        """Open the device; returns whether it could be."""
+        """Open the device; returns whether it could be. It has ``device`` only once it has proved to play."""
         self._tried_at = time.monotonic()
         try:
             chosen = _chosen(self._wanted)
-            stream = miniaudio.PlaybackDevice(
-                miniaudio.SampleFormat.SIGNED16,
-                1,
-                self._rate,
-                PERIOD_MS,
-                callback_periods=PERIODS,
-                app_name="Recollect",
-                **chosen.options,
-            )
+            stream = self._opened(chosen)
             asking = self._ask()
             next(asking)
             self._asked_at = time.monotonic()
             stream.start(asking)
-        except (miniaudio.MiniaudioError, LookupError) as error:
-            self.why = str(error) if isinstance(error, LookupError) else NO_DEVICE
+        except LookupError as error:
+            self.why = str(error)
+            return False
+        except miniaudio.MiniaudioError as error:
+            self.why = NO_DEVICE if _BUSY_RESULTS.isdisjoint(error.args) else BUSY
             return False
         self._stream = stream
-        self.device = chosen.name or f"system default ({stream.backend})"
+        self._missing = ""
+        self._name = chosen.name or f"system default ({stream.backend})"
+        if stream.backend == _SOUND_SERVER:
+            threading.Thread(target=self._watch, args=(stream,), daemon=True).start()
         return True
+
+    def _opened(self, chosen: _Chosen) -> Any:
+        """Open a device at the rate of most sounds, or at one that it takes; raises MiniaudioError."""
+        failure: Exception | None = None
+        for rate in (self._rate, *RATES):
+            try:
+                stream = miniaudio.PlaybackDevice(
+                    miniaudio.SampleFormat.SIGNED16,
+                    1,
+                    rate,
+                    PERIOD_MS,
+                    callback_periods=PERIODS,
+                    app_name="Recollect",
+                    **chosen.options,
+                )
+            except miniaudio.MiniaudioError as error:
+                failure = failure or error
+                continue
+            self._rate, self._held = rate, rate * PERIOD_MS * PERIODS // 1000
+            return stream
+        raise failure or miniaudio.MiniaudioError(NO_DEVICE)
+
+    def _watch(self, stream: Any) -> None:
+        """Ask the sound server, as long as a stream is open, whether its device is still there."""
+        while not self._closing.wait(LOOK_S) and self._stream is stream:
+            try:
+                _chosen(self._wanted)
+            except LookupError as error:
+                self._missing = str(error)
+                return
+            except miniaudio.MiniaudioError:
+                self._missing = GONE
+                return
 
     def _lose(self, why: str) -> None:
         stream, self._stream = self._stream, None
+        was_there = bool(self.device)
         self.device, self.why = "", why
         with self._lock:
             sound, self._sound = self._sound, None
         if sound is not None and sound.number is not None:
             self._post({"event": "broken", "id": sound.number, "why": why})
-        self._post({"event": "device", "device": "", "why": why})
+        if was_there:
+            self._post({"event": "device", "device": "", "why": why})
         # A device that hangs may not come back from this.
         threading.Thread(target=stream.close, daemon=True).start()
         self._tried_at = time.monotonic()
@@ -438,18 +499,29 @@ class _Chosen:
 
 
 def _chosen(wanted: str) -> _Chosen:
-    """Find a device by its name or a part of it; raises LookupError with the names that there are."""
+    """Find a device by its name or a part of it; raises LookupError with the names that there are.
+
+    Raises LookupError as well where a sound server has nothing but its placeholder for a sound card.
+    """
     if wanted == NOWHERE:
         return _Chosen(NOWHERE, {"backends": [miniaudio.Backend.NULL]})
     real = [backend for backend in miniaudio.Backend if backend is not miniaudio.Backend.NULL]
     real = [backend for backend in real if miniaudio.is_backend_enabled(backend)]
+    there = _playbacks(real)
     if not wanted:
+        if there and all(bytes(miniaudio.ffi.buffer(each)).startswith(_PLACEHOLDER) for each in there.values()):
+            raise LookupError(f"{NO_DEVICE}, only {', '.join(there)}, which nobody hears")
         return _Chosen("", {"backends": real})
-    there = {str(each["name"]): each["id"] for each in miniaudio.Devices(real).get_playbacks()}
     name = next((name for name in there if wanted.casefold() in name.casefold()), None)
     if name is None:
         raise LookupError(f"there is no sound device {wanted!r}, only {', '.join(there) or 'none'}")
     return _Chosen(name, {"backends": real, "device_id": there[name]})
+
+
+def _playbacks(backends: list[Any]) -> dict[str, Any]:
+    """Return the ids of the sound devices by their names; raises MiniaudioError."""
+    devices = miniaudio.Devices(backends)
+    return {str(each["name"]): each["id"] for each in devices.get_playbacks()}
 
 
 _QUIET = {"aplay": ("-q",), "afplay": ()}

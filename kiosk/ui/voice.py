@@ -53,6 +53,8 @@ class Voice(QObject):
     """The shapes of its mouth at each step of 40 ms."""
     finished = Signal(int)
     failed = Signal(int, str)
+    health_changed = Signal(bool, str)
+    """Whether sentences are heard from now on, and ``health``'s words for it."""
 
     def set_language(self, language: str) -> None:
         """Speak this language from the next sentence on."""
@@ -206,6 +208,13 @@ class EngineVoice(Voice):
         """What the engine said of itself, or why it is gone."""
         return self._health
 
+    def _take_health(self, health: Health) -> None:
+        was_ok, self._health = self._health.is_ok, health
+        if not health.is_ok:
+            _log.warning("%s", health.message)
+        if health.is_ok is not was_ok:
+            self.health_changed.emit(health.is_ok, health.message)
+
     def close(self) -> None:
         """End the process."""
         self._saying = None
@@ -253,9 +262,8 @@ class EngineVoice(Voice):
         if kind == "device":
             self._notice_device(event)
         if kind == "unavailable":
-            _log.warning("there is no voice: %s", event.get("why"))
             self._failures = MAX_FAILURES
-            self._health = Health(is_ok=False, message=f"sentences are only shown: {event.get('why')}")
+            self._take_health(Health(is_ok=False, message=f"sentences are only shown: {event.get('why')}"))
             self._give_up(str(event.get("why")))
         if event.get("id") != self._request or self._saying is None:
             return
@@ -274,9 +282,8 @@ class EngineVoice(Voice):
 
     def _notice_device(self, event: dict[str, Any]) -> None:
         """Note that the sound device was found, lost or found again."""
-        self._health = _found(self._language, self._name, str(event.get("device", "")), str(event.get("why", "")))
-        if not self._health.is_ok:
-            _log.warning("%s", self._health.message)
+        device, why = str(event.get("device", "")), str(event.get("why", ""))
+        self._take_health(_found(self._language, self._name, device, why))
 
     def _done(self) -> None:
         number, self._saying = self._saying, None
@@ -314,7 +321,8 @@ class EngineVoice(Voice):
         if self._failures < MAX_FAILURES:
             self._start()
         else:
-            self._health = Health(is_ok=False, message="sentences are only shown: the voice failed again and again")
+            words = "sentences are only shown: the voice failed again and again"
+            self._take_health(Health(is_ok=False, message=words))
 
     def _give_up(self, why: str) -> None:
         number, self._saying = self._saying, None

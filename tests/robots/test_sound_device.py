@@ -5,18 +5,21 @@ from __future__ import annotations
 import queue
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Generator, Iterator
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from kiosk.robots import audio
 from kiosk.robots.audio import NOWHERE, Clip, CommandPlayer, Player, StreamPlayer, joined
 from tests.robots import pulse
 from tests.robots.pulse import PulseServer
+
+miniaudio: Any = vars(audio)["miniaudio"]
 
 RATE = 16_000
 PATIENCE_S = 10.0
@@ -42,6 +45,60 @@ class Ears:
             except queue.Empty:
                 player.tend()
                 assert time.monotonic() < deadline, "nothing was posted"
+
+
+class FakeDevice:
+    """A sound device that takes samples when a test says so."""
+
+    opened: list[FakeDevice]
+    """Every one that was opened, the last one last."""
+    rates: set[int]
+    """Samples a second that it takes."""
+    results: list[int]
+    """What opening it returns, one after another; then it works."""
+    backend = "Fake"
+
+    def __init__(self, _format: object, _channels: int, rate: int, _period_ms: int, **_: object) -> None:
+        if self.results:
+            raise miniaudio.MiniaudioError("failed to init device", self.results.pop(0))
+        if rate not in self.rates:
+            raise miniaudio.MiniaudioError("failed to init device", miniaudio.lib.MA_FORMAT_NOT_SUPPORTED)
+        self.rate = rate
+        self.asking: Generator[bytes, int, None] | None = None
+        self.opened.append(self)
+
+    def start(self, asking: Generator[bytes, int, None]) -> None:
+        """Ask for what the buffer holds, as devices do."""
+        self.asking = asking
+        self.take(self.rate // 100)
+
+    def take(self, count: int) -> NDArray[np.int16]:
+        """Play so many samples."""
+        assert self.asking is not None
+        return np.frombuffer(self.asking.send(count), np.int16)
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+@pytest.fixture
+def devices(monkeypatch: pytest.MonkeyPatch) -> type[FakeDevice]:
+    """Put a device of the test's own in the place of the machine's, and try it again without a pause."""
+    fake = type("Fake", (FakeDevice,), {"opened": [], "rates": {RATE, 44_100, 48_000}, "results": []})
+    monkeypatch.setattr(miniaudio, "PlaybackDevice", fake)
+    monkeypatch.setattr(audio, "_chosen", lambda wanted: audio._Chosen(wanted or "loudspeaker", {}))
+    monkeypatch.setattr(audio, "REOPEN_S", 0.0)
+    monkeypatch.setattr(audio, "STALLED_S", 0.3)
+    monkeypatch.setattr(audio, "PROVEN_S", 0.02)
+    return fake
+
+
+def tended(player: StreamPlayer, holds: Callable[[], object]) -> None:
+    """Look after a player until something holds."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not holds():
+        player.tend()
+        assert time.monotonic() < deadline, "what was waited for never came"
 
 
 @pytest.fixture
@@ -108,6 +165,62 @@ def test_a_device_that_is_not_there_is_named_and_every_sentence_is_given_up(ears
     assert player.device == ""
     assert player.why in {post["why"], audio.NO_DEVICE}
     player.close()
+
+
+@streams
+@pytest.mark.parametrize("only", [44_100, 48_000])
+def test_a_device_of_another_rate_plays_a_clip_at_its_own_height_and_length(
+    ears: Ears, devices: type[FakeDevice], only: int
+) -> None:
+    devices.rates = {only}
+    player = StreamPlayer(ears.posts.put, RATE)
+    player.play(1, TONE)
+    played = devices.opened[-1].take(only)
+    heard = np.flatnonzero(np.abs(played) > 1000)
+    assert (heard[-1] - heard[0]) / only == pytest.approx(TONE.duration_ms / 1000, abs=0.005)
+    spectrum = np.abs(np.fft.rfft(played[heard[0] : heard[-1]]))
+    assert spectrum.argmax() * only / (heard[-1] - heard[0]) == pytest.approx(440, abs=5)
+    devices.opened[-1].take(only // 50)
+    assert [ears.next(player)["event"], ears.next(player)["event"]] == ["started", "finished"]
+
+
+@streams
+def test_a_device_that_another_program_holds_is_called_busy_and_taken_when_it_is_free(
+    ears: Ears, devices: type[FakeDevice]
+) -> None:
+    devices.results = [miniaudio.lib.MA_BUSY] * 3
+    player = StreamPlayer(ears.posts.put, RATE)
+    assert (player.device, player.why) == ("", audio.BUSY)
+    player.play(1, TONE)
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.BUSY}
+    tended(player, lambda: devices.opened)
+    tended(player, lambda: devices.opened[-1].take(80).size and player.device)
+    assert ears.next(player) == {"event": "device", "device": "loudspeaker"}
+    player.play(2, TONE)
+    devices.opened[-1].take(RATE)
+    assert ears.next(player) == {"event": "started", "id": 2}
+
+
+@streams
+def test_a_machine_that_was_suspended_breaks_the_sentence_off_once_and_sounds_again_when_its_device_does(
+    ears: Ears, devices: type[FakeDevice]
+) -> None:
+    """The device opens, asks once for what its buffer holds, and then for nothing, as long as the machine likes."""
+    player = StreamPlayer(ears.posts.put, RATE)
+    player.play(1, LONG)
+    devices.opened[-1].take(RATE)
+    assert ears.next(player) == {"event": "started", "id": 1}
+    tended(player, lambda: len(devices.opened) == 4)
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.GONE}
+    assert ears.next(player) == {"event": "device", "device": "", "why": audio.GONE}
+    assert ears.posts.empty()
+    player.play(2, TONE)
+    assert ears.next(player) == {"event": "broken", "id": 2, "why": audio.GONE}
+    tended(player, lambda: devices.opened[-1].take(80).size and player.device)
+    assert ears.next(player) == {"event": "device", "device": "loudspeaker"}
+    player.play(3, TONE)
+    devices.opened[-1].take(RATE)
+    assert ears.next(player) == {"event": "started", "id": 3}
 
 
 @streams
@@ -203,4 +316,38 @@ def test_a_virtual_loudspeaker_is_given_the_sound_and_its_loss_and_return_are_to
         if player.device and not player.busy:
             player.play(next(numbers), TONE)
         post = ears.next(player)
+    player.close()
+
+
+@streams
+@virtual
+def test_a_loudspeaker_is_silent_while_it_is_suspended_and_is_not_the_placeholder_of_none(
+    server: PulseServer, ears: Ears, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(audio, "REOPEN_S", 0.2)
+    monkeypatch.setattr(audio, "LOOK_S", 0.2)
+    server.control("load-module", "module-always-sink")
+    player = StreamPlayer(ears.posts.put, RATE)
+    player.play(1, LONG)
+    assert ears.next(player)["event"] == "started"
+    server.control("suspend-sink", "booth", "1")
+    assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.GONE}
+    assert ears.next(player)["device"] == ""
+    server.control("suspend-sink", "booth", "0")
+    assert ears.next(player)["device"].startswith("system default")
+
+    player.play(2, LONG)
+    assert ears.next(player)["event"] == "started"
+    server.control("unload-module", "module-null-sink")
+    why = "there is no sound device, only Dummy Output, which nobody hears"
+    assert ears.next(player) == {"event": "broken", "id": 2, "why": why}
+    assert ears.next(player) == {"event": "device", "device": "", "why": why}
+    server.control("load-module", "module-null-sink", "sink_name=booth", "rate=44100", "norewinds=1")
+    assert ears.next(player)["device"].startswith("system default")
+    with server.microphone() as recorder:
+        pulse.heard(recorder, 4_800)
+        player.play(3, TONE)
+        recording = pulse.heard(recorder, 24_000)
+    spectrum = np.abs(np.fft.rfft(recording))
+    assert spectrum.argmax() * 2 == pytest.approx(440, abs=5)
     player.close()

@@ -239,7 +239,8 @@ print(json.dumps({"event": "ready", "voice": "en", "device": "Speaker"}), flush=
 n = json.loads(sys.stdin.readline())["say"]
 print(json.dumps({"event": "started", "id": n, "duration_ms": 9000, "loudness": []}), flush=True)
 print(json.dumps({"event": "failed", "id": n, "why": "the sound device is gone"}), flush=True)
-print(json.dumps({"event": "device", "device": "", "why": "the sound device is gone"}), flush=True)
+for _ in range(2):
+    print(json.dumps({"event": "device", "device": "", "why": "the sound device is gone"}), flush=True)
 sys.stdin.readline()
 print(json.dumps({"event": "device", "device": "Speaker", "why": ""}), flush=True)
 sys.stdin.read()
@@ -250,12 +251,15 @@ def test_a_sentence_whose_device_goes_away_fails_and_the_experimenter_is_told_un
     qtbot: QtBot, voices: list[EngineVoice], caplog: pytest.LogCaptureFixture
 ) -> None:
     voice = engine(voices, LOSES_ITS_DEVICE)
+    told: list[tuple[object, ...]] = []
+    voice.health_changed.connect(lambda *change: told.append(change))
     with qtbot.waitSignal(voice.failed) as failed:
         voice.say(1, "Hello")
     assert failed.args == [1, "the sound device is gone"]
     qtbot.waitUntil(lambda: voice.health.message == "sentences are only shown: the sound device is gone")
     voice.set_volume(0.5)
     qtbot.waitUntil(lambda: voice.health.is_ok)
+    assert told == [(False, "sentences are only shown: the sound device is gone"), (True, "the voice en speaks")]
     caplog.clear()
 
 

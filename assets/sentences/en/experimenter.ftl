@@ -132,6 +132,7 @@ console-note-session-resumed = session { $what } gone on with
 console-note-pin-refused = wrong PIN, number { $what } in a row
 console-note-application-quit = kiosk left in: { $what }
 console-note-backup-failed = no copy made: { $what }
+console-note-voice-changed = voice: { $what }
 console-note-disk-space-changed = disk: { $what }
 console-room-enough = room again
 console-room-warn = little room left

@@ -132,6 +132,7 @@ console-note-session-resumed = sesión { $what } reanudada
 console-note-pin-refused = PIN incorrecto, fallo { $what } seguido
 console-note-application-quit = quiosco cerrado en: { $what }
 console-note-backup-failed = copia no hecha: { $what }
+console-note-voice-changed = voz: { $what }
 console-note-disk-space-changed = disco: { $what }
 console-room-enough = de nuevo hay sitio
 console-room-warn = poco sitio

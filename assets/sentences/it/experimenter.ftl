@@ -132,6 +132,7 @@ console-note-session-resumed = seduta { $what } ripresa
 console-note-pin-refused = PIN errato, errore { $what } di seguito
 console-note-application-quit = chiosco lasciato in: { $what }
 console-note-backup-failed = copia non fatta: { $what }
+console-note-voice-changed = voce: { $what }
 console-note-disk-space-changed = disco: { $what }
 console-room-enough = di nuovo spazio
 console-room-warn = poco spazio

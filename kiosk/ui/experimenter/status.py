@@ -321,7 +321,7 @@ def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
         AuditEvent.LANGUAGE_CHOSEN: "language",
         AuditEvent.SESSION_RESUMED: "session",
     }
-    of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why"}
+    of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why", AuditEvent.VOICE_CHANGED: "message"}
     value = payload.get(of.get(noted.kind, ""), "")
     return value if isinstance(value, str) else json.dumps(value)
 

@@ -200,6 +200,22 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk) -> None:
     assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
 
 
+def test_a_voice_that_is_lost_is_written_down_and_shown_among_the_days_events(assigner: Desk) -> None:
+    for is_heard, message in (
+        (False, "sentences are only shown: the sound device is gone"),
+        (True, "the voice anna speaks"),
+    ):
+        assigner.app.voice.health_changed.emit(is_heard, message)
+    assert [body for kind, body in assigner.notes if kind == "VoiceChanged"] == [
+        {"is_heard": False, "message": "sentences are only shown: the sound device is gone"},
+        {"is_heard": True, "message": "the voice anna speaks"},
+    ]
+    assigner.open_panel()
+    assigner.wait_until(
+        lambda: any("the sound device is gone" in row["words"] for row in records(assigner)["deviations"])
+    )
+
+
 def test_a_session_that_was_cut_off_goes_on_from_the_start_of_its_stage(make_assigner: MakeDesk) -> None:
     assigner = make_assigner()
     assigner.go_to(Stage.QUESTIONS)
