@@ -196,11 +196,18 @@ class Idle(ConfigModel):
 
 
 class Practice(ConfigModel):
-    """The game before the game: without help or measurements, and it may be left at any time."""
+    """The game before the game: without measurements, and it may be left at any time."""
 
     rows: Annotated[Lines, Field(description="Rows of its board.")] = 3
     columns: Annotated[Lines, Field(description="Columns of its board.")] = 4
     deck: Annotated[str, Field(description="Its pictures; not those of the game.")] = "fruit"
+    hints: Annotated[
+        bool,
+        Field(
+            description="Whether the helper gives one hint of each kind in it, as the visitor's condition has them: a "
+            "column, a row, a card; or a reminder."
+        ),
+    ] = False
     max_duration_ms: Annotated[Milliseconds, Field(description="The time after which it ends by itself.")] = 300_000
 
 

@@ -127,7 +127,7 @@ class Mentaliser:
         """Follow ``rule`` on first cards; without ``locates``, no place is given away."""
         self._candidates = _RULES[rule]
         self._rng = rng
-        self._locates = locates
+        self.locates = locates
 
     def target(self, game: Concentration) -> Target:
         """Return the card that a hint for the coming flip of ``game`` points at; some card must still be closed."""
@@ -142,7 +142,7 @@ class Mentaliser:
         mate = game.board.mate(position)
         seen, mate_seen = game.history.count(position), game.history.count(mate)
         reason = HintReason.of(FlipInMove.coming(game), mate_seen, seen)
-        return Target(position, mate, seen, mate_seen, reason, self.candidates(game), self._locates)
+        return Target(position, mate, seen, mate_seen, reason, self.candidates(game), self.locates)
 
 
 def _mates_of_the_most_flipped(game: Concentration) -> tuple[Position, ...]:

@@ -66,14 +66,18 @@ def spoken_texts(plan: SessionConfig) -> tuple[str, ...]:
 
 def _hint_texts(plan: SessionConfig) -> Iterator[str]:
     """Yield the parts of hints: a reason for each card, and each place."""
-    catalogue, game = plan.catalogue, plan.settings.game
+    catalogue, game, practice = plan.catalogue, plan.settings.game, plan.settings.practice
+    decks, most_rows, most_columns = plan.deck, game.rows, game.columns
+    if practice.hints:
+        decks = (*plan.deck, *plan.practice_deck)
+        most_rows, most_columns = max(game.rows, practice.rows), max(game.columns, practice.columns)
     for message in sorted(catalogue.messages):
         if message.startswith("reason-"):
-            for card in plan.deck:
+            for card in decks:
                 yield from catalogue.wordings(message, **catalogue.card(card))
         elif message.startswith("point-"):
-            rows = (1,) if message.endswith("-column") else range(1, game.rows + 1)
-            columns = (1,) if message.endswith("-row") else range(1, game.columns + 1)
+            rows = (1,) if message.endswith("-column") else range(1, most_rows + 1)
+            columns = (1,) if message.endswith("-row") else range(1, most_columns + 1)
             for row, column in product(rows, columns):
                 yield from catalogue.wordings(message, row=row, column=column)
 

@@ -7,20 +7,20 @@ says that taps do not wait, the board is open all the time, and a flip ends the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.assistant import Assistant, Decision
-from kiosk.assistance.mentaliser import Hint
+from kiosk.assistance.mentaliser import Hint, Mentaliser
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.config import Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Sentences
+from kiosk.experiment.condition import Help, Sentences
 from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
 from kiosk.experiment.events import PracticeEnd, Timer, WorldEvent
 from kiosk.experiment.page_stages import SpeechWriter, StageHandler
-from kiosk.game import Board, Concentration, Flip, IllegalFlip, Position
+from kiosk.game import CARDS_IN_A_PAIR, Board, Concentration, Flip, IllegalFlip, Position
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,47 @@ class HintGuide:
 
     assistant: Assistant
     sentences: Sentences
+
+
+@dataclass(frozen=True)
+class SampleHints:
+    """One hint of each kind for a practice, so that the game brings no kind for the first time."""
+
+    mentaliser: Mentaliser
+    sentences: Sentences
+    actions: tuple[ActionSpec, ...]
+    utterances: Iterator[int]
+
+    @classmethod
+    def of(cls, help_: Help, actions: Iterable[ActionSpec], utterances: Iterator[int]) -> SampleHints:
+        """Take the actions that differ for the visitor: where no place is named, all hints are of one kind.
+
+        ``utterances`` numbers the sentences of the whole session.
+        """
+        kinds: dict[str, ActionSpec] = {}
+        for action in actions:
+            if action is not ActionSpec.NO_HELP:
+                pointing = action.needs_target and not help_.mentaliser.locates
+                kinds.setdefault("reminder" if pointing else action.name, action)
+        return cls(help_.mentaliser, help_.sentences, tuple(kinds.values()), utterances)
+
+    def due(self, game: Concentration) -> ActionSpec | None:
+        """Return the action for the coming flip of ``game``, or None.
+
+        The hints come before flips 2, 5, 8 and so on, so that first and second cards take turns; on a board with too
+        few pairs for that, they come closer together.
+        """
+        if not self.actions:
+            return None
+        every = max(1, min(_SAMPLE_EVERY, CARDS_IN_A_PAIR * game.board.pairs // len(self.actions)))
+        turn, early = divmod(game.flips + 1 - CARDS_IN_A_PAIR, every)
+        if every == 1:
+            turn, early = game.flips, 0
+        return self.actions[turn] if early == 0 and 0 <= turn < len(self.actions) else None
+
+
+_SAMPLE_EVERY = 3
+"""From one hint of a practice to the next, in flips: an odd number, so that first and second cards take turns."""
 
 
 @dataclass
@@ -89,6 +130,7 @@ class GameStage(StageHandler):
         self.game = Concentration(table.board)
         self._table = table
         self._guide = guide
+        self._sentences = guide.sentences if guide is not None else None
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
@@ -132,10 +174,9 @@ class GameStage(StageHandler):
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Give the hint that stands in the language of now; a sentence that is being said starts anew."""
-        given = self._given
-        if given is None or self._guide is None:
+        given, sentences = self._given, self._sentences
+        if given is None or sentences is None:
             return
-        sentences = self._guide.sentences
         given.sentence = sentences.remark(given.action) if given.hint is None else sentences.sentence(given.hint)
         given.utterance = next(self._utterances)
         outcome.emit(
@@ -265,13 +306,13 @@ class GameStage(StageHandler):
 
     def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
-        decision = self._decide(self._guide, outcome) if self._guide else None
-        if self._guide is None or decision is None or decision.action is ActionSpec.NO_HELP:
+        action, hint = self._choose_help(outcome)
+        sentences = self._sentences
+        if sentences is None or action is ActionSpec.NO_HELP:
             outcome.effect(do.UnlockBoard())
             return
-        hint, sentences = decision.hint, self._guide.sentences
-        sentence = sentences.remark(decision.action) if hint is None else sentences.sentence(hint)
-        given = _Given(hint, decision.action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
+        sentence = sentences.remark(action) if hint is None else sentences.sentence(hint)
+        given = _Given(hint, action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
         self._given, self._trailing = given, None
         outcome.emit(
@@ -281,7 +322,7 @@ class GameStage(StageHandler):
                 at_ms=outcome.at_ms,
                 flip=given.flip,
                 card=FlipInMove.coming(self.game),
-                action=decision.action,
+                action=action,
                 sentence=sentence,
                 utterance=given.utterance,
             )
@@ -299,6 +340,13 @@ class GameStage(StageHandler):
         )
         if not given.held_long_enough:
             outcome.effect(do.StartTimer(Timer.HOLD, self._timing.hold_min_ms))
+
+    def _choose_help(self, outcome: OutcomeBuilder) -> tuple[ActionSpec, Hint | None]:
+        """Return the action for the coming flip, and its hint if it points to a card."""
+        if self._guide is None:
+            return ActionSpec.NO_HELP, None
+        decision = self._decide(self._guide, outcome)
+        return decision.action, decision.hint
 
     def _decide(self, guide: HintGuide, outcome: OutcomeBuilder) -> Decision:
         decision = guide.assistant.decide(self.game)
@@ -353,25 +401,52 @@ class GameStage(StageHandler):
 
 
 class PracticeStage(GameStage):
-    """The game before the game, without help; it ends when done, when left, or after its time."""
+    """The game before the game; it ends when done, when left, or after its time.
 
-    def __init__(self, table: DealtTable, timing: Timing, speaker: SpeechWriter, longest_ms: int) -> None:
+    It has no help, or one hint of each kind that the game can bring. No policy decides these, so no decision is
+    recorded with them, and nothing is learnt.
+    """
+
+    def __init__(
+        self,
+        table: DealtTable,
+        timing: Timing,
+        speaker: SpeechWriter,
+        longest_ms: int,
+        samples: SampleHints | None = None,
+    ) -> None:
         """End by itself after so long."""
-        super().__init__(table, None, timing, iter(()))
+        super().__init__(table, None, timing, samples.utterances if samples is not None else iter(()))
         self._speaker = speaker
         self._longest_ms = longest_ms
+        self._samples = samples
+        self._sentences = samples.sentences if samples is not None else None
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Deal as before, also when it begins anew."""
         self.game = Concentration(self.game.board)
+        self._given = self._trailing = None
         super().enter(outcome)
         outcome.effect(do.StartTimer(Timer.PRACTICE, self._longest_ms))
-        self._speaker.say("practice-speech", outcome)
+        # On a board so small that the first flip has a hint, the hint is what is said.
+        if self._given is None:
+            self._speaker.say("practice-speech", outcome)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Say what there is to do in the language of now, if it is still to be read."""
-        if self.game.flips == 0:
+        """Say the hint that stands, or what there is to do if that is still to be read, in the language of now."""
+        if self._given is not None:
+            super().show_again(outcome)
+        elif self.game.flips == 0:
             self._speaker.say_again(outcome)
+
+    def _choose_help(self, outcome: OutcomeBuilder) -> tuple[ActionSpec, Hint | None]:  # noqa: ARG002
+        action = self._samples.due(self.game) if self._samples is not None else None
+        if self._samples is None or action is None:
+            return ActionSpec.NO_HELP, None
+        if not action.needs_target:
+            return action, None
+        target = self._samples.mentaliser.target(self.game)
+        return action, Hint(action, FlipInMove.coming(self.game), target, self.game.board.card(target.position))
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """End early, or play."""

@@ -17,7 +17,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
 from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, TextSize, Timer, WorldEvent
-from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage
+from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage, SampleHints
 from kiosk.experiment.page_stages import (
     AboutStage,
     AgeStage,
@@ -166,6 +166,7 @@ class StageFactory:
         self._plan, self._seed = plan, seed
         self.language = plan.language
         self._wording, self._numbers = Wording(plan.catalogue, Random(f"{seed}/words")), count(1)
+        self._practice_wording = self._wording
         self.speaker = SpeechWriter(self._wording, self._numbers)
         settings = plan.settings
         makers: dict[Stage, Callable[[], StageHandler]] = {
@@ -173,7 +174,6 @@ class StageFactory:
             Stage.CONSENT: lambda: ConsentStage(plan.information, plan.language),
             Stage.AGE: lambda: AgeStage(settings.consent.adult),
             Stage.ABOUT_YOU: lambda: QuestionnaireStage((plan.about_you,), Random(f"{seed}/about_you"), plan.language),
-            Stage.PRACTICE: lambda: self._practice(plan, Random(f"{seed}/practice")),
             Stage.RESULT: lambda: ResultStage(self.speaker, log),
             Stage.QUESTIONS: lambda: QuestionnaireStage(
                 plan.questionnaires, Random(f"{seed}/questions"), plan.language, rates=True
@@ -193,15 +193,18 @@ class StageFactory:
         self._play_in(Condition(Random(f"{self._seed}/unstored").choice(listed)))
 
     def _play_in(self, condition: Condition) -> None:
-        game = _game(self._plan.in_condition(condition), self._seed, self._wording, self._numbers)
+        plan = self._plan.in_condition(condition)
+        game = _game(plan, self._seed, self._wording, self._numbers)
         pairs = game.game.board.pairs
         self._scenes[Stage.GAME] = game
         self._scenes[Stage.INTRODUCTION] = IntroductionStage(self.speaker, pairs, helped=game.helped)
+        if Stage.PRACTICE in plan.stage_order.stages:
+            self._scenes[Stage.PRACTICE] = self._practice(plan)
 
     def translate(self, to: Translation) -> None:
         """Have all stages speak another language from now on."""
         self.language = to.catalogue.language
-        self._wording.catalogue = to.catalogue
+        self._wording.catalogue = self._practice_wording.catalogue = to.catalogue
         for scene in self._scenes.values():
             scene.translate(to)
 
@@ -212,10 +215,18 @@ class StageFactory:
         """
         return self._scenes.get(stage, _NOTHING)
 
-    def _practice(self, plan: SessionConfig, chance: Random) -> PracticeStage:
-        practice = plan.settings.practice
-        table = DealtTable(_deal(practice, plan.practice_deck, chance), practice.deck, practice=True)
-        return PracticeStage(table, plan.timing, self.speaker, practice.max_duration_ms)
+    def _practice(self, plan: SessionConfig) -> PracticeStage:
+        """Make the practice; its hints have streams of chance of their own, and change nothing of the game."""
+        practice, seed = plan.settings.practice, self._seed
+        board = _deal(practice, plan.practice_deck, Random(f"{seed}/practice"))
+        samples = None
+        if practice.hints:
+            self._practice_wording = Wording(self._wording.catalogue, Random(f"{seed}/practice/words"))
+            rule = TargetRule(plan.settings.assistance.target_rule)
+            given = help_in(plan.cell, rule, self._practice_wording, Random(f"{seed}/practice/targets"))
+            samples = SampleHints.of(given, plan.policy.actions, self._numbers) if given is not None else None
+        table = DealtTable(board, practice.deck, practice=True)
+        return PracticeStage(table, plan.timing, self.speaker, practice.max_duration_ms, samples)
 
 
 _NOTHING = StageHandler()

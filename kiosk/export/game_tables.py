@@ -223,7 +223,8 @@ class _Hint:
 
 
 def _hints(kept: SessionRecord) -> Iterator[_Hint]:
-    for dealt in kept.state.boards:
+    dealt = kept.state.game
+    if dealt is not None:
         yield from (_Hint(kept, dealt, hint) for hint in dealt.hints.values())
 
 
@@ -350,7 +351,7 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
 
 HINTS = Table(
     "hints",
-    "One row for every hint that was given.",
+    "One row for every hint that was given in the game. Those of the practice stand in the table sentences.",
     ("participant_id", "board", "flip"),
     _HINT_COLUMNS,
     _hints,

@@ -98,6 +98,7 @@ class AnySession(RuleBasedStateMachine):
         gate=st.sampled_from([NO_GATE, Gate(2, 2, 4)]),
         shape=st.sampled_from([(2, 2), (3, 4)]),
         course=st.sampled_from(COURSES),
+        hints=st.booleans(),
         timing=st.builds(Timing, taps_wait=st.booleans(), tap_ends_sentence=st.booleans()),
         data=st.data(),
     )
@@ -108,10 +109,11 @@ class AnySession(RuleBasedStateMachine):
         gate: Gate,
         shape: tuple[int, int],
         course: tuple[str, ...],
+        hints: bool,  # noqa: FBT001 - drawn, not passed
         timing: Timing,
         data: Any,
     ) -> None:
-        board, practice = Game(rows=shape[0], columns=shape[1]), Practice(rows=2, columns=2)
+        board, practice = Game(rows=shape[0], columns=shape[1]), Practice(rows=2, columns=2, hints=hints)
         self.plan = plan(condition, mixed(seed, gate), course, game=board, practice=practice, timing=timing)
         self.session, self.twin = (Session(self.plan, seed) for _ in range(2))
         self.hurry_to(data.draw(st.sampled_from([Stage.ATTRACT, *self.plan.stage_order.stages])))

@@ -1,4 +1,4 @@
-"""The practice: a game in which nobody helps and nothing counts, and which may be left at any time."""
+"""The practice: a game in which nothing counts, with no help or a sample of it, and which may be left at any time."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from kiosk.assistance.policy import ActionSpec
-from kiosk.config import Practice, Timing
+from kiosk.assistance.policy import ActionSpec, FlipInMove
+from kiosk.config import ConditionConfig, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event, PracticeEnd, Stage, Timer
 from kiosk.experiment.projections import Measures
 from tests.experiment.driver import Driver, driven_to, with_memory
@@ -66,6 +67,102 @@ def test_nothing_is_decided_and_no_hint_is_given() -> None:
         happened.BoardUnlocked,
     }
     assert driver.noted(happened.AssistanceDecided)[0].flip == 1
+
+
+SAMPLED = Practice(hints=True)
+LOCATED = ("sug_col", "sug_row", "sug_card")
+
+
+def hinted(driver: Driver) -> list[happened.HintGiven]:
+    """Return the hints of the practice."""
+    return [event for event in within(driver, Stage.PRACTICE) if isinstance(event, happened.HintGiven)]
+
+
+@pytest.mark.parametrize("condition", [Condition.TOM, Condition.NOTOM])
+@pytest.mark.parametrize(("rows", "columns"), [(1, 4), (2, 3), (2, 4), (3, 4)])
+def test_it_brings_one_hint_of_each_kind_on_every_board_that_has_enough_flips(
+    condition: Condition, rows: int, columns: int
+) -> None:
+    practice = Practice(rows=rows, columns=columns, hints=True)
+    driver = driven_to(Stage.PRACTICE, whole(condition, practice=practice))
+    driver.play(with_memory(1))
+    given = hinted(driver)
+    assert [hint.action.name for hint in given] == list(LOCATED)
+    assert {hint.card for hint in given} >= {FlipInMove.SECOND}
+    marked = [event for event in within(driver, Stage.PRACTICE) if isinstance(event, happened.HintHighlighted)]
+    assert [event.flip for event in marked] == [hint.flip for hint in given]
+    assert {hint.name for hint in given} <= set(FRUIT)
+
+
+def test_its_hints_come_for_first_and_for_second_cards() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(practice=SAMPLED))
+    driver.play(with_memory(0))
+    assert [(hint.flip, hint.card) for hint in hinted(driver)] == [
+        (2, FlipInMove.SECOND),
+        (5, FlipInMove.FIRST),
+        (8, FlipInMove.SECOND),
+    ]
+
+
+def test_where_no_place_is_named_it_brings_one_reminder() -> None:
+    reminding = {"reminded": ConditionConfig(location=False)}
+    driver = driven_to(Stage.PRACTICE, whole(Condition("reminded"), practice=SAMPLED, conditions=reminding))
+    driver.play(with_memory(1))
+    (only,) = hinted(driver)
+    assert (only.row, only.column) == (None, None)
+    assert not any(isinstance(event, happened.HintHighlighted) for event in within(driver, Stage.PRACTICE))
+
+
+def test_where_there_is_no_help_the_practice_has_none_either() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(Condition.NO_ASSISTANCE, practice=SAMPLED))
+    driver.play(with_memory(1))
+    assert hinted(driver) == []
+
+
+def test_the_game_is_the_same_with_and_without_hints_in_the_practice() -> None:
+    games = []
+    for practice in (Practice(), SAMPLED):
+        driver = driven_to(Stage.PRACTICE, whole(practice=practice))
+        driver.play(with_memory(0))
+        driver.play(with_memory(1))
+        told = (happened.BoardDealt, happened.CardFlipped, happened.HintGiven)
+        games.append([event for event in within(driver, Stage.GAME) if isinstance(event, told)])
+    plain, sampled = ([_without_number(event) for event in game] for game in games)
+    assert plain == sampled
+
+
+def _without_number(event: Event) -> object:
+    """Return an event without its time and the number of its sentence."""
+    changed = {"at_ms": 0} | ({"utterance": 0} if isinstance(event, happened.HintGiven) else {})
+    return replace(event, **changed)
+
+
+def test_hints_of_the_practice_are_no_decisions_and_count_in_no_measure() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(policy=always(ActionSpec.NO_HELP), practice=SAMPLED))
+    driver.play(with_memory(1))
+    assert len(hinted(driver)) == 3
+    assert not any(isinstance(event, happened.AssistanceDecided) for event in within(driver, Stage.PRACTICE))
+    driver.play(with_memory(1))
+    assert driver.session.measures.hints == 0
+
+
+def test_a_hint_of_the_practice_is_said_again_in_another_language() -> None:
+    driver = driven_to(Stage.PRACTICE, whole(practice=SAMPLED))
+    driver.tap(driver.view.closed[0])
+    english = driver.view.bubble
+    driver.send(happened.LanguageSelected(at_ms=driver.now, language="it"))
+    assert driver.view.bubble not in ("", english)
+
+
+def test_a_practice_that_begins_anew_brings_its_hints_again() -> None:
+    sampled = whole(practice=SAMPLED)
+    past = driven_to(Stage.PRACTICE, sampled)
+    past.tap(past.view.closed[0])
+    assert past.view.held is do.BoardWait.SPEAKING
+    driver = Driver.resumed(sampled, 5, past.world)
+    assert driver.view.held is None
+    driver.tap(driver.view.closed[0])
+    assert driver.noted(happened.HintGiven)[-1].flip == 2
 
 
 def test_two_different_cards_turn_back_as_in_the_game() -> None:
