@@ -7,7 +7,7 @@ from enum import Enum
 
 from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, TextSize, Timer
 from kiosk.experiment.information import ConsentPage, Page
-from kiosk.experiment.items import Answer
+from kiosk.experiment.items import Response
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 
@@ -194,7 +194,7 @@ class ShowAnswer:
     """Show which answer is chosen for an item, None for none."""
 
     item: str
-    value: Answer | None
+    value: Response | None
 
 
 @dataclass(frozen=True)

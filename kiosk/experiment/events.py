@@ -18,7 +18,7 @@ from cattrs.strategies import configure_tagged_union, include_subclasses
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
-from kiosk.experiment.items import Answer
+from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
 from kiosk.game import FlipRejection, Position
 
 
@@ -260,12 +260,13 @@ class CardSelected(WorldEvent):
 class ResponseGiven(WorldEvent):
     """The visitor chose an answer to an item that is shown.
 
-    The last one given counts, and None takes it back.
+    The last one given counts, and None takes it back. Where the visitor said that the item does not apply, the value
+    is the object ``{"not_applicable": true}``.
     """
 
     by_visitor = True
     item: str
-    value: Answer | None
+    value: Response | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -599,8 +600,14 @@ class SessionEnded(SessionEvent):
     status: Status
 
 
-def _answer(value: object, _: object) -> Answer | None:
-    """Return an answer as it was written: a number, a text, a list of options, or none."""
+_NOT_APPLICABLE_RECORD = {NOT_APPLICABLE.value: True}
+"""What stands for an item that does not apply: neither a number nor a text, so nothing reads it as an answer."""
+
+
+def _response(value: object, _: object) -> Response | None:
+    """Return a response as it was written: a number, a text, a list of options, that it does not apply, or none."""
+    if value == _NOT_APPLICABLE_RECORD:
+        return NOT_APPLICABLE
     match value:
         case bool():
             raise ValueError(f"{value} is no answer")
@@ -622,7 +629,8 @@ def _action(name: str) -> ActionSpec:
 def _converter() -> Converter:
     """Return a converter to and from JSON values in which every closed set goes by name."""
     converter = Converter(forbid_extra_keys=True)
-    converter.register_structure_hook(Answer | None, _answer)
+    converter.register_structure_hook(Response | None, _response)
+    converter.register_unstructure_hook(NotApplicable, lambda _: dict(_NOT_APPLICABLE_RECORD))
     converter.register_unstructure_hook(EmbodimentName, str)
     converter.register_structure_hook(EmbodimentName, lambda text, _: EmbodimentName.from_text(text))
     converter.register_unstructure_hook(ActionSpec, lambda action: action.label)

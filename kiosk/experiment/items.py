@@ -7,9 +7,10 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 from random import Random
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Final, Literal, Self
 from unicodedata import category
 
 from pydantic import AfterValidator, BeforeValidator, Field, Strict, field_validator, model_validator
@@ -102,6 +103,18 @@ class NumberInput:
 
 Answer = int | str | tuple[str, ...]
 """A point on a scale or a number; an option's id or a text; the ids of several options."""
+
+
+class NotApplicable(Enum):
+    """The response that an item does not apply, which is neither an answer to it nor a missing one."""
+
+    NOT_APPLICABLE = "not_applicable"
+
+
+NOT_APPLICABLE: Final = NotApplicable.NOT_APPLICABLE
+
+Response = Answer | NotApplicable
+"""What a visitor can say to an item."""
 
 
 def _name(name: str) -> str:
@@ -202,7 +215,13 @@ class Question(BaseItem):
 
     required: Annotated[bool, Strict()] | Literal["once"] = False
     """Whether the visitor has to answer; an item that is asked for ``"once"`` is pointed out, and may then be left."""
+    not_applicable: bool = False
+    """Whether the visitor can say that the item does not apply. It is a response, so a required item has one."""
     scale: Name | None = None
+
+    def takes(self, response: Response) -> bool:
+        """Whether a visitor can say this to the item."""
+        return self.not_applicable if isinstance(response, NotApplicable) else self.accepts(response)
 
 
 class Rating(Question):

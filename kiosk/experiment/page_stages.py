@@ -14,7 +14,8 @@ from kiosk.experiment.effects import Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
 from kiosk.experiment.information import Information, Page
 from kiosk.experiment.items import (
-    Answer,
+    Question,
+    Response,
     TextPage,
     in_language,
 )
@@ -358,7 +359,7 @@ class QuestionnaireStage(StageHandler):
         self._language = language
         self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
         self._number = 0
-        self._answers: dict[tuple[str, str], Answer] = {}
+        self._answers: dict[tuple[str, str], Response] = {}
         self._pointed_out: set[tuple[str, str]] = set()
 
     @property
@@ -394,7 +395,7 @@ class QuestionnaireStage(StageHandler):
         match event:
             case happened.ResponseGiven(item=name, value=value):
                 item = next((item for item in self._sheet.items if item.id == name), None)
-                return item is not None and not isinstance(item, TextPage) and (value is None or item.accepts(value))
+                return isinstance(item, Question) and (value is None or item.takes(value))
         return True
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
@@ -409,14 +410,14 @@ class QuestionnaireStage(StageHandler):
                 self._number -= 1
                 self._show(outcome)
 
-    def _keep(self, item: str, value: Answer | None) -> None:
+    def _keep(self, item: str, value: Response | None) -> None:
         key = (self._sheet.questionnaire, item)
         if value is None:
             self._answers.pop(key, None)
         else:
             self._answers[key] = value
 
-    def _answer(self, item: Item) -> Answer | None:
+    def _answer(self, item: Item) -> Response | None:
         return self._answers.get((self._sheet.questionnaire, item.id))
 
     def _go_on(self, outcome: OutcomeBuilder) -> None:

@@ -7,10 +7,7 @@ from dataclasses import dataclass
 
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
-from kiosk.experiment.items import (
-    Answer,
-    Rating,
-)
+from kiosk.experiment.items import Rating
 from kiosk.experiment.questionnaire import (
     Questionnaire,
 )
@@ -30,37 +27,46 @@ def item_responses(state: SessionState, questionnaires: Sequence[Questionnaire])
 class ScaleScore:
     """One scale; reversed items are turned round (x becomes lowest + highest - x) before anything is added up.
 
-    ``total`` is the sum, None unless all ``items`` are answered; ``mean`` is that of the answered ones, None if there
-    is none.
+    ``total`` is the sum, None unless all ``items`` are answered; ``mean`` is that of the ``answered`` ones, None if
+    they are fewer than ``needed``. Items that the visitor said do not apply are not among the answered ones; they are
+    counted as ``not_applicable``.
     """
 
     questionnaire: str
     scale: str
     items: int
     answered: int
+    not_applicable: int
+    needed: int
     total: int | None
     mean: float | None
 
 
 def scale_scores(answers: Iterable[ItemResponse], questionnaires: Iterable[Questionnaire]) -> tuple[ScaleScore, ...]:
     """Every scale of these questionnaires, in the order in which they are declared."""
-    values = {(answered.questionnaire, answered.item): answered.value for answered in answers}
+    responses = {(answered.questionnaire, answered.item): answered for answered in answers}
     return tuple(
-        _score(asked.id, scale, items, [values.get((asked.id, item.id)) for item in items])
+        _score(asked, scale, items, [responses.get((asked.id, item.id)) for item in items])
         for asked in questionnaires
         for scale, items in asked.scales.items()
     )
 
 
-def _score(questionnaire: str, scale: str, items: Sequence[Rating], values: Sequence[Answer | None]) -> ScaleScore:
-    counted = [item.scored(value) for item, value in zip(items, values, strict=True) if isinstance(value, int)]
+def _score(
+    questionnaire: Questionnaire, scale: str, items: Sequence[Rating], responses: Sequence[ItemResponse | None]
+) -> ScaleScore:
+    given = [(item, response) for item, response in zip(items, responses, strict=True) if response is not None]
+    counted = [item.scored(response.value) for item, response in given if isinstance(response.value, int)]
+    needed = questionnaire.needed(scale)
     return ScaleScore(
-        questionnaire=questionnaire,
+        questionnaire=questionnaire.id,
         scale=scale,
         items=len(items),
         answered=len(counted),
+        not_applicable=sum(response.does_not_apply for _, response in given),
+        needed=needed,
         total=sum(counted) if len(counted) == len(items) else None,
-        mean=sum(counted) / len(counted) if counted else None,
+        mean=sum(counted) / len(counted) if len(counted) >= needed else None,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterable
 from enum import Enum
 from functools import reduce
@@ -98,6 +99,8 @@ class Questionnaire(ConfigModel):
     note: Text
     per_page: Annotated[int, Field(ge=1, le=8)] = 1
     order: Annotated[ItemOrder, Field(strict=False)] = ItemOrder.FIXED
+    least_answered: Annotated[float, Field(ge=0, le=1)] = 0.5
+    """The share of a scale's items that must be answered for the scale to have a mean; one is needed in any case."""
     items: Annotated[tuple[Item, ...], Field(min_length=1, strict=False)]
 
     @property
@@ -118,6 +121,11 @@ class Questionnaire(ConfigModel):
             if isinstance(item, Rating) and item.scale is not None:
                 scales.setdefault(item.scale, []).append(item)
         return {name: tuple(items) for name, items in scales.items()}
+
+    def needed(self, scale: str) -> int:
+        """Return how many items of a scale must be answered for the scale to have a mean."""
+        # A share such as .7 of 10 items is 7 items, though the product is a little more.
+        return max(1, math.ceil(round(self.least_answered * len(self.scales[scale]), 9)))
 
     def unworded(self, language: str) -> tuple[str, ...]:
         """Return the items that lack a text in this language."""
@@ -164,7 +172,9 @@ def differences(one: Questionnaire, other: Questionnaire) -> list[str]:
     languages = set.intersection(*({code for item in each.items for code in item.text} for each in (one, other)))
     names = dict.fromkeys((*both[0], *both[1]))
     found = [name for name in names if _differs(both[0].get(name), both[1].get(name), languages)]
-    scales = [{name: summed(items) for name, items in each.scales.items()} for each in (one, other)]
+    scales = [
+        {name: (each.needed(name), summed(items)) for name, items in each.scales.items()} for each in (one, other)
+    ]
     found += [name for name in dict.fromkeys((*scales[0], *scales[1])) if scales[0].get(name) != scales[1].get(name)]
     return found
 
@@ -202,4 +212,6 @@ def facts(item: Item, language: str) -> str:
             answer = "a page to read"
         case _:
             answer = "a text"
+    if isinstance(item, Question) and item.not_applicable:
+        answer += ", or that it does not apply"
     return f'"{in_language(item.text, language).strip()}" {answer}' if language else answer

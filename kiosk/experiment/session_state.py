@@ -45,9 +45,7 @@ from kiosk.experiment.events import (
     Timer,
     TimerExpired,
 )
-from kiosk.experiment.items import (
-    Answer,
-)
+from kiosk.experiment.items import Answer, NotApplicable, Response
 from kiosk.game import Board
 
 CARDS_IN_A_MOVE = 2
@@ -201,27 +199,37 @@ class SpokenSentence:
 class ItemResponse:
     """One item of a session; times in ms since its page was shown first, without pauses.
 
-    ``value`` is None where nothing was answered, or nothing was left of it. ``first_ms`` and ``last_ms`` are the times
-    of the first and the last answer, also of one that was taken back; None where there was none. ``changes`` counts
-    the answers that differ from the one before; the first is no change.
+    ``response`` is None where nothing was answered, or nothing was left of it. ``first_ms`` and ``last_ms`` are the
+    times of the first and the last answer, also of one that was taken back; None where there was none. ``changes``
+    counts the answers that differ from the one before; the first is no change.
     """
 
     questionnaire: str
     item: str
-    value: Answer | None = None
+    response: Response | None = None
     first_ms: int | None = None
     last_ms: int | None = None
     changes: int = 0
 
-    def answered(self, value: Answer | None, after_ms: int) -> ItemResponse:
+    @property
+    def value(self) -> Answer | None:
+        """The answer; None if there is none, also where the item does not apply."""
+        return None if isinstance(self.response, NotApplicable) else self.response
+
+    @property
+    def does_not_apply(self) -> bool:
+        """Whether the visitor said that the item does not apply."""
+        return isinstance(self.response, NotApplicable)
+
+    def answered(self, value: Response | None, after_ms: int) -> ItemResponse:
         """Add one more answer."""
         value = effective_answer(value)
         first = after_ms if self.first_ms is None else self.first_ms
-        changed = self.first_ms is not None and value != self.value
-        return replace(self, value=value, first_ms=first, last_ms=after_ms, changes=self.changes + changed)
+        changed = self.first_ms is not None and value != self.response
+        return replace(self, response=value, first_ms=first, last_ms=after_ms, changes=self.changes + changed)
 
 
-def effective_answer(value: Answer | None) -> Answer | None:
+def effective_answer(value: Response | None) -> Response | None:
     """Give an answer, or None for one that says nothing: an empty text, or none of the options."""
     return None if value in {"", ()} else value
 

@@ -33,8 +33,15 @@ from kiosk.export.columns import (
     Variable,
     distinct,
 )
-from kiosk.export.participants import ParticipantFlow, exported_items, item_variable
+from kiosk.export.participants import (
+    ParticipantFlow,
+    can_be_not_applicable,
+    exported_items,
+    item_variable,
+    not_applicable_variable,
+)
 from kiosk.export.records import StudyMaterials
+from kiosk.export.responses import NOT_APPLICABLE
 from kiosk.export.tables import DatasetTables
 from kiosk.store.connecting import atomic_directory
 from kiosk.store.plans import FrozenPlan
@@ -417,7 +424,12 @@ class Bids(Layout):
         study = self.contents.study
         asked = exported_items(study.items(name), self.contents.extras)
         columns = distinct(asked, (PARTICIPANT.name, _TOOL))
-        items = {item: item_variable(columns[item], asked_as, study) for item, asked_as in asked.items()}
+        items = {(item, "value"): item_variable(columns[item], asked_as, study) for item, asked_as in asked.items()}
+        exempt = (item for item, asked_as in asked.items() if can_be_not_applicable(asked_as))
+        marked = {item: f"{columns[item]}_{NOT_APPLICABLE.name}" for item in exempt}
+        others = distinct(marked.values(), (PARTICIPANT.name, _TOOL, *columns.values()))
+        for item, other in marked.items():
+            items[item, NOT_APPLICABLE.name] = not_applicable_variable(others[other], columns[item])
         path = self.root / "phenotype" / f"{self._files[name]}.tsv"
         return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
 
@@ -441,9 +453,10 @@ class Bids(Layout):
 
     def _fill_in(self, kept: SessionRecord, label: str) -> None:
         """Write the answers of one participant, a row in each questionnaire that they could be asked."""
-        answers: dict[str, dict[str, str]] = {}
+        answers: dict[str, dict[tuple[str, str], str]] = {}
         for row, cells in zip(self._answers.rows(kept), _named_cells(self._answers, kept), strict=True):
-            answers.setdefault(row.questionnaire.id, {})[row.item.id] = cells["value"]
+            of = answers.setdefault(row.questionnaire.id, {})
+            of |= {(row.item.id, name): cells[name] for name in ("value", NOT_APPLICABLE.name)}
         for name, given in answers.items():
             tool = self._tools[name]
             tool.file.write([[label, *(given.get(item, "") for item in tool.items)]])
@@ -451,9 +464,9 @@ class Bids(Layout):
 
 @dataclass(frozen=True)
 class _Tool:
-    """A questionnaire's columns by its items, and its file."""
+    """A questionnaire's columns by its items and what of an answer they hold, and its file."""
 
-    items: Mapping[str, Variable]
+    items: Mapping[tuple[str, str], Variable]
     file: TsvFile
 
 

@@ -12,6 +12,7 @@ from functools import cached_property, partial
 from kiosk.experiment.events import EmbodimentName, PracticeEnd, Stage, Status
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.items import (
+    Question,
     Rating,
     ShortText,
     TextPage,
@@ -44,7 +45,7 @@ from kiosk.export.columns import (
     who_sat_there,
 )
 from kiosk.export.records import Asked, Scale, StudyMaterials
-from kiosk.export.responses import scores_table, session_questionnaires
+from kiosk.export.responses import NOT_APPLICABLE, scores_table, session_questionnaires
 from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
@@ -324,10 +325,42 @@ def about_you_columns(
     study: StudyMaterials, extras: frozenset[ExportOption], taken: set[str]
 ) -> Iterator[Column[Person]]:
     """One column for every item about the visitor; what was typed only if it is asked for."""
+    for columns in _about_you_columns(study, extras, taken).values():
+        yield from columns
+
+
+def _about_you_columns(
+    study: StudyMaterials, extras: frozenset[ExportOption], taken: set[str]
+) -> dict[str, tuple[Column[Person], ...]]:
+    """Return the columns of each item: its answer, and whether it does not apply where that could be said."""
+    columns: dict[str, tuple[Column[Person], ...]] = {}
     for item, asked_as in exported_items(study.about_you, extras).items():
         name = _free(item, "about_you", taken)
         answer = partial(_answer_about_you, item, with_texts=ExportOption.TEXTS in extras)
-        yield Column(item_variable(name, asked_as, study), answer)
+        columns[item] = (Column(item_variable(name, asked_as, study), answer),)
+        if can_be_not_applicable(asked_as):
+            other = _free(f"{name}_{NOT_APPLICABLE.name}", "about_you", taken)
+            columns[item] += (Column(not_applicable_variable(other, name), partial(_is_not_applicable, item)),)
+    return columns
+
+
+def can_be_not_applicable(asked_as: Asked) -> bool:
+    """Whether a visitor could say of an item, in any of its forms, that it does not apply."""
+    return any(isinstance(item, Question) and item.not_applicable for _, item in asked_as)
+
+
+def not_applicable_variable(name: str, of: str) -> Variable:
+    """Return the column that tells an item that does not apply from one that was not answered."""
+    return Variable(
+        name,
+        f"Whether the visitor said that {of} does not apply; {of} is then empty.",
+        ColumnKind.TRUTH,
+        empty=f"{of} was not asked",
+    )
+
+
+def _is_not_applicable(item: str, row: Person) -> Cell:
+    return row.about_you[item].does_not_apply if item in row.about_you else None
 
 
 def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) -> dict[str, Asked]:
@@ -376,7 +409,7 @@ def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable
         f"The answer to {question}.{_item_called(name, newest)}{_versions(asked_as, study)}",
         kind,
         levels=tuple(levels.values()),
-        empty="nothing was answered",
+        empty="nothing was answered" + (", or it does not apply" if can_be_not_applicable(asked_as) else ""),
         least=least,
         most=most,
     )
@@ -411,7 +444,7 @@ def scale_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Per
                 f"{name}_sum",
                 f"The sum {of}",
                 ColumnKind.WHOLE,
-                empty="not all of them were answered",
+                empty="not all of them were answered, or some did not apply",
                 least=min(least * items for (least, _), items in ends),
                 most=max(most * items for (_, most), items in ends),
             ),
@@ -420,9 +453,9 @@ def scale_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Per
         yield Column(
             Variable(
                 f"{name}_mean",
-                f"The mean {of} Only those that were answered count.",
+                f"The mean {of} Only those that were answered count, and they must be at least {_needed(scale)}.",
                 ColumnKind.NUMBER,
-                empty="none of them was answered",
+                empty="too few of them were answered",
                 least=min(least for (least, _), _ in ends),
                 most=max(most for (_, most), _ in ends),
             ),
@@ -433,6 +466,11 @@ def scale_columns(study: StudyMaterials, taken: set[str]) -> Iterator[Column[Per
 def _size(scale: Scale) -> str:
     numbers = dict.fromkeys(len(items) for _, items in scale.forms)
     return f"{' or '.join(map(str, numbers))} items"
+
+
+def _needed(scale: Scale) -> str:
+    numbers = dict.fromkeys(form.questionnaire.needed(scale.name) for form, _ in scale.forms)
+    return " or ".join(map(str, numbers))
 
 
 def _not_alike(scale: Scale) -> str:
@@ -497,8 +535,8 @@ def renamed(study: StudyMaterials, elsewhere: frozenset[str]) -> dict[str, str]:
     taken = _taken(tuple(column for part in _own(study, extras) for column in part), elsewhere)
     # The columns of the consent take their names first.
     tuple(consent_columns(study, taken))
-    columns_of = zip(exported_items(study.about_you, extras), about_you_columns(study, extras, taken), strict=True)
-    return {item: column.variable.name for item, column in columns_of if item != column.variable.name}
+    columns_of = _about_you_columns(study, extras, taken)
+    return {item: answer.variable.name for item, (answer, *_) in columns_of.items() if item != answer.variable.name}
 
 
 _Columns = tuple[Column[Person], ...]

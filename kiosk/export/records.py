@@ -64,7 +64,7 @@ class Scale:
     @property
     def changed(self) -> bool:
         """Whether its sum does not mean the same in all of them."""
-        return len({summed(items) for _, items in self.forms}) > 1
+        return len({(form.questionnaire.needed(self.name), summed(items)) for form, items in self.forms}) > 1
 
 
 @dataclass(frozen=True)

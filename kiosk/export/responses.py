@@ -34,6 +34,13 @@ VERSION = Variable("version", "The version of the questionnaire.")
 SCALE = Variable("scale", "The scale that items are summed to.", empty="the item is not summed with others")
 
 _UNANSWERED = "nothing was answered"
+_UNANSWERED_OR_NOT_APPLICABLE = "nothing was answered, or not_applicable is true"
+
+NOT_APPLICABLE = Variable(
+    "not_applicable",
+    "Whether the visitor said that the item does not apply. The answer is then empty and is in no sum or mean.",
+    ColumnKind.TRUTH,
+)
 _ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
 
 
@@ -106,10 +113,11 @@ def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answ
                 "value",
                 "The last answer: a number, the name of an option, or several with a semicolon between them, in the "
                 "order in which a ranking has them.",
-                empty=_UNANSWERED + typed,
+                empty=_UNANSWERED_OR_NOT_APPLICABLE + typed,
             ),
             value,
         ),
+        (NOT_APPLICABLE, lambda row: row.answered.does_not_apply),
         (
             Variable("number", "The answer as a number.", ColumnKind.WHOLE, empty="the answer is none, or no number"),
             lambda row: row.number,
@@ -191,7 +199,7 @@ _SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
             "sum",
             "The sum of the scale's items, reversed ones turned round.",
             ColumnKind.WHOLE,
-            empty="not all of them were answered",
+            empty="not all of them were answered, or some did not apply",
         ),
         lambda row: row.score.total,
     ),
@@ -200,12 +208,23 @@ _SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
             "mean",
             "The mean of those items of the scale that were answered, reversed ones turned round.",
             ColumnKind.NUMBER,
-            empty="none of them was answered",
+            empty="fewer of them were answered than least_answered says",
         ),
         lambda row: row.score.mean,
     ),
     (Variable("items", "How many items the scale has.", ColumnKind.WHOLE), lambda row: row.score.items),
-    (Variable("answered", "How many of them were answered.", ColumnKind.WHOLE), lambda row: row.score.answered),
+    (
+        Variable("answered", "How many of them were answered; the mean is that of so many.", ColumnKind.WHOLE),
+        lambda row: row.score.answered,
+    ),
+    (
+        Variable("items_not_applicable", "How many of them the visitor said do not apply.", ColumnKind.WHOLE),
+        lambda row: row.score.not_applicable,
+    ),
+    (
+        Variable("least_answered", "How many of them had to be answered for the mean.", ColumnKind.WHOLE),
+        lambda row: row.score.needed,
+    ),
 )
 
 SCORES = Table(

@@ -15,7 +15,7 @@ from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
 from kiosk.experiment.events import Stage
-from kiosk.experiment.items import Act, Tap, Typing
+from kiosk.experiment.items import Act, Question, Tap, Typing
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 
@@ -167,6 +167,9 @@ def _in_view(item: QQuickItem, place: QPoint) -> bool:
     return seen.contains(QPointF(place))
 
 
+NOT_APPLICABLE_SHARE = 1 / 8
+"""How often a simulated visitor says that an item does not apply, where that can be said."""
+
 Errand = Callable[[], None]
 """One thing that is done at one moment."""
 
@@ -183,7 +186,10 @@ class FormFiller:
     def errands(self, items: tuple[Item, ...]) -> Iterator[Errand]:
         """Yield what is to be done for these items, in their order."""
         for number, item in enumerate(items):
-            yield from map(self._do, item.simulate(self._chance, last=number == len(items) - 1))
+            if isinstance(item, Question) and item.not_applicable and self._chance.random() < NOT_APPLICABLE_SHARE:
+                yield self._do(Tap(f"not-applicable-{item.id}"))
+            else:
+                yield from map(self._do, item.simulate(self._chance, last=number == len(items) - 1))
 
     def _do(self, act: Act) -> Errand:
         match act:

@@ -356,7 +356,7 @@ STUDIES: dict[str, Bad] = {
         "about_you = 'me'",
         (
             "{study}: about_you: there is no questionnaire 'me' (shipped are about-you, gallery, "
-            "social-intelligence, trust), and nothing at {here}/me",
+            "psi, social-intelligence, trust), and nothing at {here}/me",
         ),
     ),
     "questionnaire twice": Bad(

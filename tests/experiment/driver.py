@@ -22,6 +22,7 @@ from kiosk.experiment.items import (
     Integer,
     Multiple,
     Rating,
+    Response,
     Single,
     TextPage,
 )
@@ -158,7 +159,7 @@ class Driver:
         """Leave the practice."""
         return self.send(happened.PracticeSkipped(at_ms=self.now))
 
-    def answer(self, value: Answer | None, item: str | None = None) -> Outcome:
+    def answer(self, value: Response | None, item: str | None = None) -> Outcome:
         """Answer the first item that is shown, or another one."""
         shown = self.view.page.items[0].id if self.view.page else ""
         return self.send(happened.ResponseGiven(at_ms=self.now, item=shown if item is None else item, value=value))

@@ -17,7 +17,7 @@ from kiosk.experiment.events import (
     TextSize,
     WorldEvent,
 )
-from kiosk.experiment.items import Answer
+from kiosk.experiment.items import Response
 from kiosk.game import Position
 
 
@@ -43,7 +43,7 @@ class View:
     progress: tuple[int, int] = (0, 0)
     result: do.ShowResult | None = None
     page: do.ShowItems | None = None
-    answers: dict[str, Answer] = field(default_factory=dict)
+    answers: dict[str, Response] = field(default_factory=dict)
     still_there: bool = False
     paused: bool = False
     goes_back: bool = False

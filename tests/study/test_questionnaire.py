@@ -173,7 +173,11 @@ def test_a_text_falls_back_to_its_first_language() -> None:
             'kind = "single"\noptions = [{ id = "a", text.en = "A" }]',
             "item 2 (two): options must have at least 2 entries, but it has 1",
         ),
-        ("[likert]", "[likret]", "there is no key 'likret'; there are id, version, note, per_page, order, items"),
+        (
+            "[likert]",
+            "[likret]",
+            "there is no key 'likret'; there are id, version, note, per_page, order, least_answered, items",
+        ),
     ],
 )
 def test_what_is_wrong_is_named(old: str, new: str, said: str, tmp_path: Path) -> None:

@@ -54,6 +54,30 @@ def test_the_scales_of_the_study_are_its_four_with_its_two_reversed_items() -> N
     assert "not the published items" in questionnaire.note
 
 
+PUBLISHED = {
+    "RC1": "can figure out what people think",
+    "RC2": "knows when people are missing information",
+    "RC3": "can figure out what people can see",
+    "RC4": "understands others' perspectives",
+    "AC1": "adapts its behavior based upon what people around it know",
+    "AC2": "ignores what people are thinking",
+    "AC3": "selects appropriate actions once it knows what others think",
+    "AC4": "knows what to do when people are confused",
+}
+"""The items of two PSI scales as https://ipip.ori.org/PSIScalesandScoring.htm has them; AC2 alone is reversed there."""
+
+
+def test_the_psi_items_are_word_for_word_the_published_ones_and_the_rest_is_marked_as_ours() -> None:
+    questionnaire = shipped("psi")
+    items = [item for item in questionnaire.items if isinstance(item, Rating)]
+    assert {item.id: item.text["en"].removeprefix("The helper ").removesuffix(".") for item in items} == PUBLISHED
+    assert {item.id: item.scale for item in items} == {name: name[:2] for name in PUBLISHED}
+    assert [item.id for item in items if item.reverse] == ["AC2"]
+    assert {(item.ends, item.not_applicable) for item in items} == {((1, 5), True)}
+    assert "https://ipip.ori.org/PSIScalesandScoring.htm" in questionnaire.note
+    assert "Italian and Spanish translations are our own and not validated" in " ".join(questionnaire.note.split())
+
+
 def test_the_answers_about_robots_are_the_five_of_the_study() -> None:
     questionnaire = shipped("about-you")
     assert [item.id for item in questionnaire.items] == ["age", "gender", "robots"]

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.keyboards import key_rows
 from kiosk.config import ASSETS
-from kiosk.experiment.items import Answer
+from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.ui.simulated_visitor import UiDriver, find_item, item_centre
 from tests.samples import CATALOGUES
@@ -31,13 +31,18 @@ def given(booth: Booth) -> Given:
     """Return what the form reports, which is shown as the study would show it."""
     answers: Given = []
 
-    def take(item: str, value: Answer | None) -> None:
+    def take(item: str, value: Response | None) -> None:
         answers.append((item, value))
         booth.app.screens.form.show_answer(item, value)
 
     booth.app.screens.form.answered.connect(take)
     booth.app.screens.form.continued.connect(lambda: answers.append(("", "continued")))
     return answers
+
+
+def exempt(booth: Booth) -> list[str]:
+    """Return the items that are shown as not applying."""
+    return list(booth.app.screens.form.property("exempt"))
 
 
 def ask(booth: Booth, *items: Item) -> None:
@@ -82,6 +87,42 @@ def test_one_click_answers(booth: Booth, given: Given, kind: str, name: str, val
     ask(booth, ITEMS[kind])
     booth.click(name)
     assert given == [(ITEMS[kind].id, value)]
+
+
+@pytest.mark.parametrize("kind", [kind for kind in ITEMS if kind != "page"])
+def test_that_an_item_does_not_apply_is_said_and_taken_back_with_a_button(
+    booth: Booth, given: Given, kind: str
+) -> None:
+    item = ITEMS[kind].model_copy(update={"not_applicable": True})
+    ask(booth, item, ITEMS["likert"].model_copy(update={"id": "other"}))
+    assert not booth.sees("not-applicable-other")
+    booth.click(f"not-applicable-{item.id}")
+    assert exempt(booth) == [item.id]
+    assert item.id not in booth.app.screens.form.property("answers")
+    booth.app.screens.form.proceed()
+    booth.click(f"not-applicable-{item.id}")
+    assert exempt(booth) == []
+    assert given == [(item.id, NOT_APPLICABLE), ("", "continued"), (item.id, None)]
+
+
+def test_an_answer_takes_back_that_the_item_does_not_apply_and_the_other_way_round(booth: Booth, given: Given) -> None:
+    ask(booth, ITEMS["integer"].model_copy(update={"not_applicable": True}))
+    booth.click("more-alone")
+    booth.click("not-applicable-alone")
+    assert booth.item("number-alone").property("text") == ""
+    booth.click("more-alone")
+    booth.app.screens.form.proceed()
+    assert given == [("alone", 0), ("alone", NOT_APPLICABLE), ("alone", 0), ("", "continued")]
+    assert exempt(booth) == []
+
+
+def test_a_digit_answers_the_next_item_after_one_that_does_not_apply(booth: Booth, given: Given) -> None:
+    likert = ITEMS["likert"].model_copy(update={"not_applicable": True})
+    ask(booth, likert, likert.model_copy(update={"id": "second"}))
+    booth.click("not-applicable-enjoyed")
+    booth.app.window.contentItem().forceActiveFocus()
+    press(booth, Qt.Key.Key_3)
+    assert given[-1][1] == 3
 
 
 def test_a_slider_has_no_handle_until_it_is_put_somewhere(booth: Booth, given: Given) -> None:

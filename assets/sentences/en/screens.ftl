@@ -102,6 +102,7 @@ result-speech-many =
 form-progress = Page { $number } of { $all }
 form-next = Next
 form-skip = Go on without it
+form-not-applicable = Does not apply
 form-missing = Please answer this one first.
 form-skipped = You left this one out. You may leave it.
 form-wrong-number = Please type a whole number from { $lowest } to { $highest }.

@@ -103,6 +103,7 @@ result-speech-many =
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
 form-skip = Seguir sin responder
+form-not-applicable = No procede
 form-missing = Responde primero a esta pregunta, por favor.
 form-skipped = Has dejado esta pregunta. Puedes omitirla.
 form-wrong-number = Escribe un número entero de { $lowest } a { $highest }.

@@ -107,6 +107,7 @@ result-speech-many =
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
 form-skip = Continua senza
+form-not-applicable = Non si applica
 form-missing = Rispondi prima a questa domanda, per favore.
 form-skipped = Hai lasciato questa domanda. Puoi anche saltarla.
 form-wrong-number = Scrivi un numero intero da { $lowest } a { $highest }.

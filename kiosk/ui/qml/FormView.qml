@@ -27,13 +27,12 @@ FocusScope {
     // One press of a digit answers the scale that has the keyboard, or else the first that is not answered, and goes on
     // to the next.
     function answer(digit: int): bool {
-        const open = index => (view.form.answers[view.form.items[index].id] ?? null) === null
         let at = -1
         for (let i = 0; i < boxes.count && at < 0; i++)
             if ((boxes.itemAt(i) as FormItem).activeFocus)
                 at = i
         for (let i = 0; i < boxes.count && at < 0; i++)
-            if (open(i))
+            if ((boxes.itemAt(i) as FormItem).isOpen())
                 at = i
         if (at < 0 || !(boxes.itemAt(at) as FormItem).takes(digit))
             return false

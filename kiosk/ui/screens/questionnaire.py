@@ -13,10 +13,14 @@ from PySide6.QtQml import QJSValue, QmlElement
 from kiosk.assistance.keyboards import capital
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.items import (
+    NOT_APPLICABLE,
     Answer,
     Integer,
     Multiple,
+    NotApplicable,
     Pictures,
+    Question,
+    Response,
     ShortText,
     Single,
     TextPage,
@@ -34,6 +38,7 @@ def item_view(item: Item, catalogue: Catalogue, scale: Callable[[str], Path]) ->
     shown |= item.view(catalogue.language) | {
         "source": QUrl.fromLocalFile(str(item.qml)).toString() if item.qml else ""
     }
+    shown["exempts"] = isinstance(item, Question) and item.not_applicable
     if isinstance(item, Pictures):
         folder = scale(item.pictures)
         files = (folder / f"{point}.svg" for point in range(1, item.points + 1))
@@ -81,8 +86,8 @@ class FormScreen(QObject):
         self._scale = scale
         self._items: tuple[Item, ...] = ()
         self._number = self._of = 0
-        self._answers: dict[str, Answer] = {}
-        self._given: dict[str, Answer | None] = {}
+        self._answers: dict[str, Response] = {}
+        self._given: dict[str, Response | None] = {}
         """What the visitor has answered, although it may not be shown yet."""
         self._drafts: dict[str, str] = {}
         self._missing: tuple[str, ...] = ()
@@ -108,7 +113,7 @@ class FormScreen(QObject):
         self.turned.emit()
         self.marked.emit()
 
-    def show_answer(self, item: str, value: Answer | None) -> None:
+    def show_answer(self, item: str, value: Response | None) -> None:
         """Show which answer is chosen."""
         self._given[item] = value
         if value is None:
@@ -117,8 +122,11 @@ class FormScreen(QObject):
             self._answers[item] = value
         self._missing = tuple(name for name in self._missing if name != item)
         self.marked.emit()
-        if isinstance(self._item(item), Integer | ShortText) and self._typed(item) != value:
-            self.filled.emit(item, "" if value is None else str(value))
+        answer = None if isinstance(value, NotApplicable) else value
+        if isinstance(self._item(item), Integer | ShortText) and (
+            self._typed(item) != answer or (answer is None and self._drafts.get(item))
+        ):
+            self.filled.emit(item, "" if answer is None else str(answer))
 
     def show_missing(self, items: tuple[str, ...]) -> None:
         """Show which items have to be answered before the visitor can go on."""
@@ -136,7 +144,7 @@ class FormScreen(QObject):
         return self._items
 
     @property
-    def given(self) -> dict[str, Answer]:
+    def given(self) -> dict[str, Response]:
         """The answers that are chosen, as anybody in front of the screen can see."""
         return dict(self._answers)
 
@@ -155,7 +163,13 @@ class FormScreen(QObject):
     @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def answers(self) -> dict[str, Any]:
         """Return the chosen answers, by their items."""
-        return {item: list(value) if isinstance(value, tuple) else value for item, value in self._answers.items()}
+        given = {item: value for item, value in self._answers.items() if not isinstance(value, NotApplicable)}
+        return {item: list(value) if isinstance(value, tuple) else value for item, value in given.items()}
+
+    @Property(list, notify=marked)
+    def exempt(self) -> list[str]:
+        """Return the items that the visitor said do not apply."""
+        return [item for item, value in self._answers.items() if isinstance(value, NotApplicable)]
 
     @Property(list, notify=marked)
     def missing(self) -> list[str]:
@@ -206,6 +220,11 @@ class FormScreen(QObject):
         chosen = before if isinstance(before, tuple) else ()
         after = set(chosen) ^ {option}
         self._answer(item, tuple(known for known in self._options(item) if known in after) or None)
+
+    @Slot(str)
+    def dismiss(self, item: str) -> None:
+        """Say that an item does not apply, or take that back."""
+        self._answer(item, None if self._given.get(item) is NOT_APPLICABLE else NOT_APPLICABLE)
 
     @Slot(str, "QVariant")
     def give(self, item: str, value: object) -> None:
@@ -264,7 +283,9 @@ class FormScreen(QObject):
             self.marked.emit()
             return
         typed = self._typed(item)
-        if typed != self._answers.get(item):
+        # An empty field is no reason to take back that the item does not apply.
+        answer = self._answers.get(item)
+        if typed != (None if isinstance(answer, NotApplicable) else answer):
             self._answer(item, typed)
 
     @Slot()
@@ -282,7 +303,7 @@ class FormScreen(QObject):
         for item in tuple(self._drafts):
             self.finish(item)
 
-    def _answer(self, item: str, value: Answer | None) -> None:
+    def _answer(self, item: str, value: Response | None) -> None:
         self._given[item] = value
         self.answered.emit(item, value)
 

@@ -29,6 +29,7 @@ FIXED = (
     "result-line",
     "result-continue",
     "form-next",
+    "form-not-applicable",
     "form-skip",
     "form-missing",
     "form-skipped",

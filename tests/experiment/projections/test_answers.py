@@ -58,7 +58,7 @@ def test_without_events_every_item_is_missing_in_the_declared_order() -> None:
         ItemResponse("one", "b"),
         ItemResponse("two", "a"),
     )
-    assert ItemResponse("one", "a") == ItemResponse("one", "a", value=None, first_ms=None, last_ms=None, changes=0)
+    assert ItemResponse("one", "a") == ItemResponse("one", "a", response=None, first_ms=None, last_ms=None, changes=0)
 
 
 def test_a_text_page_is_no_item_that_could_be_missing() -> None:

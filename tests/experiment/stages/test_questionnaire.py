@@ -16,6 +16,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.items import (
+    NOT_APPLICABLE,
     Answer,
     Differential,
     Integer,
@@ -26,7 +27,9 @@ from kiosk.experiment.items import (
     Slider,
     TextPage,
 )
+from kiosk.experiment.projections import item_responses
 from kiosk.experiment.questionnaire import KINDS, Item, ItemOrder
+from kiosk.experiment.session_state import SessionState
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, driven_to, some_answer, with_memory
 from tests.samples import ABOUT_YOU, likert, options, plan, questionnaire
@@ -68,6 +71,23 @@ def test_a_question_may_be_passed_over() -> None:
         assert driver.view.ended is None
         driver.go_on()
     assert driver.view.ended is Status.COMPLETED
+
+
+def test_that_an_item_does_not_apply_is_a_response_where_the_item_allows_it() -> None:
+    asked = questionnaire("asked", likert("a", required=True, not_applicable=True), likert("b"), per_page=2)
+    driver = Driver(replace(plan(stages=("questions", "game"), game=Game(rows=2, columns=2)), questionnaires=(asked,)))
+    driver.start()
+    with pytest.raises(InvalidTransition):
+        driver.answer(NOT_APPLICABLE, "b")
+    driver.answer(4, "b")
+    driver.go_on()
+    assert driver.view.missing == ("a",)
+    assert driver.answer(NOT_APPLICABLE, "a").effects[-1] == do.ShowAnswer("a", NOT_APPLICABLE)
+    driver.go_on()
+    assert driver.stage is Stage.GAME
+    first, second = item_responses(SessionState.from_events(driver.events), [asked])
+    assert (first.value, first.does_not_apply, first.changes) == (None, True, 0)
+    assert (second.value, second.does_not_apply) == (4, False)
 
 
 def test_an_item_that_is_asked_for_once_is_pointed_out_and_may_then_be_left() -> None:

@@ -41,6 +41,10 @@ Rectangle {
     function takes(digit: int): bool {
         return box.ways[item.kind] === points && digit <= item.points
     }
+    // Whether nothing is said to it yet.
+    function isOpen(): bool {
+        return (answer ?? null) === null && !form.exempt.includes(item.id)
+    }
     function take() {
         (guest.active ? guest : way).forceActiveFocus(Qt.TabFocusReason)
     }
@@ -98,6 +102,37 @@ Rectangle {
                 item: box.item, answer: box.answer ?? null, theme: Theme, alone: box.alone
             })
             onLoaded: drawn.answered.connect(value => box.form.give(box.item.id, value))
+        }
+        Choosable {
+            id: nothing
+            objectName: `not-applicable-${box.item.id}`
+            visible: box.item.exempts
+            anchors.horizontalCenter: parent.horizontalCenter
+            on: box.form.exempt.includes(box.item.id)
+            words: box.words["form-not-applicable"]
+            font.pixelSize: Theme.small
+            leftPadding: 18 * Theme.unit
+            rightPadding: 18 * Theme.unit
+            verticalPadding: (box.dense ? 4 : 8) * Theme.unit
+            Accessible.role: Accessible.CheckBox
+            Accessible.name: `${box.item.text} ${words}`
+            onClicked: box.form.dismiss(box.item.id)
+            contentItem: Text {
+                textFormat: Text.PlainText
+                text: nothing.words
+                font: nothing.font
+                color: Theme.ink
+            }
+            background: Rectangle {
+                radius: height / 2
+                color: nothing.on ? Theme.sand : Theme.white
+                border { color: nothing.on ? Theme.sea : Theme.edge; width: (nothing.on ? 5 : nothing.hovered ? 4 : 2) * Theme.unit }
+                FocusRing {
+                    around: nothing
+                    reach: 6 * Theme.unit
+                    radius: height / 2
+                }
+            }
         }
         Binding {
             target: guest.item
