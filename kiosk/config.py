@@ -6,6 +6,7 @@ import hashlib
 import re
 import tomllib
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -627,6 +628,15 @@ class ExperimenterConfig(ConfigModel):
         return pin
 
 
+@dataclass(frozen=True)
+class PackageOrigin:
+    """The packed study that settings came from; ``shipped`` are the hashes of what came with Recollect there."""
+
+    path: Path
+    sha256: str
+    shipped: Mapping[str, str]
+
+
 class Settings(ConfigModel):
     """Everything that one study may set."""
 
@@ -678,22 +688,38 @@ class Settings(ConfigModel):
 
     _file: Path | None = PrivateAttr(None)
     """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""
+    _package: PackageOrigin | None = PrivateAttr(None)
 
     @classmethod
     def read(cls, path: Path) -> Self:
         """Read a study file; the paths in it start from its own folder."""
-        settings = super().read(path)
-        settings._file = path
+        return super().read(path)._at(path)
+
+    @classmethod
+    def from_package(cls, given: Mapping[str, Any], file: Path, package: PackageOrigin) -> Self:
+        """Return the settings of a packed study whose files were put beside ``file``; raises ValidationError."""
+        return cls.model_validate(given)._at(file, package)
+
+    def _at(self, file: Path, package: PackageOrigin | None = None) -> Self:
+        """Note where they were read; raises UserInputError for a robot that is not installed."""
+        self._file, self._package = file, package
         # Not in the model: a stored session stays readable where its robot is not installed.
         kinds = (NO_ROBOT, *registered_names(ExtensionGroup.ROBOTS))
-        if settings.robot.kind not in kinds:
+        if self.robot.kind not in kinds:
             offered = f"{', '.join(map(repr, kinds[:-1]))} or {kinds[-1]!r}"
-            raise UserInputError(f"{settings.name}: robot.kind must be {offered}, but it is {settings.robot.kind!r}")
-        return settings
+            raise UserInputError(f"{self.name}: robot.kind must be {offered}, but it is {self.robot.kind!r}")
+        return self
+
+    @property
+    def package(self) -> PackageOrigin | None:
+        """The packed study that they came from; None if they did not."""
+        return self._package
 
     @property
     def name(self) -> str:
         """What to call them in a refusal."""
+        if self._package:
+            return f"the packed study {self._package.path}"
         return f"the {self.file_kind} {self._file}" if self._file else "the study"
 
     @field_validator("conditions")

@@ -19,6 +19,7 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     config.stash[HOME] = TemporaryDirectory(prefix="recollect-tests-")
     os.environ["XDG_DATA_HOME"] = config.stash[HOME].name
+    os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
     _keep_bytecode()
 
 

@@ -210,6 +210,12 @@ class Written:
     file: Path
     source: str
 
+    @property
+    def text(self) -> str:
+        """The entry as it is written, without its comment."""
+        start = self.entry.id.span.start if self.entry.id.span else 0
+        return self.source[start : self.entry.span.end if self.entry.span else None].strip()
+
     def line(self, node: SyntaxNode) -> int:
         """Return the line in which a part of it begins, counted from 1."""
         return self.source.count("\n", 0, node.span.start if node.span else 0) + 1

@@ -20,6 +20,7 @@ from platformdirs import user_data_path
 from kiosk import DISK_FULL, UserInputError, why
 from kiosk.config import NO_ROBOT, Settings
 from kiosk.extensions import ExtensionGroup, registered_names
+from kiosk.study.package import open_study
 
 DATA = user_data_path("recollect", appauthor=False)
 """Where a study's data are kept unless told otherwise."""
@@ -34,11 +35,11 @@ _BUILT_FROM = Path(__file__).parents[1] / "commit.txt"
 
 
 def read_settings(study: Path | None, robot_host: str | None = None, robot_port: int | None = None) -> Settings:
-    """Read the settings of a study file, or the study's own without one.
+    """Read the settings of a study file or a packed study, or the study's own without one.
 
     A robot's host or port goes before the file's.
     """
-    settings = Settings.read(study) if study else Settings()
+    settings = open_study(study) if study else Settings()
     if robot_host is None and robot_port is None:
         return settings
     robot = settings.robot

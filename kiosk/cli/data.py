@@ -24,6 +24,7 @@ from kiosk.store import verify as checking
 from kiosk.store import withdrawal as withdrawing
 from kiosk.store.verify import Flaw, Verification
 
+SHORT_SHA = 12
 SOMETHING_WRONG = 1
 """The exit code when something is found, or the disk fails."""
 
@@ -140,8 +141,17 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
     """Bring the data folders A, B and so on together in a new one; they stay as they are."""
     with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
         sessions = merging.merge(folders, out, tell, sites)
-    told = {"out": str(out), "folders": len(folders), "sessions": sessions}
-    click.echo(json.dumps(told) if as_json else f"{sessions} sessions of {len(folders)} folders are in {out}.")
+    studies = merging.studies_in(folders)
+    if as_json:
+        named = [asdict(each) | {"folder": str(each.folder)} for each in studies]
+        click.echo(json.dumps({"out": str(out), "folders": len(folders), "sessions": sessions, "studies": named}))
+        return
+    click.echo(f"{sessions} sessions of {len(folders)} folders are in {out}.")
+    if len({each.sha256 for each in studies}) > 1:
+        click.echo("caution: they are of studies that differ; compare them with 'recollect study diff':")
+        for each in studies:
+            sha256 = each.sha256[:SHORT_SHA] or "unknown"
+            click.echo(f"  {sha256} {each.title!r}: {each.sessions} sessions in {each.folder}")
 
 
 @click.command()

@@ -13,8 +13,8 @@ from rich.console import Console
 from rich.table import Table
 
 from kiosk import UserInputError
+from kiosk.cli.composition import read_settings
 from kiosk.cli.options import data_option, json_option, progress_bar, sessions_data_option, study_option
-from kiosk.config import Settings
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
 from kiosk.experiment.events import Event
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
@@ -119,7 +119,7 @@ def replay_command(
     with open_repository(data) as stored:
         events, plan = stored.story(session), stored.plan(session)
         seed = stored.seed(session)
-    plan = plan if study is None else plan.with_base_dir(Settings.read(study))
+    plan = plan if study is None else plan.with_base_dir(read_settings(study))
     _check_pictures(plan)
     steps = replay_events(plan, seed, events)
     frames = frames or (Path(f"session-{session}") if headless else None)

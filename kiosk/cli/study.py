@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from rich.table import Table
 from kiosk import UserInputError, program
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
+from kiosk.cli.study_package import diff_command, pack_command, signature_of
 from kiosk.config import Settings
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
@@ -23,6 +24,7 @@ from kiosk.export.tables import renamed_items
 from kiosk.robots.registry import check_robot
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.loader import expected_minutes, read_study, study_warnings
+from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file
 from kiosk.ui.checks import CannotDraw, undrawn
 
@@ -38,26 +40,43 @@ def study() -> None:
 study.add_command(set_pin_command)
 
 
+study.add_command(pack_command)
+study.add_command(diff_command)
+
+
 @study.command("check")
 @click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--allowed-signers",
+    type=click.Path(path_type=Path),
+    help="Who may have signed a packed study: a file as ssh-keygen(1) describes it.",
+)
 @json_option
 @click.pass_context
-def study_check(context: click.Context, file: Path, *, as_json: bool) -> None:
+def study_check(context: click.Context, file: Path, allowed_signers: Path | None, *, as_json: bool) -> None:
     """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
     try:
-        read = read_study(Settings.read(file))
+        read = read_study(open_study(file))
         check_robot(read.settings)
-        untried = check_pictures(read)
+        signature, unverified = signature_of(file, allowed_signers)
+        untried = [*unverified, *check_pictures(read)]
     except UserInputError as refusal:
         if not as_json:
             raise
         click.echo(json.dumps({"faults": refusal.sentences}))
         context.exit(BAD_INPUT)
     summary = summarised(read)
+    if is_package(file):
+        summary["signed"] = str(signature) if signature else None
     summary["cautions"] += untried
     if as_json:
         click.echo(json.dumps({"faults": []} | summary))
-        return
+    else:
+        _print_summary(read, summary)
+
+
+def _print_summary(read: StudyConfig, summary: Mapping[str, Any]) -> None:
+    """Print what a study is, where everything came from, and what may not be meant."""
     table = Table(box=None, show_header=False)
     for key, value in summary.items():
         if key not in {"cautions", "sources"}:
@@ -85,6 +104,7 @@ def summarised(read: StudyConfig) -> dict[str, Any]:
     settings, plan = read.settings, read.plans[0]
     return {
         "title": settings.title,
+        "sha256": read.sha256,
         "languages": list(read.languages),
         "stages": list(settings.stages),
         "conditions": dict(settings.randomisation.target_n) or {settings.assistance.condition: None},

@@ -71,6 +71,8 @@ class SessionConfig:
 
     policies: Mapping[str, QTable] = field(default_factory=dict)
     """The tables of the study's conditions, by their names, where any has one of its own."""
+    study_sha256: str = ""
+    """The hash of the whole study, as ``study pack`` prints it; empty where it is not known."""
 
     @property
     def cell(self) -> ConditionConfig:
@@ -130,6 +132,11 @@ class StudyConfig:
     def settings(self) -> Settings:
         """The study file."""
         return self.plans[0].settings
+
+    @property
+    def sha256(self) -> str:
+        """The hash of everything that sessions follow, settings of one kiosk left out; empty if it is not known."""
+        return self.plans[0].study_sha256
 
     @property
     def own_pictures(self) -> tuple[Path, ...]:

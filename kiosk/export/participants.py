@@ -717,6 +717,15 @@ def _what_it_followed(study: StudyMaterials) -> tuple[Column[Person], ...]:
             lambda row: row.kept.row["code_commit"],
         ),
         (
+            Variable(
+                "study_sha256",
+                "The hash of the whole study, as `recollect study pack` prints it; two studies with one hash are the "
+                "same in all that sessions follow.",
+                empty="it was not known",
+            ),
+            lambda row: row.kept.row["study_sha256"] or None,
+        ),
+        (
             Variable("policy_sha256", "The hash of the table that chose how much to help."),
             lambda row: row.kept.row["policy_sha256"],
         ),

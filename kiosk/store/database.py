@@ -80,6 +80,7 @@ _TABLES = (
         code_commit TEXT NOT NULL,
         deck TEXT NOT NULL,
         policy_sha256 TEXT NOT NULL,
+        study_sha256 TEXT NOT NULL DEFAULT '',
         settings_sha256 TEXT NOT NULL REFERENCES source (sha256),
         policy_source TEXT NOT NULL REFERENCES source (sha256),
         questionnaire_source TEXT NOT NULL REFERENCES source (sha256),

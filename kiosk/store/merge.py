@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from kiosk import StorageError, UserInputError
+from kiosk.experiment.session_config import SessionKind
 from kiosk.store.connecting import atomic_directory, reason
 from kiosk.store.database import in_use, open_for_reading, open_for_writing
 from kiosk.store.maintenance import Progress
@@ -55,6 +56,30 @@ def merge(
         except (OSError, sqlite3.Error) as error:
             raise StorageError(f"{out} could not be written: {reason(error, out.parent)}") from error
     return sessions
+
+
+@dataclass(frozen=True)
+class StudyCount:
+    """How many sessions of the study ran under one hash in a data folder."""
+
+    sha256: str
+    title: str
+    folder: Path
+    sessions: int
+
+
+def studies_in(folders: Sequence[Path]) -> list[StudyCount]:
+    """Return the studies that the participants of these data folders were in, by their hashes, largest first."""
+    found: list[StudyCount] = []
+    for folder in folders:
+        with closing(open_for_reading(folder)) as connection:
+            rows = connection.execute(
+                "SELECT study_sha256, json_extract(min(content), '$.title'), count(*) FROM session"
+                " JOIN source ON source.sha256 = settings_sha256 WHERE kind = ? GROUP BY study_sha256",
+                (int(SessionKind.STUDY),),
+            )
+            found += (StudyCount(sha256, title, folder, sessions) for sha256, title, sessions in rows)
+    return sorted(found, key=lambda each: (-each.sessions, each.sha256, str(each.folder)))
 
 
 _Shared = TypeVar("_Shared", bound=Hashable)

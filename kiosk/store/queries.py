@@ -135,6 +135,7 @@ class SessionRepository:
                 questionnaires=QUESTIONNAIRES.validate_json(self.source(row["questionnaire_source"])),
                 deck=tuple(json.loads(row["deck"])),
                 practice_deck=tuple(json.loads(row["practice_deck"])),
+                study_sha256=row["study_sha256"],
                 translations=self._translations(row) if self._changed_language(number) else (),
             )
         except ValueError as error:

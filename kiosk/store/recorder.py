@@ -341,6 +341,7 @@ class Recorder:
         return {
             "deck": json.dumps(plan.deck),
             "policy_sha256": plan.policy.sha256,
+            "study_sha256": plan.study_sha256,
             "settings_sha256": self._keep_source(plan.settings.model_dump_json()),
             "policy_source": self._keep_source(plan.policy.to_json()),
             "practice_deck": json.dumps(plan.practice_deck),

@@ -46,6 +46,7 @@ from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.language_codes import standard
 from kiosk.preflight import CheckResult
 from kiosk.study.forming import unformed
+from kiosk.study.package import shipped_differences, study_hash
 from kiosk.units import MS_PER_MINUTE
 
 _WORDS = {
@@ -166,6 +167,7 @@ def read_study(settings: Settings) -> StudyConfig:
         raise UserInputError(*look.faults)
     for language, catalogue in catalogues.items():
         catalogue.followed_by(other for each, other in catalogues.items() if each != language)
+    sha256 = study_hash(settings, look.sources)
     return StudyConfig(
         tuple(
             SessionConfig(
@@ -179,6 +181,7 @@ def read_study(settings: Settings) -> StudyConfig:
                 questionnaires=asked[1:],
                 deck=decks["game"],
                 practice_deck=decks.get("practice", ()),
+                study_sha256=sha256,
             )
             for language in settings.language_codes
         ),
@@ -469,7 +472,19 @@ TAP_MS = 2000
 
 def study_warnings(study: StudyConfig) -> tuple[str, ...]:
     """Return a sentence for everything that can be run but may not be meant."""
-    return (*_of_texts(study), *_of_names(study), *_of_cards(study))
+    return (*_of_package(study), *_of_texts(study), *_of_names(study), *_of_cards(study))
+
+
+def _of_package(study: StudyConfig) -> Iterator[str]:
+    """Yield what comes with Recollect and was different where the study was packed."""
+    origin = study.settings.package
+    differing = [] if origin is None else list(shipped_differences(origin, study.sources))
+    if origin is not None and (differing or study.sha256 != origin.sha256):
+        what = ", ".join(differing) or "settings that it did not know"
+        yield (
+            f"{origin.path} was packed with another version of Recollect, in which this was different: {what}; so "
+            f"sessions here have the study's hash {study.sha256[:SHORT_SHA]} and not {origin.sha256[:SHORT_SHA]}"
+        )
 
 
 def _of_texts(study: StudyConfig) -> Iterator[str]:
@@ -585,9 +600,7 @@ def faults_check(sentences: Sequence[str]) -> Iterator[CheckResult]:
 def study_file_check(study: StudyConfig) -> Iterator[CheckResult]:
     """Yield what the study is, and what of it may not be meant."""
     longest = max(round(expected_minutes(plan)) for plan in study.plans)
-    yield CheckResult.ok(
-        FILE, f"{study.settings.title!r}, about {longest} minutes, {study.settings.sha256[:SHORT_SHA]}"
-    )
+    yield CheckResult.ok(FILE, f"{study.settings.title!r}, about {longest} minutes, {study.sha256[:SHORT_SHA]}")
     for caution in study_warnings(study):
         yield CheckResult.warning(FILE, caution, "change the study file, if it is not meant so")
 

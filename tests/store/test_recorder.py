@@ -10,6 +10,7 @@ import subprocess
 import threading
 import time
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -149,9 +150,9 @@ def test_words_that_are_not_quite_text_are_kept_all_the_same(folder: Path, prove
 
 
 def test_a_session_s_row_says_what_it_followed(folder: Path, provenance: Provenance) -> None:
-    plan = provenance.plan
+    plan = replace(provenance.plan, study_sha256="e" * 64)
     with Recorder(folder) as recorder:
-        recorder.begin(provenance, [START])
+        recorder.begin(replace(provenance, plan=plan), [START])
     with closing(sqlite3.connect(folder / FILE)) as connection:
         connection.row_factory = sqlite3.Row
         row = dict(connection.execute("SELECT * FROM session").fetchone())
@@ -167,6 +168,7 @@ def test_a_session_s_row_says_what_it_followed(folder: Path, provenance: Provena
     assert tuple(json.loads(row["deck"])) == plan.deck
     assert row["policy_sha256"] == plan.policy.sha256
     assert row["settings_sha256"] == plan.settings.sha256
+    assert row["study_sha256"] == plan.study_sha256 == "e" * 64
     assert kept[row["settings_sha256"]] == plan.settings.model_dump_json()
     assert kept[row["policy_source"]] == plan.policy.to_json()
     assert kept[row["questionnaire_source"]] == QUESTIONNAIRES.dump_json(plan.questionnaires).decode()

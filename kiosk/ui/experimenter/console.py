@@ -417,7 +417,7 @@ class ExperimenterConsole:
             pid=os.getpid(),
             site=self._booth.recorder.site,
             study=study.settings.title,
-            study_sha256=study.settings.sha256,
+            study_sha256=study.sha256,
             kind=self._kind.name.lower(),
             stage=stage,
             stage_since=utc(since_ms),

@@ -92,7 +92,7 @@ def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) 
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
         HealthLine(translate("console-policy"), _policy(study)),
-        HealthLine(translate("console-study"), f"{study.settings.title} · {study.settings.sha256[:SHORT_SHA]}"),
+        HealthLine(translate("console-study"), f"{study.settings.title} · {study.sha256[:SHORT_SHA]}"),
         HealthLine(
             translate("console-pin-line-name"),
             translate("console-pin-set" if state.has_pin else "console-pin-none"),

@@ -422,3 +422,21 @@ def test_a_disk_that_fails_in_the_middle_leaves_nothing(
             merge([milan, girona], out)
     assert sorted(milan.parent.iterdir()) == there
     assert merge([milan, girona], out) == 7
+
+
+def test_merging_sessions_of_two_studies_names_both(tmp_path: Path, provenance: Provenance, out: Path) -> None:
+    for site, sha256 in (("MI", "a" * 64), ("GI", "b" * 64)):
+        plan = replace(provenance.plan, study_sha256=sha256)
+        a_day(tmp_path / site, replace(provenance, plan=plan), site, seed=ord(site[0]))
+    said = CliRunner().invoke(recollect, ["merge", str(tmp_path / "MI"), str(tmp_path / "GI"), "--out", str(out)])
+    assert said.exit_code == 0
+    assert "caution: they are of studies that differ" in said.stdout
+    title = provenance.plan.settings.title
+    assert f"  {'a' * 12} {title!r}: 3 sessions in {tmp_path / 'MI'}\n" in said.stdout
+    assert f"  {'b' * 12} {title!r}: 3 sessions in {tmp_path / 'GI'}\n" in said.stdout
+
+
+def test_merging_sessions_of_one_study_says_nothing_of_studies(milan: Path, girona: Path, out: Path) -> None:
+    said = CliRunner().invoke(recollect, ["merge", str(milan), str(girona), "--out", str(out)])
+    assert said.exit_code == 0
+    assert "studies" not in said.stdout
