@@ -510,6 +510,17 @@ class RobotConfig(ConfigModel):
         dict[str, Any], Field(description="What only this driver knows, by its own names; see the driver's page.")
     ] = {}
     voice: Annotated[str, Field(description="Its voice by name; by default the first one of the language.")] = ""
+    pack: Annotated[
+        bool,
+        Field(
+            description="Whether it plays the clips of the avatar's voice pack, so that both sound the same; each is "
+            "served over HTTP to the robot's address alone, while the robot says it."
+        ),
+    ] = False
+    pack_port: Annotated[
+        int | None,
+        Field(ge=1, le=65535, description="The port of this machine that it fetches them from; by default a free one."),
+    ] = None
     connect_deadline_ms: Annotated[Milliseconds, Field(description="The longest that reaching it may take.")] = 1000
     answer_deadline_ms: Annotated[
         Milliseconds, Field(description="The longest that any answer but speech may take.")

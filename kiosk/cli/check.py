@@ -278,6 +278,9 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
             yield Check(f"voice: {plan.language}", say, within_s)
     ask_robot = partial(robots_checks.robot_check, settings.robot, settings.language_codes, busy=booth.busy)
     yield Check(robots_checks.ROBOT, ask_robot, robots_checks.within_s(settings.robot))
+    if settings.robot.pack:
+        packs = partial(robots_checks.pack_check, settings.voice_from_here, settings.language_codes)
+        yield Check(f"{robots_checks.ROBOT}: clips", packs)
 
 
 def _kept(booth: CheckTargets) -> Iterator[Check]:

@@ -109,13 +109,19 @@ class Clip:
         """How long it lasts."""
         return len(self.samples) * 1000 // self.rate
 
-    def write(self, file: Path) -> None:
-        """Write it as a WAV file."""
-        with wave.open(str(file), "wb") as audio:
+    def to_bytes(self) -> bytes:
+        """Return it as a WAV file."""
+        content = io.BytesIO()
+        with wave.open(content, "wb") as audio:
             audio.setnchannels(1)
             audio.setsampwidth(2)
             audio.setframerate(self.rate)
             audio.writeframes(self.samples.astype("<i2").tobytes())
+        return content.getvalue()
+
+    def write(self, file: Path) -> None:
+        """Write it as a WAV file."""
+        file.write_bytes(self.to_bytes())
 
     def at_rate(self, rate: int) -> Clip:
         """Return the same sound at another rate."""
@@ -510,7 +516,7 @@ def _chosen(wanted: str) -> _Chosen:
     there = _playbacks(real)
     if not wanted:
         if there and all(bytes(miniaudio.ffi.buffer(each)).startswith(_PLACEHOLDER) for each in there.values()):
-            raise LookupError(f"{NO_DEVICE}, only {', '.join(there)}, which nobody hears")
+            raise LookupError(f"{NO_DEVICE}, only {', '.join(there)}, which is no sound card")
         return _Chosen("", {"backends": real})
     name = next((name for name in there if wanted.casefold() in name.casefold()), None)
     if name is None:

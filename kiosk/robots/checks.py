@@ -10,11 +10,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from kiosk import UserInputError
-from kiosk.config import NO_ROBOT
+from kiosk.config import NO_ROBOT, VoiceConfig
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.preflight import CheckResult
 from kiosk.robots.embodiment import InspectableRobot, RobotDriver, RobotError, chosen_voice
 from kiosk.robots.registry import create_robot
+from kiosk.robots.voice_packs import find_pack
 from kiosk.units import MS_PER_SECOND
 
 SOUND = "sound"
@@ -162,6 +163,22 @@ def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool
         yield CheckResult.ok(ROBOT, "not tried while a kiosk is open here; its panel tells how the robot is")
     else:
         yield _any(device)
+
+
+def pack_check(settings: VoiceConfig, languages: Sequence[str]) -> Iterator[CheckResult]:
+    """Look for the pack of each language that a robot is to play clips of."""
+    for language in languages:
+        what = f"{ROBOT}: clips: {language}"
+        try:
+            pack = find_pack(settings, language)
+        except UserInputError as refusal:
+            yield CheckResult.error(what, str(refusal), "correct voice.speakers in the study file")
+            continue
+        if pack is None:
+            remedy = f"'recollect voice render --language {language}' makes it"
+            yield CheckResult.warning(what, "there is no voice pack: the robot speaks with its own voice", remedy)
+        else:
+            yield CheckResult.ok(what, f"it plays {pack.described}")
 
 
 def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequence[str]) -> Iterator[CheckResult]:

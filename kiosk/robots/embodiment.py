@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import partial
 from threading import Lock
+from types import MappingProxyType
 from typing import ClassVar, Protocol
 
 from kiosk.config import ConfigModel
@@ -244,10 +245,11 @@ class Utterance:
     """A sentence under way, which any thread may cut off."""
 
     def __init__(self, sentence: str, started: Callable[[], None], longest: int = LONGEST_TEXT) -> None:
-        """Call ``started`` once, on the robot's thread, when the robot begins or is asked to.
+        """Call ``started`` once, on any thread, when the robot begins or is asked to.
 
         No more than ``longest`` characters are said.
         """
+        self.sentence = sentence
         self.text = speakable(sentence, longest)
         self.started = started
         self._lock = Lock()
@@ -279,6 +281,21 @@ class Capability(Enum):
 
     GESTURES = "gestures"
     GAZE = "gaze"
+    CLIPS = "clips"
+    """It plays a sound that it fetches."""
+
+
+@dataclass(frozen=True)
+class SpokenClip:
+    """The sound of a sentence as a WAV file, and what spoke it: engine, engine_version, voice and pack."""
+
+    wav: bytes
+    duration_ms: int
+    spoken_by: Mapping[str, str]
+
+
+ClipSource = Callable[[str, str], SpokenClip | None]
+"""Returns the clip that says a text in a language; None if there is none."""
 
 
 class RobotDriver(ABC):
@@ -297,6 +314,12 @@ class RobotDriver(ABC):
     capabilities: ClassVar[frozenset[Capability]] = frozenset()
     longest_text: ClassVar[int] = LONGEST_TEXT
     """Characters that it takes in one request; a longer sentence ends at the last word within."""
+    clips: ClipSource | None = None
+    """Where the clips come from that a driver with CLIPS has the robot play; None: it speaks with its own voice."""
+    spoken_by: Mapping[str, str] = MappingProxyType({})
+    """What speaks the sentence under way, if it is a clip."""
+    on_own_voice: Callable[[str], None] = staticmethod(lambda _: None)
+    """Called, on any thread, with the reason why the robot speaks with its own voice where it was to play a clip."""
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
         """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
@@ -442,6 +465,10 @@ class RobotListener(SpeechListener, Protocol):
         """Report that the robot can be counted on from now on."""
         ...
 
+    def robot_uses_own_voice(self, why: str) -> None:
+        """Report that the robot could not play the clips of the voice pack, and speaks with its own voice."""
+        ...
+
 
 class AsyncRobotAdapter:
     """One robot, found or lost; lost until ``look_for`` has found it."""
@@ -452,6 +479,7 @@ class AsyncRobotAdapter:
         self._reports = reports
         self._land = land
         self._saying: Utterance | None = None
+        robot.on_own_voice = lambda why: land(partial(self._uses_own_voice, why))
         self._health = Health(is_ok=False, message="the robot has not been looked for yet")
         self._sought = False
         self._under_way = 0
@@ -472,6 +500,11 @@ class AsyncRobotAdapter:
     def busy(self) -> bool:
         """Whether anything that was asked of it is not over."""
         return self._under_way > 0
+
+    @property
+    def spoken_by(self) -> Mapping[str, str]:
+        """What speaks the sentence under way; empty if it is the robot's own voice, of which nothing is known."""
+        return self._robot.spoken_by
 
     def connect(self) -> None:
         """Look for it, and get it ready to speak; ``robot_found`` or ``robot_lost`` follows."""
@@ -587,6 +620,11 @@ class AsyncRobotAdapter:
         self._health = Health(is_ok=True, message=f"the robot is there{voice}")
         self._reports.robot_found()
 
+    def _uses_own_voice(self, why: str) -> None:
+        if self._health.is_ok:
+            self._health = Health(is_ok=True, message=f"the robot is there, but speaks with its own voice: {why}")
+        self._reports.robot_uses_own_voice(why)
+
     def _lost(self, why: str) -> None:
         """Report the first failure; later ones were asked of a robot that was lost already."""
         if not self._health.is_ok and not self._sought:
@@ -622,6 +660,8 @@ class EmbodimentSelector:
 
     def __init__(self, listener: SpeechListener, after: After, settings: RobotSettings) -> None:
         """Without a body nothing is said; ``take`` brings the avatar, ``take_robot`` the robot."""
+        self.on_own_voice: Callable[[str], None] = lambda _: None
+        """Called with the reason why the robot does not play the clips that it was to play."""
         self._listener = listener
         self._after = after
         self._settings = settings
@@ -666,6 +706,11 @@ class EmbodimentSelector:
     def health(self) -> Mapping[EmbodimentName, Health]:
         """How every body is, in words for the experimenter."""
         return {body.name: body.health for body in (self._robot, self._avatar) if body is not None}
+
+    @property
+    def robot_spoken_by(self) -> Mapping[str, str]:
+        """What speaks the robot's sentence under way, if it is a clip of the voice pack."""
+        return {} if self._robot is None else self._robot.spoken_by
 
     @property
     def settled(self) -> bool:
@@ -773,6 +818,11 @@ class EmbodimentSelector:
         if not self._in_session:
             self._choose()
         self._wait_for_robot(self._settings.health_check_ms)
+
+    def robot_uses_own_voice(self, why: str) -> None:
+        """Pass on that the robot speaks with its own voice, though it was to play clips."""
+        _log.warning("the robot speaks with its own voice: %s", why)
+        self.on_own_voice(why)
 
     def robot_lost(self, why: str) -> None:
         """Record the loss in the session that the robot was helping in, or change to the avatar."""

@@ -7,6 +7,7 @@ import socket
 from collections.abc import Callable, Collection, Mapping
 from contextlib import closing
 from http.client import HTTPException, IncompleteRead, RemoteDisconnected
+from threading import Timer
 from time import monotonic
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -19,6 +20,7 @@ from urllib3.connectionpool import HTTPConnectionPool
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
+from kiosk.robots.clip_server import ClipServer
 from kiosk.robots.embodiment import (
     BoardPoint,
     Capabilities,
@@ -27,6 +29,7 @@ from kiosk.robots.embodiment import (
     InspectableRobot,
     RobotError,
     RobotVoice,
+    SpokenClip,
     Utterance,
     chosen_voice,
 )
@@ -202,6 +205,11 @@ class HttpClient:
         self._connect_s = connect_ms / MS_PER_SECOND
         self._address = host
 
+    @property
+    def address(self) -> str:
+        """The IP address that the name was found to have."""
+        return self._address
+
     def resolve(self) -> None:
         """Look the name up, once for all calls that follow: only the system decides how long that takes."""
         try:
@@ -277,6 +285,15 @@ def _innermost(error: BaseException) -> str:
     return str(_causes(error)[-1] if isinstance(error, requests.ConnectionError) else error)
 
 
+_CLIP_GRACE_MS = 3_500
+"""How much longer than its clip a sentence may take: fetching it, and the answer."""
+
+
+def _cancel_unless_fetched(served: ClipServer, call: Call) -> None:
+    if not served.is_fetched:
+        call.cancel()
+
+
 OK = 200
 GREETING = b"hello"
 """A part of what its server says when it is up: "hello world"."""
@@ -295,6 +312,7 @@ class Furhat(InspectableRobot):
         self._settings = settings
         self._language = language
         self._http = HttpClient(settings.host, settings.port or self.default_port, settings.connect_deadline_ms)
+        self._fetches = True
         self._gestures: tuple[str, ...] = ()
         self._voices: tuple[RobotVoice, ...] = ()
 
@@ -302,6 +320,7 @@ class Furhat(InspectableRobot):
         """Look for it, see what it offers, and give it a voice of the language; raises RobotFailed."""
         self.resolve()
         self.health_check()
+        self._fetches = True
         self._gestures = self.gestures()
         self._voices = self.voices()
         voice = chosen_voice(self._voices, self._language, self._settings.voice)
@@ -348,11 +367,51 @@ class Furhat(InspectableRobot):
         self._ask("/furhat/voice", {"name": voice.name})
 
     def say(self, saying: Utterance) -> None:
-        """Say a sentence to its end, in place of any other; raises RobotFailed."""
+        """Say a sentence to its end, in place of any other; raises RobotFailed.
+
+        With a source of clips the robot plays one. If it cannot fetch that, it says the text with its own voice, and so
+        all that follow until it is connected anew.
+        """
+        self.spoken_by = {}
+        clip = self.clips(self._language, saying.sentence) if self.clips and self._fetches else None
+        if clip is not None:
+            why = self._not_played(saying, clip)
+            if not why:
+                return
+            self._fetches = False
+            self.spoken_by = {}
+            self.on_own_voice(why)
         call = Call(self._settings.speech_time(saying.text) / MS_PER_SECOND, saying.started)
         saying.on_cancel(call.cancel)
         parameters = {"text": saying.text, "blocking": "true", "abort": "true"}
         _check("POST /furhat/say", *self._http.request(call, "POST", "/furhat/say", parameters))
+
+    def _not_played(self, saying: Utterance, clip: SpokenClip) -> str:
+        """Have the robot fetch a clip and play it; returns why it did not, and nothing if it did.
+
+        Raises RobotFailed for a robot that breaks off or is gone.
+        """
+        settings = self._settings
+        call = Call(max(settings.speech_time(saying.text), clip.duration_ms + _CLIP_GRACE_MS) / MS_PER_SECOND)
+        saying.on_cancel(call.cancel)
+        self.spoken_by = {**clip.spoken_by, "device": self.name}
+        try:
+            with ClipServer(clip.wav, self._http.address, settings.pack_port or 0, saying.started) as served:
+                parameters = {"url": served.url, "lipsync": "true", "blocking": "true", "abort": "true"}
+                within = Timer(settings.answer_deadline_ms / MS_PER_SECOND, _cancel_unless_fetched, (served, call))
+                within.start()
+                try:
+                    _check("POST /furhat/say", *self._http.request(call, "POST", "/furhat/say", parameters))
+                except RobotError as failure:
+                    is_refused = failure.kind not in {FailureKind.UNREACHABLE, FailureKind.DROPPED}
+                    if served.is_fetched or saying.is_cancelled or not is_refused:
+                        raise
+                    return f"it did not fetch the clip ({failure})"
+                finally:
+                    within.cancel()
+                return "" if served.is_fetched else "it did not fetch the clip, though it said that it played it"
+        except OSError as error:
+            return f"the clip cannot be served: {error.strerror or error}"
 
     def stop_speech(self) -> None:
         """Ask it to be silent; it may say yes and speak on. Raises RobotFailed."""

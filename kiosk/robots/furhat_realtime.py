@@ -77,7 +77,7 @@ class FurhatRealtime(RobotDriver):
 
     name: ClassVar[str] = "furhat-realtime"
     default_port: ClassVar[int] = 9000
-    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
+    capabilities: ClassVar[frozenset[Capability]] = frozenset({Capability.GESTURES, Capability.GAZE})
 
     def __init__(self, settings: RobotSettings, language: str) -> None:
         """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""

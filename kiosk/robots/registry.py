@@ -12,7 +12,7 @@ from kiosk.config import NO_ROBOT, Settings
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.errors import validation_messages
 from kiosk.extensions import Extension, ExtensionGroup, find
-from kiosk.robots.embodiment import RobotDriver
+from kiosk.robots.embodiment import Capability, RobotDriver
 
 
 def load_driver(extension: Extension) -> type[RobotDriver]:
@@ -39,6 +39,8 @@ def create_robot(settings: RobotSettings, language: str) -> RobotDriver | None:
         return None
     extension = find(ExtensionGroup.ROBOTS, settings.kind)
     driver = load_driver(extension)
+    if settings.pack and Capability.CLIPS not in driver.capabilities:
+        raise UserInputError(f"robot.pack: the driver {settings.kind} cannot have its robot play a voice pack's clips")
     try:
         driver.options.model_validate(settings.options)
     except ValidationError as error:

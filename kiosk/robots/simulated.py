@@ -38,7 +38,7 @@ class FlakyRobot(RobotDriver):
     """
 
     name: ClassVar[str] = "simulated"
-    capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)
+    capabilities: ClassVar[frozenset[Capability]] = frozenset({Capability.GESTURES, Capability.GAZE})
 
     def __init__(self, seed: int, *, fails: float = FAILS, breaks_off: float = BREAKS_OFF) -> None:
         """Up, until it is asked for the first time; calls and sentences fail with these probabilities."""

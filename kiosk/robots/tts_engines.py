@@ -192,6 +192,11 @@ ENGINES: dict[str, type[PicoEngine | HibariEngine | SystemEngine]] = {
 _PACKAGES = {"hibari": "hibari", "pico": "py_nanotts", "system": "pyttsx3"}
 
 
+def is_installed(name: str) -> bool:
+    """Whether the engine of this name is there; it is not loaded."""
+    return find_spec(_PACKAGES[name]) is not None
+
+
 _SLOW = {"hibari"}
 """Engines that take longer for a sentence than the kiosk waits: they make packs, and do not speak live."""
 

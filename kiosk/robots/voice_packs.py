@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import re
 import wave
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -18,8 +19,12 @@ import numpy as np
 import platformdirs
 
 from kiosk import UserInputError
-from kiosk.robots.audio import TARGET_LUFS, Clip, levelled, loudness_lufs, trimmed
-from kiosk.robots.tts_engines import SpeechEngine
+from kiosk.config import VoiceConfig
+from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, trimmed
+from kiosk.robots.embodiment import SpokenClip
+from kiosk.robots.tts_engines import ENGINES, SpeechEngine, is_installed
+
+_log = logging.getLogger(__name__)
 
 MANIFEST = "pack.json"
 PAUSE_MS = 250
@@ -149,6 +154,46 @@ class VoicePack:
         if hashlib.sha256(content).hexdigest() != told["sha256"]:
             return "was changed since the pack was made"
         return clip_fault(clip)
+
+
+def find_pack(settings: VoiceConfig, language: str) -> VoicePack | None:
+    """Return the pack that speaks a language: the one that is named, or the cache's of the best engine.
+
+    It is that of the avatar's voice, which has no other way without an engine. Raises UserInputError for a folder that
+    is no pack.
+    """
+    speaker = settings.speakers.get(language, "")
+    if speaker and speaker not in ENGINES:
+        return VoicePack.read(Path(speaker))
+    for name in (speaker,) if speaker else ENGINES:
+        pack = VoicePack.read_if_there(cache_folder(language, name, settings.rate)) if is_installed(name) else None
+        if pack is not None:
+            return pack
+    return None
+
+
+class PackClips:
+    """The clips of the avatar's packs for another body, such as a robot that plays what it fetches."""
+
+    def __init__(self, settings: VoiceConfig) -> None:
+        """Read a pack when its language is spoken for the first time."""
+        self._settings = settings
+        self._packs: dict[str, VoicePack | None] = {}
+
+    def __call__(self, language: str, text: str) -> SpokenClip | None:
+        """Return the clip that says a text; None if the language has no pack that can say it."""
+        if language not in self._packs:
+            try:
+                self._packs[language] = find_pack(self._settings, language)
+            except UserInputError as refusal:
+                _log.warning("%s", refusal)
+                self._packs[language] = None
+        pack = self._packs[language]
+        parts = None if pack is None else pack.clips_of(text)
+        if pack is None or not parts:
+            return None
+        clip = joined(parts, PAUSE_MS)
+        return SpokenClip(clip.to_bytes(), clip.duration_ms, pack.spoken_by | {"pack": pack.sha256})
 
 
 def clip_fault(clip: Clip) -> str | None:

@@ -189,7 +189,8 @@ class App:
     def _spoken_by(self) -> Mapping[str, Any]:
         """Return what speaks the sentence under way; of a robot's own voice nothing is known."""
         body = self.embodiments.current
-        return self.voice.spoken_by if body is not None and body.name is EmbodimentName.AVATAR else {}
+        is_avatar = body is not None and body.name is EmbodimentName.AVATAR
+        return self.voice.spoken_by if is_avatar else self.embodiments.robot_spoken_by
 
     def _play(self, effect: SoundEffect) -> None:
         if not self.embodiments.is_silent:
@@ -198,6 +199,10 @@ class App:
     def _take_robot(self, device: RobotDriver | None, settings: Settings) -> None:
         if device is None:
             return
+        if settings.robot.pack:
+            from kiosk.robots.voice_packs import PackClips  # noqa: PLC0415 - for few studies, and it loads the sound
+
+            device.clips = PackClips(settings.voice_from_here)
         self.embodiments.attach_robot(
             AsyncRobotAdapter(device, self.embodiments, self._landing, settings.robot.heartbeat_ms)
         )

@@ -20,6 +20,8 @@ from types import TracebackType
 from typing import Any, Self
 from urllib.parse import parse_qsl, urlsplit
 
+import requests
+
 from tests.robots.furhat_rules import GESTURES, VOICES, Refused, Request, check
 
 PATIENCE_S = 10
@@ -70,6 +72,10 @@ class FurhatFake:
         self.requests: list[Request] = []
         self.refusals: list[str] = []
         self.voice: str | None = None
+        self.fetches = True
+        """Whether it fetches the sounds that it is to play; one that cannot says that it played them."""
+        self.played: list[bytes] = []
+        """The sounds that it fetched."""
         self._rng = Random(seed)
         self._mode = Mode.WELL
         self._armed: tuple[Mode, str, int] | None = None
@@ -125,7 +131,8 @@ class FurhatFake:
     @property
     def sentences(self) -> list[str]:
         """What it was asked to say."""
-        return [request.parameters["text"] for request in self.asked("/furhat/say")]
+        said = (request.parameters.get("text") for request in self.asked("/furhat/say"))
+        return [text for text in said if text is not None]
 
     def asked(self, path: str) -> list[Request]:
         """Every request to a path."""
@@ -180,9 +187,12 @@ class FurhatFake:
         with self._changed:
             self._speaking += 1
             mine = self._speaking
+        if "url" in request.parameters and self.fetches:
+            with suppress(requests.RequestException):
+                self.played.append(requests.get(request.parameters["url"], timeout=PATIENCE_S).content)
         if request.parameters.get("blocking") != "true":
             return
-        over = monotonic() + len(request.parameters["text"]) * self.character_ms / 1000
+        over = monotonic() + len(request.parameters.get("text", "")) * self.character_ms / 1000
         # Another sentence ends this one, as abort does.
         while monotonic() < over and self._speaking == mine:
             if gone(min(_TICK_S, max(0.0, over - monotonic()))):

@@ -13,7 +13,7 @@ from kiosk.config import RobotConfig, VoiceConfig
 from kiosk.preflight import CheckResult, Severity
 from kiosk.robots import audio, voice_program
 from kiosk.robots import checks as robots_checks
-from kiosk.robots.checks import SLOW_MS, robot_check, say_check, sound_check, voice_check, within_s
+from kiosk.robots.checks import SLOW_MS, pack_check, robot_check, say_check, sound_check, voice_check, within_s
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -208,3 +208,14 @@ def test_a_test_sentence_is_told_with_who_said_it_and_where_or_why_nothing_was_h
     assert not ill.is_ok
     assert ill.message == "nothing was heard: the sound device is gone"
     assert say_check(python("pass"), "en", "Hello").message == "nothing was heard: the voice's process died"
+
+
+def test_a_language_without_a_pack_for_the_robot_is_told_of_with_a_remedy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
+    settings = VoiceConfig(speakers={"it": str(tmp_path / "nowhere")})
+    english, italian = pack_check(settings, LANGUAGES)
+    assert (english.severity, italian.severity) == (Severity.WARNING, Severity.ERROR)
+    assert english.remedy == "'recollect voice render --language en' makes it"
+    assert "there is no voice pack in" in italian.message

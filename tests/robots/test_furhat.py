@@ -9,11 +9,24 @@ from contextlib import suppress
 from time import monotonic
 
 import pytest
+import requests
 
+from kiosk import UserInputError
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.robots.embodiment import BoardPoint, FailureKind, RobotError, RobotVoice, Utterance, chosen_voice, speakable
+from kiosk.robots.clip_server import ClipServer
+from kiosk.robots.embodiment import (
+    BoardPoint,
+    FailureKind,
+    RobotError,
+    RobotVoice,
+    SpokenClip,
+    Utterance,
+    chosen_voice,
+    speakable,
+)
 from kiosk.robots.furhat import Furhat
+from kiosk.robots.registry import create_robot
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 
 DEADLINE_MS = 250
@@ -298,3 +311,118 @@ def test_a_very_long_text_is_cut_at_a_word() -> None:
     text = speakable("word " * 400)
     assert len(text) < 1000
     assert text.endswith("word")
+
+
+CLIP = SpokenClip(
+    b"RIFF and so on", 40, {"engine": "pico", "engine_version": "0.1", "voice": "en-US", "pack": "a hash"}
+)
+
+
+def with_clips(fake: FurhatFake, **settings: int) -> tuple[Furhat, list[str]]:
+    """Return a robot that plays a clip for every sentence but one, and the reasons why it did not."""
+    robot, reasons = furhat(fake, "en", pack=True, **settings), list[str]()
+    robot.clips = lambda language, text: CLIP if (language, text) != ("en", "No clip") else None
+    robot.on_own_voice = reasons.append
+    robot.connect()
+    return robot, reasons
+
+
+def test_a_clip_is_fetched_and_played_in_place_of_the_robots_voice_and_the_record_says_whose_it_is(
+    fake: FurhatFake,
+) -> None:
+    robot, reasons = with_clips(fake)
+    started: list[object] = []
+    robot.say(saying("Try row 2", lambda: started.append(dict(robot.spoken_by))))
+    assert fake.played == [CLIP.wav]
+    assert fake.sentences == []
+    assert started == [{**CLIP.spoken_by, "device": "furhat"}]
+    robot.say(saying("No clip"))
+    assert fake.sentences == ["No clip"]
+    assert robot.spoken_by == {}
+    assert (fake.refusals, reasons) == ([], [])
+
+
+@pytest.mark.parametrize("mode", [Mode.WELL, Mode.UNSUCCESSFUL, Mode.HANG])
+def test_a_robot_that_cannot_fetch_a_clip_says_so_once_and_goes_on_with_its_own_voice(
+    fake: FurhatFake, mode: Mode
+) -> None:
+    robot, reasons = with_clips(fake)
+    fake.fetches = False
+    fake.mode = mode
+    started: list[str] = []
+
+    def mend(why: str) -> None:
+        reasons.append(why)
+        fake.mode = Mode.WELL
+
+    robot.on_own_voice = mend
+    robot.say(saying("One", lambda: started.append("One")))
+    robot.say(saying("Two", lambda: started.append("Two")))
+    assert fake.sentences == ["One", "Two"]
+    assert started == ["One", "Two"]
+    assert [why.startswith("it did not fetch the clip") for why in reasons] == [True]
+    assert robot.spoken_by == {}
+    fake.fetches = True
+    robot.connect()
+    robot.say(saying("Three"))
+    assert fake.played == [CLIP.wav]
+
+
+def test_a_sentence_that_is_cut_while_its_clip_is_waited_for_is_not_said_with_another_voice(fake: FurhatFake) -> None:
+    robot, reasons = with_clips(fake, answer_deadline_ms=60_000)
+    fake.mode = Mode.HANG
+    sentence = saying("Try row 2")
+
+    def cut() -> None:
+        fake.wait_until(lambda: fake.asked("/furhat/say"))
+        sentence.cancel()
+
+    threading.Thread(target=cut, daemon=True).start()
+    with pytest.raises(RobotError) as failed:
+        robot.say(sentence)
+    assert failed.value.kind is FailureKind.CUT
+    assert (fake.sentences, reasons) == ([], [])
+
+
+def test_a_port_that_is_taken_leaves_the_robot_its_own_voice(fake: FurhatFake) -> None:
+    robot, reasons = with_clips(fake, pack_port=fake.port)
+    robot.say(saying("Try row 2"))
+    assert fake.sentences == ["Try row 2"]
+    assert "the clip cannot be served" in reasons[0]
+
+
+def answer_of(url: str, verb: str = "GET") -> int:
+    """Return the code that is answered to a request."""
+    with requests.request(verb, url, timeout=5) as answer:
+        return answer.status_code
+
+
+def test_a_clip_is_served_at_one_path_only_and_no_longer_than_it_is_said() -> None:
+    fetched: list[str] = []
+    with ClipServer(CLIP.wav, "127.0.0.1", 0, lambda: fetched.append("")) as served:
+        base = served.url.rsplit("/", 1)[0]
+        for path in ("/", "/clip.wav", "/../pack.json", f"{served.path}/..", f"{served.path}?a=b"):
+            assert answer_of(base + path) == 404
+        assert answer_of(served.url, "POST") == 501
+        assert answer_of(served.url, "HEAD") == 200
+        assert (fetched, served.is_fetched) == ([], False)
+        with requests.get(served.url, timeout=5) as answer:
+            assert (answer.headers["Content-Type"], answer.content) == ("audio/wav", CLIP.wav)
+        assert answer_of(served.url) == 200
+        assert fetched == [""]
+    with pytest.raises(requests.ConnectionError):
+        answer_of(served.url)
+
+
+def test_a_clip_is_refused_to_every_address_but_the_robots(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kiosk.robots.clip_server.own_address", lambda _: "127.0.0.1")
+    with ClipServer(CLIP.wav, "192.0.2.7", 0, lambda: None) as served:
+        with pytest.raises(requests.ConnectionError):
+            answer_of(served.url)
+        assert not served.is_fetched
+
+
+def test_a_study_that_asks_a_robot_for_clips_that_cannot_play_them_is_refused() -> None:
+    settings = RobotSettings.model_validate({"kind": "furhat-realtime", "pack": True})
+    with pytest.raises(UserInputError, match=r"robot\.pack: the driver furhat-realtime cannot have"):
+        create_robot(settings, "en")

@@ -339,7 +339,7 @@ def test_a_loudspeaker_is_silent_while_it_is_suspended_and_is_not_the_placeholde
     player.play(2, LONG)
     assert ears.next(player)["event"] == "started"
     server.control("unload-module", "module-null-sink")
-    why = "there is no sound device, only Dummy Output, which nobody hears"
+    why = "there is no sound device, only Dummy Output, which is no sound card"
     assert ears.next(player) == {"event": "broken", "id": 2, "why": why}
     assert ears.next(player) == {"event": "device", "device": "", "why": why}
     server.control("load-module", "module-null-sink", "sink_name=booth", "rate=44100", "norewinds=1")

@@ -11,11 +11,20 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.cli.voice import spoken_texts
-from kiosk.config import ASSETS, Settings
+from kiosk.config import ASSETS, Settings, VoiceConfig
 from kiosk.robots import tts_worker
 from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, mouth_shapes, trimmed
 from kiosk.robots.tts_worker import SpeechSource
-from kiosk.robots.voice_packs import MANIFEST, PAUSE_MS, VoicePack, import_recordings, key_of, render_pack
+from kiosk.robots.voice_packs import (
+    MANIFEST,
+    PAUSE_MS,
+    PackClips,
+    VoicePack,
+    find_pack,
+    import_recordings,
+    key_of,
+    render_pack,
+)
 from kiosk.study.loader import read_study
 
 RATE = 16_000
@@ -203,3 +212,21 @@ def test_everything_that_a_study_can_say_is_listed_once(language: str) -> None:
 def test_a_speaker_that_cannot_be_is_refused(speakers: dict[str, str], words: str) -> None:
     with pytest.raises(ValueError, match=words):
         Settings.model_validate({"voice": {"speakers": speakers}})
+
+
+def test_a_robot_is_given_the_very_clip_that_the_avatar_plays(pack: VoicePack, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tts_worker, "create_engine", lambda *_, **__: Engine())
+    settings = VoiceConfig(speakers={"en": str(pack.folder)})
+    clips = PackClips(settings)
+    avatars, by = SpeechSource("en", 150, str(pack.folder)).clip(f"{REASON} {PLACE}")
+    robots = clips("en", f"{REASON} {PLACE}")
+    assert robots is not None
+    assert Clip.from_bytes(robots.wav).samples.tolist() == avatars.samples.tolist()
+    assert (robots.duration_ms, robots.spoken_by) == (avatars.duration_ms, by)
+    assert clips("en", "What no pack says.") is None
+
+
+def test_without_a_pack_a_robot_is_given_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
+    assert find_pack(VoiceConfig(), "en") is None
+    assert PackClips(VoiceConfig(speakers={"en": str(tmp_path / "nowhere")}))("en", REASON) is None

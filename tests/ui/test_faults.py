@@ -13,6 +13,9 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName
+from kiosk.robots.embodiment import SpokenClip
+from kiosk.robots.voice_packs import PackClips
+from kiosk.store.database import open_for_reading
 from kiosk.store.queries import open_repository
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as Broken
@@ -72,6 +75,30 @@ def test_a_robot_that_is_well_says_everything(booth: Booth, fake: FurhatFake) ->
     assert result.utterances.finished == result.utterances.requested
     assert fake.refusals == []
     assert len(fake.sentences) == result.utterances.requested
+
+
+def test_a_robot_plays_the_avatars_pack_until_it_cannot_fetch_it_and_the_record_says_what_spoke(
+    fake: FurhatFake, make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    by = {"engine": "pico", "engine_version": "0.1", "voice": "en-US", "pack": "f00d"}
+    monkeypatch.setattr(PackClips, "__call__", lambda *_: SpokenClip(b"RIFF", 10, by))
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "pack": True, **QUICK}
+    booth = make_booth(settings=short(robot=robot))
+    rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "fetches", False), 20)
+    rehearsal.run()
+    with open_repository(booth.data) as stored:
+        result = result_of(stored, rehearsal)
+    assert result.embodiment_changes == 0
+    assert result.utterances.finished == result.utterances.requested
+    spoken = [event.pack for event in result.events if isinstance(event, happened.SpeechStarted)]
+    assert spoken == ["f00d"] * len(fake.played) + [""] * len(fake.sentences)
+    assert fake.played
+    assert fake.sentences
+    connection = open_for_reading(booth.data)
+    notes = connection.execute("SELECT payload FROM audit_event WHERE type = 'VoiceChanged'").fetchall()
+    connection.close()
+    assert len(notes) == 1
+    assert "the robot's own: it did not fetch the clip" in notes[0][0]
 
 
 @pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())

@@ -388,6 +388,7 @@ class ExperimenterConsole:
         screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()})
         screen.pressed.connect(self.actions.press)
         booth.voice.health_changed.connect(self._voice_changed)
+        booth.embodiments.on_own_voice = self._robot_uses_own_voice
 
     def close(self) -> None:
         """Listen no more, and write down what is left to be."""
@@ -398,6 +399,10 @@ class ExperimenterConsole:
     def _voice_changed(self, is_heard: bool, message: str) -> None:  # noqa: FBT001 - Qt's way to tell
         """Write down that sentences are not heard any more, or are again."""
         self._write.record(AuditEvent.VOICE_CHANGED, {"is_heard": is_heard, "message": message})
+
+    def _robot_uses_own_voice(self, why: str) -> None:
+        """Write down that the robot does not sound like the avatar any more."""
+        self._write.record(AuditEvent.VOICE_CHANGED, {"is_heard": True, "message": f"the robot's own: {why}"})
 
     def _stand_by(self) -> None:
         self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
