@@ -372,7 +372,12 @@ class VoiceConfig(ConfigModel):
         int, Unit("words per minute"), Field(ge=80, le=300, description="How fast it speaks; 110 is slow.")
     ] = 150
     volume: Annotated[float, Field(ge=0, le=1, description="How loud it speaks, 0 to 1.")] = 0.9
-    sounds: Annotated[bool, Field(description="Whether cards are heard: quiet sounds, never during speech.")] = True
+    sounds: Annotated[
+        bool,
+        Field(
+            description="Whether cards and buttons are heard: short sounds as loud as the voice, never during speech."
+        ),
+    ] = True
     device: Annotated[
         str,
         Field(

@@ -21,8 +21,10 @@ NAME = "recollect"
 
 DATA = {"assets": "kiosk/assets", "policies": "kiosk/policies", "kiosk/ui/qml": "kiosk/ui/qml"}
 """Folders of the checkout, and where kiosk/config.py looks for them in a build."""
-HIDDEN = ("_cffi_backend", "py_nanotts", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
+HIDDEN = ("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
 """What is imported by a name that is only known at run time."""
+ENGINES = ("py_nanotts", "hibari")
+"""Speech engines that bring models as data; which of them are installed is in the build."""
 EXCLUDED = (
     *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),
     # readline is under the GPL, and a kiosk's terminal takes no typing.
@@ -68,13 +70,15 @@ def folder() -> str:
     WORK.mkdir(parents=True, exist_ok=True)
     commit = WORK / "commit.txt"
     commit.write_text(_commit(), encoding="utf-8")
+    engines = [name for name in ENGINES if importlib.util.find_spec(name) is not None]
     options = [
         *("--name", NAME, "--noconfirm", "--clean", "--log-level", "ERROR", "--noupx", "--console"),
         *("--paths", str(ROOT), "--collect-submodules", "kiosk"),
         *("--distpath", str(DIST), "--workpath", str(WORK), "--specpath", str(WORK)),
         *(f"--add-data={ROOT / source}{os.pathsep}{place}" for source, place in DATA.items()),
         f"--add-data={commit}{os.pathsep}kiosk",
-        *(f"--hidden-import={name}" for name in HIDDEN),
+        *(f"--hidden-import={name}" for name in (*HIDDEN, *engines)),
+        *(f"--collect-data={name}" for name in engines),
         *(f"--exclude-module={name}" for name in EXCLUDED),
         # Not --strip: numpy's linear algebra does not survive it.
         *(["--hide-console", "hide-early"] if os.name == "nt" else []),

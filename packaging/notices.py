@@ -31,7 +31,9 @@ ELSEWHERE = {
 """By what a licence is called: the names of its texts there, for who ships none of their own."""
 COPIED = {"BINARY", "DATA", "EXTENSION"}
 """What lies in the folder as it was, and may have been trimmed away; all else is within the program itself."""
-TEXTS = ("LICEN", "COPYING", "NOTICE", "AUTHORS")
+TEXTS = ("LICEN", "COPYING", "NOTICE", "AUTHORS", "THIRDPARTYNOTICES")
+_IN_PACKAGE = 2
+"""Parts of the path of a file that lies at the top of its package."""
 
 HEAD = """\
 # What Recollect ships of others
@@ -161,12 +163,18 @@ def _licence(distribution: Distribution) -> str:
 
 
 def _texts(distribution: Distribution) -> dict[str, Path]:
-    """Return the licence files among what a distribution says of itself, by their places within it."""
-    texts = {}
+    """Return the licence files among what a distribution says of itself, by their places within it.
+
+    Where it says nothing, those that lie in its package are taken.
+    """
+    said, beside = {}, {}
     for file in distribution.files or ():
-        if file.parts[0].endswith(".dist-info") and ("licenses" in file.parts or file.name.upper().startswith(TEXTS)):
-            texts["/".join(part for part in file.parts[1:] if part != "licenses")] = Path(str(file.locate()))
-    return texts
+        is_text = file.name.upper().startswith(TEXTS)
+        if file.parts[0].endswith(".dist-info") and ("licenses" in file.parts or is_text):
+            said["/".join(part for part in file.parts[1:] if part != "licenses")] = Path(str(file.locate()))
+        elif is_text and len(file.parts) == _IN_PACKAGE and file.suffix in {"", ".txt", ".md"}:
+            beside[file.name] = Path(str(file.locate()))
+    return said or beside
 
 
 def _elsewhere(name: str, licence: str) -> str:

@@ -96,6 +96,8 @@ class App:
         self.runner.spoken_by = self._spoken_by
         if settings.voice.sounds:
             self.runner.play_sound = self._play
+            self.screens.board.refused.connect(partial(self._play, SoundEffect.NUDGE))
+            self.screens.kiosk.pressed.connect(partial(self._play, SoundEffect.BUTTON))
         if mode.pace is ClockMode.WALL and settings.screen.motion:
             # Kept, for Qt alone does not keep alive whom it calls back.
             shown = self.screens

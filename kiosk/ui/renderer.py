@@ -26,6 +26,9 @@ class SoundEffect(Enum):
     MATCH = "match"
     MISS = "miss"
     FLIP = "flip"
+    NUDGE = "nudge"
+    """A card was touched that cannot be turned."""
+    BUTTON = "button"
 
     @property
     def file(self) -> Path:

@@ -13,6 +13,7 @@ import sqlite3
 import subprocess
 import sys
 from contextlib import closing
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -75,17 +76,36 @@ def test_a_built_folder_plays_the_very_session_that_the_checkout_plays(folder: P
         assert database.execute("SELECT code_commit FROM session").fetchone() == (code_commit(),)
 
 
-def test_the_voice_of_a_build_answers(folder: Path) -> None:
+@pytest.mark.parametrize(
+    ("language", "speaker", "engine"),
+    [
+        ("en", "pico", "pico"),
+        ("it", "", "pico"),
+        ("es", "", "pico"),
+        pytest.param(
+            "en",
+            "hibari",
+            "hibari",
+            marks=pytest.mark.skipif(find_spec("hibari") is None, reason="the extra natural is not installed"),
+        ),
+    ],
+)
+def test_the_voice_of_a_build_says_a_sentence_to_its_end(
+    folder: Path, language: str, speaker: str, engine: str, tmp_path: Path
+) -> None:
+    manner = {"language": language, "speaker": speaker, "rate": 150, "volume": 0.5, "device": "null"}
     done = subprocess.run(
-        [folder / "recollect", "_voice", json.dumps({"language": "en", "rate": 150, "volume": 0.5, "device": "null"})],
-        input='{"quit": true}\n',
+        [folder / "recollect", "_voice", json.dumps(manner)],
+        input='{"say": 1, "text": "Pasta."}\n{"finish": true}\n',
+        env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)},
         capture_output=True,
         text=True,
         check=False,
         timeout=LONG,
     )
-    first = json.loads(done.stdout.splitlines()[0])
-    assert first["event"] == "ready" or "No module" not in first["why"]
+    events = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [event["event"] for event in events] == ["ready", "started", "finished"], done.stderr
+    assert events[1]["by"]["engine"] == engine
 
 
 def test_a_command_that_needs_the_full_install_says_so_in_a_sentence(folder: Path, tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ Button {
         event.accepted = false
     }
     // A key that is held down is one click.
+    onClicked: Theme.clicked()
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 

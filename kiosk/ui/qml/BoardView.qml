@@ -255,7 +255,10 @@ FocusScope {
             function answer() {
                 view.touched = view.centre(index)
                 view.touchedSomething()
-                if (refuses && Theme.motion > 0)
+                if (!refuses)
+                    return
+                view.board.refuse()
+                if (Theme.motion > 0)
                     refusal.restart()
             }
             onFoundChanged: if (found && Theme.motion > 0) coming.restart()

@@ -17,6 +17,7 @@ AbstractButton {
     scale: down ? 0.92 : 1
     Accessible.name: words
     onDoubleClicked: {}
+    onClicked: Theme.clicked()
     Keys.onReturnPressed: event => { if (!event.isAutoRepeat) clicked() }
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 

@@ -52,6 +52,10 @@ Window {
     // A visitor cannot close it: only what the experimenter does sets leaving.
     onClosing: close => close.accepted = kiosk.leaving
 
+    Connections {
+        target: Theme
+        function onClicked() { root.kiosk.press() }
+    }
     Binding {
         target: Theme
         property: "unit"

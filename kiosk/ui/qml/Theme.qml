@@ -3,6 +3,9 @@ pragma Singleton
 import QtQuick
 
 QtObject {
+    // A button was clicked, whichever it was: it is heard.
+    signal clicked()
+
     // Set by the window, as all that is not readonly: pixels of one unit of a 1080-line screen, and the factor for texts.
     property real unit: 1
     property real textSize: 1

@@ -63,6 +63,8 @@ class BoardScreen(QAbstractListModel):
     changed = Signal()
     tapped = Signal(Position)
     """A card was tapped."""
+    refused = Signal()
+    """A card was touched that cannot be turned now."""
     skipped = Signal()
     """The visitor leaves the practice."""
     dealt = Signal()
@@ -315,6 +317,11 @@ class BoardScreen(QAbstractListModel):
     def tap(self, location: int) -> None:
         """Report a tapped card."""
         self.tapped.emit(self._position(location))
+
+    @Slot()
+    def refuse(self) -> None:
+        """Report a card that was touched in vain; it shakes its head, whatever comes of this."""
+        self.refused.emit()
 
     @Slot()
     def skip(self) -> None:

@@ -28,6 +28,8 @@ class KioskScreen(QObject):
     confirmed = Signal()
     """The visitor said that they are still there."""
     screen_changed = Signal()
+    pressed = Signal()
+    """A button was pressed, whichever it was."""
     """Something else is shown than a moment ago."""
     controls = Signal()
     """What the visitor can do in the corner has changed."""
@@ -303,3 +305,8 @@ class KioskScreen(QObject):
         self._takes_input = False
         self.changed.emit()
         self.screen_changed.emit()
+
+    @Slot()
+    def press(self) -> None:
+        """Report that a button was pressed."""
+        self.pressed.emit()
