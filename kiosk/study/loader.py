@@ -29,7 +29,7 @@ from kiosk.config import (
 )
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.experimenter import shortcuts
-from kiosk.experiment.information import PUBLISHING, Information, check_alike
+from kiosk.experiment.information import PUBLISHING, Information, Page, check_alike
 from kiosk.experiment.items import (
     Choice,
     Pictures,
@@ -47,6 +47,7 @@ from kiosk.language_codes import standard
 from kiosk.preflight import CheckResult
 from kiosk.study.forming import unformed
 from kiosk.study.package import shipped_differences, study_hash
+from kiosk.study.translations import is_untranslated
 from kiosk.units import MS_PER_MINUTE
 
 _WORDS = {
@@ -472,7 +473,7 @@ TAP_MS = 2000
 
 def study_warnings(study: StudyConfig) -> tuple[str, ...]:
     """Return a sentence for everything that can be run but may not be meant."""
-    return (*_of_package(study), *_of_texts(study), *_of_names(study), *_of_cards(study))
+    return (*_of_package(study), *_of_texts(study), *_of_translations(study), *_of_names(study), *_of_cards(study))
 
 
 def _of_package(study: StudyConfig) -> Iterator[str]:
@@ -500,6 +501,62 @@ def _of_texts(study: StudyConfig) -> Iterator[str]:
             yield f"in the condition {name!r} there is no help, but the introduction promises it to everybody"
     if not settings.consent.contact:
         yield "consent.contact is empty, so visitors are not told whom to write to"
+
+
+def _of_translations(study: StudyConfig) -> Iterator[str]:
+    """Yield what was copied and not translated or rewritten."""
+    for plan in study.plans:
+        yield from _of_example(plan)
+        english = plan.language.partition("-")[0] == MODEL_LANGUAGE
+        model = Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE).written
+        own = {} if english else plan.catalogue.written
+        same = [
+            name for name, written in own.items() if name in model and is_untranslated(written.text, model[name].text)
+        ]
+        if same:
+            yield f"the sentences in {plan.language!r} are still English in {_counted(same)}"
+    first, *others = study.plans
+    for plan in others:
+        same = list(_unchanged_items((plan.about_you, *plan.questionnaires), first.language, plan.language))
+        if same:
+            yield f"in {plan.language!r}, items are still in {first.language!r}: {_counted(same)}"
+        pages = [[text for page in _pages(each.information) for text in page.paragraphs] for each in (first, plan)]
+        if set(pages[0]) & set(pages[1]):
+            yield f"the information sheet in {plan.language!r} has paragraphs that are still in {first.language!r}"
+
+
+def _counted(names: Sequence[str]) -> str:
+    shown = ", ".join(names[:3])
+    return shown if len(names) <= 3 else f"{len(names)} places, such as {shown}"  # noqa: PLR2004
+
+
+def _pages(sheet: Information) -> tuple[Page, ...]:
+    return (sheet.about, sheet.consent, sheet.debrief)
+
+
+def _of_example(plan: SessionConfig) -> Iterator[str]:
+    """Yield that a sheet, wherever it lies, says what the shipped example says."""
+    if plan.settings.consent.text == SHIPPED_TEXT:
+        return
+    try:
+        example = Information.of(ASSETS / "consent" / SHIPPED_TEXT, plan.language)
+    except UserInputError:
+        return
+    names = ("about", "consent", "debrief")
+    pages = zip(names, _pages(plan.information), _pages(example), strict=True)
+    same = [name for name, own, shipped in pages if own.paragraphs == shipped.paragraphs]
+    if same:
+        yield (
+            f"the information sheet in {plan.language!r} still has the example's text under {', '.join(same)}; an "
+            "ethics board approves those of a study"
+        )
+
+
+def _unchanged_items(asked: Iterable[Questionnaire], source: str, language: str) -> Iterator[str]:
+    for item in (item for each in asked for item in each.items):
+        texts = [*item.texts()]
+        if any(is_untranslated(words.get(source, ""), words.get(language, "")) for words in texts):
+            yield item.id
 
 
 def _given(study: StudyConfig) -> set[Condition]:

@@ -153,10 +153,15 @@ def test_what_may_not_be_meant_is_said_and_refuses_nothing(tmp_path: Path, recol
     ]
 
 
+def reworded(sheet: str) -> str:
+    """Return an information sheet whose paragraphs are not the example's."""
+    return sheet.replace('    "', '    "Here: ')
+
+
 def test_a_purpose_for_publishing_under_another_name_is_told_of(tmp_path: Path, recollect: Recollect) -> None:
     shutil.copytree(ASSETS / "consent" / "study", tmp_path / "sheets")
     for sheet in (tmp_path / "sheets").glob("*.toml"):
-        sheet.write_text(sheet.read_text("utf-8").replace('"share"', '"publish"'), "utf-8")
+        sheet.write_text(reworded(sheet.read_text("utf-8")).replace('"share"', '"publish"'), "utf-8")
     study = tmp_path / "study.toml"
     study.write_text("[consent]\ntext = 'sheets'\ncontact = 'the lab'\n", "utf-8")
     assert json.loads(recollect("study", "check", study, "--json").out)["cautions"] == [
@@ -172,7 +177,8 @@ def test_a_condition_without_help_is_told_of_as_help_is_promised(tmp_path: Path,
 
 
 def test_a_study_with_texts_and_a_contact_of_its_own_is_told_nothing_more(tmp_path: Path, recollect: Recollect) -> None:
-    study = Bad(TOLD + '\ncontact = "the lab"', (), SHEETS).write(tmp_path)
+    sheets = {name: reworded(text) for name, text in SHEETS.items()}
+    study = Bad(TOLD + '\ncontact = "the lab"', (), sheets).write(tmp_path)
     said = recollect("study", "check", study)
     assert said.code == 0
     assert "caution" not in said.out

@@ -1,0 +1,77 @@
+"""Commands on the texts of a study: translations."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from kiosk import UserInputError
+from kiosk.cli.options import json_option
+from kiosk.config import Settings, code_of
+from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts
+
+SHOWN = 60
+
+
+@click.command("translations")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--language", help="The language to list, to write or to read; one that is not there yet begins here.")
+@click.option("--write", type=click.Path(path_type=Path), help="Write its texts for translators: a .po or .xliff file.")
+@click.option("--read", type=click.Path(path_type=Path), help="Put translated texts of such a file into the study.")
+@json_option
+def translations_command(
+    file: Path, language: str | None, write: Path | None, read: Path | None, *, as_json: bool
+) -> None:
+    """Show how far the texts of a study FILE are translated from its first language, and exchange them."""
+    settings = Settings.read(file)
+    if (write or read) and language is None:
+        raise UserInputError("--language is missing: which language is it, such as --language nl?")
+    if write and read:
+        raise UserInputError("--write and --read cannot be used together")
+    if language and read:
+        _read(settings, Translation(settings, language), read, as_json=as_json)
+    elif language and write:
+        count = export_texts(Translation(settings, language), write)
+        click.echo(json.dumps({"file": str(write), "texts": count}) if as_json else f"{count} texts are in {write}.")
+    else:
+        codes = [language] if language else list(settings.language_codes[1:])
+        _show({code: Translation(settings, code).units() for code in codes}, list_them=bool(language), as_json=as_json)
+
+
+def _read(settings: Settings, translation: Translation, file: Path, *, as_json: bool) -> None:
+    texts = import_texts(file, translation)
+    written, left = translation.fill(texts)
+    if as_json:
+        click.echo(json.dumps({"files": [str(path) for path in written], "left_out": left}))
+        return
+    for path in written:
+        click.echo(f"written: {path}")
+    for sentence in left:
+        click.echo(f"left out: {sentence}")
+    if translation.language not in map(code_of, settings.languages):
+        click.echo(f'Add "./{translation.language}" to languages in the study file to use it.')
+
+
+def _show(found: dict[str, Sequence[Unit]], *, list_them: bool, as_json: bool) -> None:
+    if as_json:
+        rows = {code: [{"key": unit.key, "state": unit.state.value} for unit in units] for code, units in found.items()}
+        click.echo(json.dumps(rows))
+        return
+    table = Table(box=None, pad_edge=False)
+    for heading in ("language", "texts", *(state.value for state in State)):
+        table.add_column(heading, justify="left" if heading in {"language", "texts"} else "right")
+    for code, units in found.items():
+        for part in dict.fromkeys(unit.part for unit in units):
+            counts = Counter(unit.state for unit in units if unit.part == part)
+            table.add_row(code, escape(part), *(str(counts[state] or "") for state in State))
+    Console().print(table)
+    if list_them:
+        for unit in (unit for units in found.values() for unit in units if unit.state is not State.DONE):
+            click.echo(f"{unit.state.value}: {unit.key}: {unit.source[:SHOWN]!r}")
