@@ -14,7 +14,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, field_validator, model_validator
 
 from kiosk import UserInputError
-from kiosk.errors import shortened, toml_error_message, validation_messages
+from kiosk.errors import shortened, toml_error_message, toml_line, validation_messages
 from kiosk.extensions import ExtensionGroup, registered_names
 from kiosk.language_codes import is_right, standard
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
@@ -670,6 +670,14 @@ class Settings(ConfigModel):
             description="The languages to choose from; the first is shown at rest.",
         ),
     ] = ("en", "it", "es")
+    texts: Annotated[
+        dict[str, str | dict[str, str | dict[str, str]]],
+        Field(
+            max_length=MOST_ENTRIES,
+            description="Own words for single messages of a language: [texts.en] with a key for each message, or "
+            'en = "texts/en.ftl", a file with them.',
+        ),
+    ] = {}
     stages: Annotated[
         tuple[str, ...], Field(min_length=1, strict=False, description="The stages of a session, in their order.")
     ] = STAGES
@@ -738,6 +746,39 @@ class Settings(ConfigModel):
             return f"the packed study {self._package.path}"
         return f"the {self.file_kind} {self._file}" if self._file else "the study"
 
+    def at(self, *key: str | int) -> str:
+        """Return what to call the place of a key in a refusal: the file and, if the key stands there, its line."""
+        line = self.line_of(*key)
+        return self.name if line is None else f"{self.name}, line {line}"
+
+    def line_of(self, *key: str | int) -> int | None:
+        """Return the line of a key in the study file, counted from 1; None for what is not there."""
+        if self._file is None:
+            return None
+        try:
+            return toml_line(read_text(self.name, self._file), key)
+        except UserInputError:
+            # The file has changed since it was read.
+            return None
+
+    def own_texts(self, code: str) -> Mapping[str, str | Mapping[str, str]]:
+        """Return the messages of a language that the study file itself replaces."""
+        own = self._texts_of(code)
+        return {} if isinstance(own, str) else own
+
+    def own_texts_file(self, code: str) -> Path | None:
+        """Return the file that replaces messages of a language, if the study file names one."""
+        own = self._texts_of(code)
+        return self.beside(own) if isinstance(own, str) else None
+
+    def texts_place(self, code: str, message: str) -> tuple[Path, int | None]:
+        """Return the file and the line in which the study file replaces a message."""
+        key = next((key for key in self.texts if code_of(key) == code), code)
+        return self._file or Path("study.toml"), self.line_of("texts", key, message)
+
+    def _texts_of(self, code: str) -> str | Mapping[str, str | Mapping[str, str]]:
+        return next((own for key, own in self.texts.items() if code_of(key) == code), {})
+
     @field_validator("conditions")
     @classmethod
     def _name_conditions(cls, declared: dict[str, ConditionConfig]) -> dict[str, ConditionConfig]:
@@ -763,6 +804,14 @@ class Settings(ConfigModel):
         if name not in there:
             raise UserInputError(f"there is no condition {name!r}; there are {', '.join(there)}")
         return there[name]
+
+    @model_validator(mode="after")
+    def _reword_what_is_spoken(self) -> Self:
+        spoken = {code_of(name) for name in self.languages}
+        strange = [language for language in self.texts if code_of(language) not in spoken]
+        if strange:
+            raise ValueError(f"texts: {strange[0]!r} is none of the languages")
+        return self
 
     @model_validator(mode="after")
     def _name_things_once(self) -> Self:
@@ -817,6 +866,11 @@ class Settings(ConfigModel):
         """Return the path of what the study file calls by this name, whether it is there or not."""
         found = self.locate(kind, name)
         return self.beside(name) if found is None else found.path
+
+    def is_shipped(self, kind: str, name: str) -> bool:
+        """Return whether the study file means something shipped by this name."""
+        found = self.locate(kind, name)
+        return found is not None and found.is_shipped
 
     def locate(self, kind: str, name: str) -> Located | None:
         """Find what the study file calls by this name; None if there is nothing.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import reprlib
+import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Annotated, Any, get_args, get_origin
@@ -64,6 +65,44 @@ def toml_error_message(error: Exception) -> str:
     _, bracket, place = said.rpartition(" (")
     meant = next((words for begins, words in _NOT_TOML.items() if said.startswith(begins)), None)
     return f"{meant}{bracket}{place}" if meant else said
+
+
+def toml_line(text: str, key: Sequence[str | int]) -> int | None:
+    """Return the line of a TOML text in which a key's value begins, counted from 1; None for a key that is not there.
+
+    ``key`` is the way to it: names of tables and keys, and for an entry of a list its number from 0.
+    """
+    lines = text.splitlines(keepends=True)
+    if not _has(_parsed(lines), key):
+        return None
+    without, having = 0, len(lines)
+    while having - without > 1:
+        middle = (without + having) // 2
+        # A value may go over several lines, and a text that ends in the midst of one is no TOML.
+        end = next((n for n in range(middle, without, -1) if _parsed(lines[:n]) is not None), without)
+        if end == without:
+            end = next(n for n in range(middle + 1, having + 1) if _parsed(lines[:n]) is not None)
+            if end == having:
+                break
+        without, having = (without, end) if _has(_parsed(lines[:end]), key) else (end, having)
+    blank = (n for n in range(without, having) if lines[n].strip() and not lines[n].lstrip().startswith("#"))
+    return next(blank, without) + 1
+
+
+def _parsed(lines: Sequence[str]) -> dict[str, Any] | None:
+    try:
+        return tomllib.loads("".join(lines))
+    except (tomllib.TOMLDecodeError, ValueError, RecursionError):
+        return None
+
+
+def _has(here: Any, key: Sequence[str | int]) -> bool:
+    for step in key:
+        try:
+            here = here[step]
+        except (KeyError, IndexError, TypeError):
+            return False
+    return here is not None
 
 
 def validation_messages(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:

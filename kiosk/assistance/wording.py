@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
@@ -27,6 +28,15 @@ CARD = "card"
 """The variable that is a card's name, and what the messages of cards begin with."""
 
 
+REPLACING = "~"
+"""Sources whose names begin so replace messages of the others; they are read last."""
+
+
+def card_message(card: str) -> str:
+    """Return the message that names a card; what no message's name may have is written as its number."""
+    return f"{CARD}-{re.sub('[^A-Za-z0-9_-]', lambda found: f'_{ord(found[0]):x}_', card)}"
+
+
 # Parsing a language takes a tenth of a second, and every decision that is explained and every study that is read needs
 # one. A parsed file is never changed: a bundle compiles it into objects of its own.
 _parsed = lru_cache(maxsize=64)(FluentResource)
@@ -36,9 +46,15 @@ class Catalogue:
     """All messages of one language: the ``*.ftl`` files of one folder, kept as text in ``sources`` by file name."""
 
     def __init__(
-        self, folder: Path, sources: Mapping[str, str] | None = None, files: Mapping[str, Path] | None = None
+        self,
+        folder: Path,
+        sources: Mapping[str, str] | None = None,
+        files: Mapping[str, Path] | None = None,
+        lines: Mapping[str, int] | None = None,
     ) -> None:
         """Read the folder, or take ``sources`` for what once stood in it; ``files`` names those that lie elsewhere.
+
+        ``lines`` holds the lines in which messages stand that were written in a file of another form.
 
         Raises UserInputError if there are no messages, or a file cannot be read or is not well-formed.
         """
@@ -46,6 +62,7 @@ class Catalogue:
             self.language = standard(folder.name)
         except ValueError as error:
             raise UserInputError(f"the folder of sentences {folder}: {error}") from error
+        self.folder = folder
         self.sources = dict(sources_in(folder) if sources is None else sources)
         self.written: dict[str, Written] = {}
         # The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
@@ -55,22 +72,21 @@ class Catalogue:
         self._warned: set[str] = set()
         for name, source in sorted(self.sources.items()):
             resource = _parsed(source)
-            for entry in resource.body:
-                self._check(entry, (files or {}).get(name, folder / name), source)
-            self._bundle.add_resource(resource)
+            file = (files or {}).get(name, folder / name)
+            self._take([_entry(entry, file, source, lines or {}) for entry in resource.body], name)
+            self._bundle.add_resource(resource, allow_overrides=name.startswith(REPLACING))
 
-    def _check(self, entry: EntryType, file: Path, source: str) -> None:
-        """Refuse what is no message, and what Fluent would pass over in silence."""
-        if isinstance(entry, Junk):
-            raise UserInputError(f"{file} is not well-formed near: {str(entry.content).strip().splitlines()[0]}")
-        if not isinstance(entry, Message | Term):
-            return
-        name = entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
-        if name in self.written:
-            raise UserInputError(f"{file}: the message {name} stands twice")
-        self.written[name] = Written(entry, file, source)
-        if name.startswith(f"{CARD}-"):
-            self._forms |= {attribute.id.name for attribute in entry.attributes}
+    def _take(self, entries: Iterable[Written | None], source: str) -> None:
+        """Refuse what stands twice, which Fluent would pass over in silence."""
+        before = frozenset[str]() if source.startswith(REPLACING) else frozenset(self.written)
+        here: dict[str, Written] = {}
+        for written in filter(None, entries):
+            if written.name in before or written.name in here:
+                raise UserInputError(f"{written.file}: the message {written.name} stands twice")
+            here[written.name] = written
+            if written.name.startswith(f"{CARD}-"):
+                self._forms |= {attribute.id.name for attribute in written.entry.attributes}
+        self.written |= here
 
     def followed_by(self, others: Iterable[Catalogue]) -> None:
         """Name the catalogues that speak where this one cannot, in turn; the shipped English one is always the last."""
@@ -104,24 +120,31 @@ class Catalogue:
         has no translation yet are clumsy, but no visitor is left without help.
         """
         if not self.names(name):
-            self._warn(f"{CARD}-{name}", f"the card {name!r} has no name in {self.language!r}; its file's name is said")
+            self._warn(
+                card_message(name), f"the card {name!r} has no name in {self.language!r}; its file's name is said"
+            )
         return self.forms_of(name)
 
     def names(self, card: str) -> bool:
         """Whether it has a name for a card."""
-        return self._text(f"{CARD}-{card}", {}) is not None
+        return self._text(card_message(card), {}) is not None
 
     @property
     def forms(self) -> tuple[str, ...]:
         """The variables that stand for a card: its name, and every form that some card has."""
         return (CARD, *(f"{CARD}-{form}" for form in sorted(self._forms)))
 
+    def own_forms(self, name: str) -> frozenset[str]:
+        """Return the forms that a card has besides its name."""
+        message = card_message(name)
+        return frozenset(self._bundle.get_message(message).attributes) if message in self else frozenset()
+
     def forms_of(self, name: str) -> dict[str, str]:
         """Return all forms of a card.
 
         A form that it lacks is its name, and a name that it lacks is its file's.
         """
-        message = f"{CARD}-{name}"
+        message = card_message(name)
         called = self._text(message, {})
         if called is None:
             return dict.fromkeys(self.forms, name)
@@ -204,11 +227,17 @@ class Catalogue:
 
 @dataclass(frozen=True)
 class Written:
-    """A message or a term as it is written, and where."""
+    """A message or a term as it is written, and where; ``begins`` is its first line, counted from 1."""
 
     entry: Message | Term
     file: Path
     source: str
+    begins: int | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called; a term has a ``-`` before its name."""
+        return self.entry.id.name if isinstance(self.entry, Message) else f"-{self.entry.id.name}"
 
     @property
     def text(self) -> str:
@@ -218,7 +247,21 @@ class Written:
 
     def line(self, node: SyntaxNode) -> int:
         """Return the line in which a part of it begins, counted from 1."""
+        if self.begins is not None:
+            return self.begins
         return self.source.count("\n", 0, node.span.start if node.span else 0) + 1
+
+
+def _entry(entry: EntryType, file: Path, source: str, lines: Mapping[str, int]) -> Written | None:
+    """Return a message or a term; None for a comment. Raises UserInputError for what is neither."""
+    if isinstance(entry, Junk):
+        line = source.count("\n", 0, entry.span.start if entry.span else 0) + 1
+        begin = str(entry.content).strip().splitlines()[0]
+        line = lines.get(begin.partition("=")[0].strip(), line)
+        raise UserInputError(f"{file}, line {line}, is not well-formed near: {begin}")
+    if not isinstance(entry, Message | Term):
+        return None
+    return Written(entry, file, source, lines.get(entry.id.name))
 
 
 @cache

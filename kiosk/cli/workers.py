@@ -52,6 +52,14 @@ def pictures() -> None:
 
 
 @display_command.command()
+def cards() -> None:
+    """Draw the cards that are named on standard input, each into a file."""
+    from kiosk.ui.checks import draw_files
+
+    draw_files(sys.stdin, sys.stdout, cards=True)
+
+
+@display_command.command()
 @study_option
 def frame_command(study: Path | None) -> None:
     """Draw the kiosk off screen."""

@@ -35,6 +35,27 @@ def unformed(catalogue: Catalogue, model: Catalogue, cards: Iterable[str], most_
             yield fault
 
 
+def as_messages(own: Mapping[str, str | Mapping[str, str]]) -> str:
+    """Return messages that a study file replaces as Fluent writes them; a table holds the wordings of a message."""
+    return "".join(f"{name} ={_pattern(own[name])}\n" for name in own)
+
+
+def _pattern(value: str | Mapping[str, str]) -> str:
+    if isinstance(value, str):
+        return f" {_indented(value)}"
+    return "".join(f"\n    .{wording} = {_indented(text)}" for wording, text in value.items())
+
+
+def _indented(text: str) -> str:
+    return text.strip().replace("\n", "\n        ")
+
+
+def card_forms(catalogue: Catalogue) -> tuple[str, ...]:
+    """Return the forms of a card's name, besides the name, that the sentences of a language use."""
+    used = (name for written in catalogue.written.values() for name in _Uses.of(written).names(VariableReference))
+    return tuple(sorted({name.removeprefix(f"{CARD}-") for name in used if name.startswith(f"{CARD}-")}))
+
+
 def _faults(name: str, written: Written, catalogue: Catalogue, model: Catalogue, samples: _Samples) -> Iterator[str]:
     given = _given(name, model)
     found = tuple(_unknown(name, written, catalogue, given))

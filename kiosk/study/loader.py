@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from functools import partial
 from itertools import combinations
 from pathlib import Path
@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable
-from kiosk.assistance.wording import CARD, Catalogue, sources_in
+from kiosk.assistance.wording import CARD, REPLACING, Catalogue, card_message, sources_in
 from kiosk.config import (
     ASSETS,
     ExperimenterConfig,
@@ -45,7 +45,8 @@ from kiosk.experiment.transitions import StageOrder
 from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.language_codes import standard
 from kiosk.preflight import CheckResult
-from kiosk.study.forming import unformed
+from kiosk.study.decks import NAMES, CardNames, deck_faults, picture_faults, pictures_in, read_names
+from kiosk.study.forming import as_messages, card_forms, unformed
 from kiosk.study.package import shipped_differences, study_hash
 from kiosk.study.translations import is_untranslated
 from kiosk.units import MS_PER_MINUTE
@@ -131,6 +132,24 @@ def _unsaid(actions: Sequence[ActionSpec], catalogue: Catalogue) -> Iterator[str
             yield f"the action {action.label!r} lacks {', '.join(lacking)} in {catalogue.language!r}"
 
 
+OWN_TEXTS = f"{REPLACING}study.ftl"
+"""What the messages are called that a study file itself replaces."""
+
+
+def _unknown_texts(catalogue: Catalogue, model: Catalogue) -> Iterator[str]:
+    """Yield what a study rewords and no screen ever says."""
+    replaced = {text for name, text in catalogue.sources.items() if name.startswith(REPLACING)}
+    said = {name for name, text in catalogue.sources.items() if not name.startswith(REPLACING)}
+    if not replaced:
+        return
+    known = model.messages | Catalogue(catalogue.folder, {name: catalogue.sources[name] for name in said}).messages
+    for name, written in catalogue.written.items():
+        if written.source in replaced and name not in known and not name.startswith((f"{CARD}-", "-")):
+            close = get_close_matches(name, sorted(known), n=1)
+            meant = f"; did you mean {close[0]!r}?" if close else ""
+            yield f"{written.file}, line {written.line(written.entry)}: there is no message {name!r} to replace{meant}"
+
+
 def _of_options(item: Item) -> Iterator[str]:
     if not isinstance(item, Choice):
         return
@@ -154,6 +173,7 @@ def read_study(settings: Settings) -> StudyConfig:
     look.at("stages", partial(StageOrder.of, settings.stages))
     look.at("shortcuts", partial(shortcuts, settings.shortcuts))
     look.check_allocation()
+    look.read_tables()
     policy = look.policy()
     policies = look.policies(policy)
     actions = (action for table in (policy, *policies.values()) if table for action in table.actions)
@@ -204,6 +224,7 @@ class _Look:
         """Look at what these name."""
         self._settings = settings
         self._asked: list[tuple[Path, Questionnaire]] = []
+        self._tables: dict[Path, dict[str, CardNames]] = {}
         self.faults: list[str] = []
         self.sources: list[Source] = []
 
@@ -247,8 +268,16 @@ class _Look:
             self._blame("look.logo", f"there is no SVG file {file}")
         elif name:
             self._drawn("look.logo", name, Located(file), (file,))
+            self.faults += picture_faults(file)
 
     # What there is
+
+    def read_tables(self) -> None:
+        """Read the tables in which decks name their cards."""
+        for _, board in _boards(self._settings):
+            place = self._settings.locate("cards", board.deck)
+            if place is not None and not place.is_shipped and place.path not in self._tables:
+                self._tables[place.path] = self.into(partial(read_names, place.path)) or {}
 
     def catalogues(self, actions: Sequence[ActionSpec]) -> dict[str, Catalogue]:
         """Return the sentences of every language.
@@ -270,17 +299,15 @@ class _Look:
         if self.at("languages", partial(standard, code_of(name))) is None:
             return None
         place = self.at("languages", partial(located, self._settings, "sentences", name))
-        if place is None:
+        read = place and self._sources(place.path, code_of(name), actions)
+        if place is None or not read:
             return None
-        words = self._words_of_decks(code_of(name)) | self._words_of_actions(code_of(name), actions)
-        sources = self.into(partial(sources_in, place.path))
-        texts = {key: self.into(partial(read_text, f"the file {file}", file)) for key, file in words.items()}
-        if sources is None or None in texts.values():
-            return None
-        sources |= {key: text for key, text in texts.items() if text is not None}
-        catalogue = self.into(partial(Catalogue, place.path, sources, words))
+        sources, words = read
+        lines = self._replace_messages(code_of(name), sources, words)
+        catalogue = self.into(partial(Catalogue, place.path, sources, words, lines))
         if catalogue is None:
             return None
+        self.faults += _unknown_texts(catalogue, model)
         lacking = sorted(each for each in model.messages - catalogue.messages if not each.startswith(f"{CARD}-"))
         if lacking:
             self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
@@ -291,6 +318,47 @@ class _Look:
             )
         self._came("languages", name, place, _hash(sources.items()))
         return catalogue
+
+    def _sources(
+        self, folder: Path, code: str, actions: Sequence[ActionSpec]
+    ) -> tuple[dict[str, str], dict[str, Path]] | None:
+        """Return the texts of a language by what they are called in records, and the files of those from elsewhere."""
+        words = self._words_of_decks(code) | self._words_of_actions(code, actions) | self._own_file(code)
+        sources = self.into(partial(sources_in, folder))
+        texts = {key: self.into(partial(read_text, f"the file {file}", file)) for key, file in words.items()}
+        if sources is None or None in texts.values():
+            return None
+        sources |= {key: text for key, text in texts.items() if text is not None}
+        named = self._names_of_decks(code)
+        return (
+            sources | {key: names.to_ftl() for key, names in named.items()},
+            words | {key: names.file for key, names in named.items()},
+        )
+
+    def _replace_messages(self, code: str, sources: dict[str, str], words: dict[str, Path]) -> dict[str, int]:
+        """Add the messages that the study file itself replaces; returns the lines in which they stand there."""
+        own, lines = self._settings.own_texts(code), dict[str, int]()
+        if own:
+            sources[OWN_TEXTS] = as_messages(own)
+        for message in own:
+            words[OWN_TEXTS], line = self._settings.texts_place(code, message)
+            lines |= {message: line} if line else {}
+        return lines
+
+    def _own_file(self, code: str) -> dict[str, Path]:
+        """Return the file of a study's own words for messages of a language."""
+        file = self._settings.own_texts_file(code)
+        return {} if file is None else {f"{REPLACING}{file.name}": file}
+
+    def _names_of_decks(self, code: str) -> dict[str, CardNames]:
+        """Return the tables in which decks name their cards in a language, by what to call them in records."""
+        found: dict[str, CardNames] = {}
+        for _, board in _boards(self._settings):
+            place = self._settings.locate("cards", board.deck)
+            named = {} if place is None else self._tables.get(place.path, {})
+            if place is not None and code in named:
+                found[f"deck-{place.path.name}-names.ftl"] = named[code]
+        return found
 
     def _words_of_actions(self, code: str, actions: Sequence[ActionSpec]) -> dict[str, Path]:
         """Return the files in which packages say their actions in a language."""
@@ -310,7 +378,7 @@ class _Look:
     def _cards(self) -> tuple[str, ...]:
         """Return the names of all cards that a visitor may see."""
         places = (self._settings.locate("cards", board.deck) for _, board in _boards(self._settings))
-        return tuple(sorted({path.stem for place in places if place for path in place.path.glob("*.svg")}))
+        return tuple(sorted({card for place in places if place for card in pictures_in(place.path)}))
 
     def sheets(self) -> dict[str, Information]:
         """Return what visitors are told in every language; the same in each."""
@@ -370,6 +438,8 @@ class _Look:
                 needed = tuple(place.path / f"{number}.svg" for number in range(1, item.points + 1))
                 self._drawn(f"{asked.id}, {item.id}: pictures", item.pictures, place, needed)
                 yield from (f"{item.id}: there is no picture {file}" for file in needed if not file.is_file())
+                drawn = () if place.is_shipped else (file for file in needed if file.is_file())
+                yield from (f"{item.id}: {fault}" for file in drawn for fault in picture_faults(file))
 
     def policy(self) -> QTable | None:
         """Return the frozen table."""
@@ -408,9 +478,10 @@ class _Look:
         place = self.at(f"{key}.deck", partial(located, self._settings, "cards", board.deck))
         if place is None:
             return ()
-        files = sorted(place.path.glob("*.svg"), key=lambda file: file.stem)
-        self._drawn(f"{key}.deck", board.deck, place, files)
-        cards = tuple(file.stem for file in files)
+        pictures = pictures_in(place.path)
+        self._drawn(f"{key}.deck", board.deck, place, pictures.values())
+        cards = tuple(pictures)
+        self.faults += () if place.is_shipped else deck_faults(place.path)
         self.faults += (f"the deck {place.path}: {sentence}" for sentence in unclear_cards(cards))
         pairs = places // CARDS_IN_A_PAIR
         if len(cards) < pairs:
@@ -586,6 +657,8 @@ def _of_cards(study: StudyConfig) -> Iterator[str]:
         boards: dict[str, tuple[str, ...]] = {plan.settings.practice.deck: plan.practice_deck}
         for deck, cards in (boards | {plan.settings.game.deck: plan.deck}).items():
             folder = plan.settings.resolve_asset("cards", deck)
+            if not plan.settings.is_shipped("cards", deck):
+                yield from _of_forms(plan, folder, cards)
             unnamed = [name for name in cards if not plan.catalogue.names(name)]
             if unnamed:
                 yield (
@@ -596,11 +669,24 @@ def _of_cards(study: StudyConfig) -> Iterator[str]:
 
 def _where_to_write(folder: Path, unnamed: Sequence[str], plan: SessionConfig) -> str:
     """Say what to write into which file, so that cards have names."""
-    odd = [name for name in unnamed if not re.fullmatch(r"[A-Za-z0-9_-]+", name)]
-    if odd:
-        return f"First rename {odd[0]}.svg: such a name has letters, digits, - and _ only"
+    if (folder / NAMES).exists() or not any(folder.glob("*.ftl")):
+        return f"Write them into the column {plan.language!r} of {folder / NAMES}"
     file = folder / f"{plan.language}.ftl"
-    return f"Write into {file}: {'; '.join(f'{CARD}-{name} = ...' for name in unnamed)}"
+    return f"Write into {file}: {'; '.join(f'{card_message(name)} = ...' for name in unnamed)}"
+
+
+def _of_forms(plan: SessionConfig, folder: Path, cards: Sequence[str]) -> Iterator[str]:
+    """Yield the forms of cards' names that the sentences of a language need and that are not there."""
+    needed = card_forms(plan.catalogue)
+    lacking = {card: [form for form in needed if form not in plan.catalogue.own_forms(card)] for card in cards}
+    without = [card for card in cards if lacking[card] and plan.catalogue.names(card)]
+    if without:
+        forms = ", ".join(dict.fromkeys(f"{plan.language}.{form}" for card in without for form in lacking[card]))
+        yield (
+            f"the sentences in {plan.language!r} need more of a card than its name; "
+            f"{', '.join(without)} in {folder} lack {forms}, and their names are said as they stand. "
+            f"Add these columns to {folder / NAMES}"
+        )
 
 
 def expected_minutes(plan: SessionConfig) -> float:

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -164,27 +164,37 @@ def undrawn(command: Sequence[str], files: Sequence[Path], within_s: float = DRA
 
     Raises CannotDraw if the process does not even start.
     """
-    left = list(files)
-    while left:
-        child = _Child(command, left)
+    for at, said, why in answers(command, [str(file) for file in files], within_s):
+        if why or said:
+            yield f"the picture {files[at]} cannot be drawn: {why or said}"
+
+
+def answers(command: Sequence[str], jobs: Sequence[str], within_s: float) -> Iterator[tuple[int, str | None, str]]:
+    """Yield what the process of a command answers to each of the jobs, by its number, or None and why not.
+
+    A job that is not done in time, or that ends the process, is left out; the process is started anew for the others.
+    Raises CannotDraw if it does not even start.
+    """
+    done = 0
+    while done < len(jobs):
+        child = _Child(command, jobs[done:])
         try:
             if child.says(READY_S) != _READY:
                 raise CannotDraw(child.last_words())
-            while left and (said := child.says(within_s)) is not None:
-                file = left.pop(0)
-                if said:
-                    yield f"the picture {file} cannot be drawn: {said}"
+            while done < len(jobs) and (said := child.says(within_s)) is not None:
+                done += 1
+                yield done - 1, said, ""
         finally:
             child.end()
-        if left:
-            why = "it ends the program" if child.died else f"it is not done within {within_s:g} s"
-            yield f"the picture {left.pop(0)} cannot be drawn: {why}"
+        if done < len(jobs):
+            done += 1
+            yield done - 1, None, "it ends the program" if child.died else f"it is not done within {within_s:g} s"
 
 
 class _Child:
     """The process, and what it says line by line; ``died`` says that it ended before it was asked to."""
 
-    def __init__(self, command: Sequence[str], files: Sequence[Path]) -> None:
+    def __init__(self, command: Sequence[str], jobs: Sequence[str]) -> None:
         self.died = False
         self._child = subprocess.Popen(  # noqa: S603 - our own program
             command,
@@ -203,7 +213,7 @@ class _Child:
             each.start()
         with suppress(OSError), self._child.stdin or nullcontext() as names:
             if names is not None:
-                names.write(json.dumps([str(file) for file in files]))
+                names.write(json.dumps(list(jobs)))
 
     def _listen(self, stream: IO[str]) -> None:
         with stream:
@@ -237,15 +247,20 @@ class _Child:
             each.join()
 
 
-def draw_files(source: IO[str], out: IO[str]) -> None:
-    """Be the process: draw one file after another, and say what came of each."""
+def draw_files(source: IO[str], out: IO[str], *, cards: bool = False) -> None:
+    """Be the process: draw one file after another, or one card after another, and say what came of each."""
     _limit_memory()
     from PySide6.QtGui import QGuiApplication  # not before memory is limited
 
+    draw: Callable[[str], str] = _why_not
+    if cards:
+        from kiosk.ui.cards import draw_card
+
+        draw = draw_card
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     print(_READY, file=out, flush=True)
-    for file in json.load(source):
-        print(_why_not(str(file)), file=out, flush=True)
+    for job in json.load(source):
+        print(draw(str(job)), file=out, flush=True)
     del application
 
 

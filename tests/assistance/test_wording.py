@@ -278,7 +278,7 @@ def test_a_language_without_sentences_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_not_well_formed_is_refused_where_it_breaks(tmp_path: Path) -> None:
-    with pytest.raises(UserInputError, match=r"broken\.ftl is not well-formed near: this is no message"):
+    with pytest.raises(UserInputError, match=r"broken\.ftl, line 3, is not well-formed near: this is no message"):
         catalogue(tmp_path, broken="fine = Fine\n\nthis is no message\n")
 
 

@@ -252,7 +252,7 @@ STUDIES: dict[str, Bad] = {
     ),
     "sentences that are none": Bad(
         "languages = ['en', 'de']\nquestionnaires = ['own.toml']",
-        ("{here}/de/hints.ftl is not well-formed near: = what", *UNTRANSLATED),
+        ("{here}/de/hints.ftl, line 1, is not well-formed near: = what", *UNTRANSLATED),
         asked() | SENTENCES | {"de/hints.ftl": "= what"},
     ),
     "unknown stage": Bad(

@@ -20,6 +20,7 @@ from kiosk.study.loader import read_study, study_warnings
 from tests.experiment.driver import driven_to
 from tests.samples import ANIMALS, ENGLISH
 
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 240"><circle cx="120" cy="120" r="80"/></svg>'
 STUDY = 'languages = ["./en"]\nstages = ["introduction", "practice", "game", "result"]\n'
 
 
@@ -120,13 +121,13 @@ def test_a_deck_without_names_is_played_by_its_files_names(name: str, own: Path)
     deck = own / "toys"
     deck.mkdir()
     for number in range(11):
-        (deck / f"toy{number}.svg").touch()
-    (deck / f"{name}.svg").touch()
+        (deck / f"toy{number}.svg").write_text(SVG, "utf-8")
+    (deck / f"{name}.svg").write_text(SVG, "utf-8")
     (own / "study.toml").write_text(STUDY + '[game]\ndeck = "toys"\n', "utf-8")
     study = read_study(Settings.read(own / "study.toml"))
     (caution,) = [each for each in study_warnings(study) if "without a name in 'en'" in each]
     assert name in caution
-    assert str(deck / "en.ftl") in caution or "First rename" in caution
+    assert f"Write them into the column 'en' of {deck / 'names.csv'}" in caution
     assert study.plans[0].catalogue.card(name)["card"] == name
     driven_to(Stage.RESULT, study.plans[0])
 
@@ -189,7 +190,7 @@ def test_a_study_that_is_accepted_can_be_played(
     shutil.rmtree(deck, ignore_errors=True)
     deck.mkdir()
     for name in [*names, *(f"toy{number}" for number in range(12))]:
-        (deck / f"{name}.svg").touch()
+        (deck / f"{name}.svg").write_text(SVG, "utf-8")
     rows = "".join(f"{key} = {number}\n" for key, number in numbers.items())
     (own / "study.toml").write_text(f'game.deck = "deck"\n{STUDY}{rows}', "utf-8")
     try:

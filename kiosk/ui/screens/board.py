@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
-from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import (
@@ -26,12 +24,12 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.effects import BoardWait
 from kiosk.game import Position
 from kiosk.robots.embodiment import BoardPoint
+from kiosk.ui.cards import CardPictures
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
 _NOWHERE = -1
-_NO_FOLDER = Path()
 _WAITS = {BoardWait.SPEAKING: "game-wait-speaking", BoardWait.TURNING_BACK: "game-wait-turning-back"}
 
 
@@ -72,12 +70,12 @@ class BoardScreen(QAbstractListModel):
     pair_found = Signal(int, int, str, name="pairFound")
     """These two cards are a pair, with this picture."""
 
-    def __init__(self, catalogue: Catalogue, folder_of: Callable[[str], Path], parent: QObject | None = None) -> None:
-        """``folder_of`` tells where the pictures of a deck are, as ``<card>.svg``."""
+    def __init__(self, catalogue: Catalogue, pictures: CardPictures, parent: QObject | None = None) -> None:
+        """``pictures`` has the address of every card."""
         super().__init__(parent)
         self._catalogue = catalogue
-        self._folder_of = folder_of
-        self._pictures = _NO_FOLDER
+        self._pictures = pictures
+        self._deck_name = ""
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
@@ -93,12 +91,12 @@ class BoardScreen(QAbstractListModel):
 
     def deal(self, rows: int, columns: int, pairs: int, deck: str, *, practice: bool = False) -> None:
         """Show so many closed cards of a deck; a practice can be left."""
-        self._pictures = self._folder_of(deck)
+        self._deck_name = deck
         self._reset(rows, columns, pairs, practice=practice)
 
     def clear(self) -> None:
         """Show no card."""
-        self._pictures = _NO_FOLDER
+        self._deck_name = ""
         self._reset(0, 0, 0, practice=False)
 
     def _reset(self, rows: int, columns: int, pairs: int, *, practice: bool) -> None:
@@ -107,7 +105,7 @@ class BoardScreen(QAbstractListModel):
         self._practice = practice
         self._faces = [_Face() for _ in range(rows * columns)]
         self._tray = []
-        self._deck = [self._picture(file.stem) for file in sorted(self._pictures.glob("*.svg"))] if self._faces else []
+        self._deck = self._pictures.deck(self._deck_name) if self._faces else []
         self.endResetModel()
         self.dealt.emit()
         self._pairs_found = self._moves = 0
@@ -234,7 +232,7 @@ class BoardScreen(QAbstractListModel):
 
     def _picture(self, card: str) -> str:
         """Return the address of a card's picture."""
-        return QUrl.fromLocalFile(str(self._pictures / f"{card}.svg")).toString()
+        return self._pictures.address(self._deck_name, card)
 
     def _label(self, location: int, face: _Face) -> str:
         position = self._position(location)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Protocol
 
-from PySide6.QtCore import QObject, QUrl
+from PySide6.QtCore import QObject
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.ui.cards import CardPictures
 from kiosk.ui.experimenter.view_model import ExperimenterScreen
 from kiosk.ui.screens.attract import AttractScreen
 from kiosk.ui.screens.avatar import AvatarScreen
@@ -63,17 +62,18 @@ class ScreenSet:
         """Return the screens of a study, all of them empty; they live as long as ``owner``."""
         catalogues = [plan.catalogue for plan in study.plans]
         first, resolve = catalogues[0], study.settings.resolve_asset
+        pictures = CardPictures(study.settings)
         avatar = AvatarScreen(owner)
         avatar.call(study.settings.assistance.name)
         return cls(
             kiosk=KioskScreen(first, owner),
-            attract=AttractScreen(_pictures(study, partial(resolve, "cards")), catalogues, owner),
+            attract=AttractScreen(pictures.deck(study.settings.game.deck), catalogues, owner),
             about=AboutScreen(owner),
             consent=ConsentScreen(owner),
             age=AgeScreen(first, owner),
             form=FormScreen(first, partial(resolve, "scales"), owner),
             introduction=IntroductionScreen(owner),
-            board=BoardScreen(first, partial(resolve, "cards"), owner),
+            board=BoardScreen(first, pictures, owner),
             result=ResultScreen(first, owner),
             debrief=DebriefScreen(first, owner),
             thanks=ThanksScreen(owner),
@@ -151,9 +151,3 @@ class ScreenSet:
         """Go back a page; what is being typed is answered first."""
         self.form.finish_typing()
         to.dispatch(happened.BackPressed(at_ms=to.now_ms()))
-
-
-def _pictures(study: StudyConfig, folder_of: Callable[[str], Path]) -> list[str]:
-    """Return the addresses of the pictures of the game's deck."""
-    folder = folder_of(study.settings.game.deck)
-    return [QUrl.fromLocalFile(str(folder / f"{card}.svg")).toString() for card in study.plans[0].deck]
