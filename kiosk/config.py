@@ -747,7 +747,7 @@ class Settings(ConfigModel):
         return f"the {self.file_kind} {self._file}" if self._file else "the study"
 
     def at(self, *key: str | int) -> str:
-        """Return what to call the place of a key in a refusal: the file and, if the key stands there, its line."""
+        """Return what to call the place of a key in a refusal: the file and its line."""
         line = self.line_of(*key)
         return self.name if line is None else f"{self.name}, line {line}"
 

@@ -68,9 +68,10 @@ def toml_error_message(error: Exception) -> str:
 
 
 def toml_line(text: str, key: Sequence[str | int]) -> int | None:
-    """Return the line of a TOML text in which a key's value begins, counted from 1; None for a key that is not there.
+    """Return the line of a TOML text in which a key begins, counted from 1.
 
-    ``key`` is the way to it: names of tables and keys, and for an entry of a list its number from 0.
+    It is None for a key that is not there. ``key`` is the way to it: names of tables and keys, and for an entry of a
+    list its number from 0.
     """
     lines = text.splitlines(keepends=True)
     if not _has(_parsed(lines), key):

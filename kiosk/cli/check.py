@@ -48,7 +48,7 @@ from kiosk.store.maintenance import FOLDER
 from kiosk.store.participants import checked_site
 from kiosk.study import loader
 from kiosk.study.loader import read_study
-from kiosk.ui.checks import DRAWN_S, READY_S, CannotDraw, run_check_process, undrawn
+from kiosk.ui.checks import DRAWN_S, READY_S, CannotDraw, found_in_pictures, run_check_process
 from kiosk.units import MIB
 
 MACHINE, PROGRAM, LOGGED = "machine", "program", "log"
@@ -242,7 +242,7 @@ def _shown(booth: CheckTargets) -> Iterator[Check]:
     screens = partial(run_check_process, "screen", program("_display", "screens", number), _DISPLAY_S, remedy)
     yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
     if booth.study is not None and booth.study.own_pictures:
-        drawn = partial(found_pictures, booth.study.own_pictures)
+        drawn = partial(found_pictures, booth.study)
         yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.ERROR)
     remedy = "install Recollect anew, with the system's packages that packaging/README.md names"
     study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
@@ -250,16 +250,17 @@ def _shown(booth: CheckTargets) -> Iterator[Check]:
     yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
 
 
-def found_pictures(files: Sequence[Path]) -> Iterator[CheckResult]:
+def found_pictures(study: StudyConfig) -> Iterator[CheckResult]:
     """Draw the pictures that do not come with the program."""
     try:
-        faults = tuple(undrawn(program("_display", "pictures"), files))
+        faults, cautions = found_in_pictures(study)
     except CannotDraw as error:
         yield CheckResult.warning(PICTURES, f"they were not tried: {error}", "see what is said of the drawing")
         return
     yield from (CheckResult.error(PICTURES, fault, "draw it anew, with plain shapes") for fault in faults)
+    yield from (CheckResult.warning(PICTURES, caution, "choose another picture") for caution in cautions)
     if not faults:
-        yield CheckResult.ok(PICTURES, f"{len(files)} of the study's own can be drawn")
+        yield CheckResult.ok(PICTURES, f"{len(study.own_pictures)} of the study's own can be drawn")
 
 
 def _heard(booth: CheckTargets) -> Iterator[Check]:

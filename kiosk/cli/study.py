@@ -11,7 +11,8 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import UserInputError, program
+from kiosk import UserInputError
+from kiosk.assistance.wording import CARD, Catalogue
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
 from kiosk.cli.study_package import diff_command, pack_command, signature_of
@@ -22,12 +23,15 @@ from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_config import Source, StudyConfig
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import renamed_items
+from kiosk.files import write_file
 from kiosk.robots.registry import check_robot
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
-from kiosk.study.loader import expected_minutes, read_study, study_warnings
+from kiosk.study.decks import NAMES, names_in, names_table, pictures_in
+from kiosk.study.forming import card_forms
+from kiosk.study.loader import expected_minutes, located, read_study, study_warnings
 from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file
-from kiosk.ui.checks import CannotDraw, undrawn
+from kiosk.ui.checks import CannotDraw, found_in_pictures
 
 MOST_PER_PAGE = 8
 SHORT_SHA = 12
@@ -91,14 +95,14 @@ def _print_summary(read: StudyConfig, summary: Mapping[str, Any]) -> None:
 
 
 def check_pictures(read: StudyConfig) -> list[str]:
-    """Raise UserInputError if a picture of the study's own cannot be drawn; say so if none can be tried here."""
+    """Raise UserInputError if a picture of the study's own cannot be drawn; returns what else can be said of them."""
     try:
-        faults = tuple(undrawn(program("_display", "pictures"), read.own_pictures))
+        faults, cautions = found_in_pictures(read)
     except CannotDraw as error:
         return [f"the pictures were not tried: {error}"]
     if faults:
         raise UserInputError(*faults)
-    return []
+    return list(cautions)
 
 
 def summarised(read: StudyConfig) -> dict[str, Any]:
@@ -159,6 +163,64 @@ def _told(value: object) -> str:
         case list():
             return ", ".join(map(str, value))
     return str(value)
+
+
+@study.command("cards")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--sheet", type=click.Path(path_type=Path, dir_okay=False), help="Draw all cards on this sheet (.png).")
+@click.option("--names", is_flag=True, help=f"Write {NAMES} with a row for each card, where there is none.")
+@click.option("--practice", is_flag=True, help="The deck of the practice, and not that of the game.")
+@json_option
+def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, as_json: bool) -> None:
+    """List the cards of a study FILE with their names, and what makes them hard to tell apart."""
+    from kiosk.ui.cards import card_warnings, draw_cards, save_sheet  # noqa: PLC0415 - Qt, for this command alone
+
+    settings = Settings.read(file)
+    board = settings.practice if practice else settings.game
+    folder = located(settings, "cards", board.deck).path
+    if names:
+        write_names(settings, board.deck)
+    read = read_study(settings)
+    pictures = pictures_in(folder)
+    drawn = draw_cards(pictures.values())
+    drawings = {card: drawn[picture] for card, picture in pictures.items()}
+    called = {card: [plan.catalogue.card(card)[CARD] for plan in read.plans] for card in pictures}
+    warnings = [*(f"the picture {each.file} cannot be drawn: {each.fault}" for each in drawings.values() if each.fault)]
+    warnings += card_warnings(drawings.values())
+    if sheet is not None:
+        save_sheet(sheet, drawings, called)
+    if as_json:
+        cards = [
+            {"card": card, "file": str(picture), "names": dict(zip(read.languages, called[card], strict=True))}
+            for card, picture in pictures.items()
+        ]
+        click.echo(json.dumps({"deck": str(folder), "cards": cards, "cautions": warnings}))
+        return
+    table = Table("card", *read.languages, "size", box=None)
+    for card, drawing in drawings.items():
+        table.add_row(card, *called[card], f"{drawing.width} x {drawing.height}")
+    Console().print(table)
+    for warning in warnings:
+        click.echo(f"caution: {warning}")
+    if sheet is not None:
+        click.echo(f"The cards are drawn on {sheet}.")
+
+
+def write_names(settings: Settings, deck: str) -> None:
+    """Write a table for the names of a deck's cards; raises UserInputError where there is one."""
+    place = located(settings, "cards", deck)
+    file = place.path / NAMES
+    if place.is_shipped:
+        raise UserInputError(f"the deck {deck!r} is shipped and has names; only those of your own cards can be written")
+    if file.exists():
+        raise UserInputError(f"{file} is there already; add to it what is missing")
+    folders = [located(settings, "sentences", name).path for name in settings.languages]
+    spoken = {catalogue.language: catalogue for catalogue in map(Catalogue, folders)}
+    cards = pictures_in(place.path)
+    forms = {language: card_forms(catalogue) for language, catalogue in spoken.items()}
+    known = {language: names_in(catalogue, cards) for language, catalogue in spoken.items()}
+    write_file(file, names_table(cards, forms, known))
+    click.echo(f"Fill in the names of the cards in {file}.", err=True)
 
 
 @study.command("example")

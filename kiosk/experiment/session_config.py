@@ -144,6 +144,12 @@ class StudyConfig:
         return tuple(dict.fromkeys(file for each in self.sources if not each.is_shipped for file in each.pictures))
 
     @property
+    def own_cards(self) -> tuple[Path, ...]:
+        """Those of them that are cards, in the order of their decks."""
+        decks = (each for each in self.sources if each.key.endswith(".deck") and not each.is_shipped)
+        return tuple(dict.fromkeys(file for each in decks for file in each.pictures))
+
+    @property
     def languages(self) -> tuple[str, ...]:
         """What a visitor may choose from; the first one is shown at rest."""
         return tuple(plan.language for plan in self.plans)

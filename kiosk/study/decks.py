@@ -13,7 +13,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from kiosk import UserInputError
-from kiosk.assistance.wording import card_message
+from kiosk.assistance.wording import CARD, Catalogue, card_message
 from kiosk.config import code_of, read_text
 from kiosk.language_codes import is_right
 
@@ -121,7 +121,7 @@ _MOST_DEEP = 200
 
 
 def _svg_fault(file: Path) -> str | None:
-    """Say why an SVG file is not to be drawn; None if it may be. It is read without following anything in it."""
+    """Say why an SVG file is not to be drawn; None if it may be."""
     try:
         return _SvgReader().fault(read_text("it", file))
     except UserInputError as error:
@@ -331,7 +331,9 @@ def _no_card(name: str, cards: Iterable[str]) -> str:
 
 
 def names_table(cards: Iterable[str], languages: Mapping[str, Sequence[str]], known: Mapping[str, Forms]) -> str:
-    """Return a table of names to fill in, as CSV: a row a card, and a column a language and form.
+    """Return a table of names to fill in, as CSV.
+
+    It has a row for each card, and a column for each language and form.
 
     ``languages`` holds the forms of each language, and ``known`` the names there are: by language, card and form.
     """
@@ -343,3 +345,13 @@ def names_table(cards: Iterable[str], languages: Mapping[str, Sequence[str]], kn
         cells = (known.get(language, {}).get(card, {}).get(form, "") for language, form in columns)
         writer.writerow([card, *cells])
     return out.getvalue()
+
+
+def names_in(catalogue: Catalogue, cards: Iterable[str]) -> Forms:
+    """Return what a language calls cards, as far as it has names for them."""
+    named = [card for card in cards if catalogue.names(card)]
+    told = {card: catalogue.forms_of(card) for card in named}
+    return {
+        card: {"": told[card][CARD]} | {form: told[card][f"{CARD}-{form}"] for form in catalogue.own_forms(card)}
+        for card in named
+    }

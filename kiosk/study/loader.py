@@ -317,6 +317,8 @@ class _Look:
                 catalogue, model, self._cards(), max(self._settings.game.rows, self._settings.game.columns)
             )
         self._came("languages", name, place, _hash(sources.items()))
+        for file in self._own_file(code_of(name)).values():
+            self._came(f"texts.{code_of(name)}", file.name, Located(file), _digest(file))
         return catalogue
 
     def _sources(

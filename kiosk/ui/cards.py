@@ -1,10 +1,11 @@
-"""The pictures of a study's own cards: drawn once into the frame of the shipped ones, in a process with a deadline."""
+"""A study's own cards: drawn once, in the frame of the shipped ones, by a process with a deadline."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import logging
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import combinations
@@ -13,12 +14,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
-from PySide6.QtCore import QRect, QRectF, QSize, Qt, QUrl
-from PySide6.QtGui import QColor, QFont, QImage, QImageReader, QPainter, QPainterPath, QPen
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRect, QRectF, QSize, Qt, QUrl
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontDatabase,
+    QGuiApplication,
+    QImage,
+    QImageReader,
+    QPainter,
+    QPainterPath,
+    QPen,
+)
 
-from kiosk import program
-from kiosk.config import Settings
-from kiosk.files import replace_file
+from kiosk import UserInputError, program
+from kiosk.config import ASSETS, Settings
+from kiosk.files import replace_file, write_file
 from kiosk.study.decks import pictures_in
 from kiosk.ui.checks import DRAWN_S, CannotDraw, answers
 
@@ -32,6 +43,8 @@ MOST_MEGAPIXELS = 32
 
 LEAST_SIDE = 240
 """Pixels; a smaller picture is blurred on the board."""
+
+FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
 
 _VERSION = 1
 """Changes with every change of the frame, so that no older drawing is used."""
@@ -132,7 +145,10 @@ def _answer(file: Path, said: str | None, why: str) -> CardDrawing:
 
 
 def draw_card(job: str) -> str:
-    """Draw one picture, and return what came of it as JSON; ``job`` has the file and where to put its drawing."""
+    """Draw one picture, and return what came of it as JSON.
+
+    ``job`` is a JSON list of the picture's file and the file for its drawing.
+    """
     file, place = map(Path, json.loads(job))
     drawing = _drawn(file, place)
     if drawing.drawn is not None:
@@ -177,7 +193,8 @@ def _read_no_larger_than_needed(reader: QImageReader, size: QSize, *, is_svg: bo
 
 
 def _shows_something(image: QImage) -> bool:
-    return any(bytes(image.convertToFormat(QImage.Format.Format_Alpha8).constBits()))
+    alpha = image.convertToFormat(QImage.Format.Format_Alpha8)
+    return any(bytes(alpha.constBits()))
 
 
 def framed(image: QImage | None, name: str = "", *, is_svg: bool = False) -> QImage:
@@ -246,7 +263,7 @@ Pixels = NDArray[np.float64]
 
 
 def _pixels(card: QImage) -> Pixels:
-    """Return the inside of a drawn card as colours from 0 to 1, in an array of height x width x 3."""
+    """Return the inside of a drawn card as colours from 0 to 1 (height x width x 3)."""
     inner = _CARD.adjusted(_MARGIN, _MARGIN, -_MARGIN, -_MARGIN).toRect()
     image = card.copy(inner).scaled(QSize(64, 64), mode=Qt.TransformationMode.SmoothTransformation)
     image = image.convertToFormat(QImage.Format.Format_RGB888)
@@ -372,3 +389,19 @@ def draw_sheet(drawings: Mapping[str, CardDrawing], names: Mapping[str, Sequence
         painter.drawText(QRect(x + 6, y + _CELL - 6, _CELL - 12, _LABEL), flags, ", ".join(names.get(card, ())) or card)
     painter.end()
     return sheet
+
+
+def save_sheet(file: Path, drawings: Mapping[str, CardDrawing], names: Mapping[str, Sequence[str]]) -> None:
+    """Write the sheet of a deck as a PNG file; raises UserInputError if it cannot be written."""
+    if file.suffix.lower() != ".png":
+        raise UserInputError(f"the sheet {file} must end in .png")
+    os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    there = QGuiApplication.instance() or QGuiApplication(["recollect"])
+    for font in FONTS:
+        QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
+    data = QByteArray()
+    buffer = QBuffer(data)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    draw_sheet(drawings, names).save(buffer, "PNG")  # type: ignore[call-overload]  # its declaration says bytes
+    write_file(file, bytes(data.data()))
+    del there

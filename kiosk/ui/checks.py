@@ -15,6 +15,7 @@ from threading import Thread
 from time import monotonic, perf_counter
 from typing import IO, TYPE_CHECKING
 
+from kiosk import program
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import CheckResult, Severity
 from kiosk.ui.qt_platform import obstacle
@@ -169,8 +170,25 @@ def undrawn(command: Sequence[str], files: Sequence[Path], within_s: float = DRA
             yield f"the picture {files[at]} cannot be drawn: {why or said}"
 
 
+def found_in_pictures(study: StudyConfig) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Draw the pictures that do not come with the program; returns what is wrong and what may not be meant.
+
+    Raises CannotDraw if none can be drawn on this machine.
+    """
+    if not study.own_pictures:
+        return (), ()
+    try:
+        from kiosk.ui.cards import card_warnings, draw_cards
+    except ImportError as error:
+        raise CannotDraw(str(error)) from error
+    cards = draw_cards(study.own_cards).values()
+    others = [file for file in study.own_pictures if file not in study.own_cards]
+    faults = [f"the picture {each.file} cannot be drawn: {each.fault}" for each in cards if each.fault]
+    return (*faults, *undrawn(program("_display", "pictures"), others)), tuple(card_warnings(cards))
+
+
 def answers(command: Sequence[str], jobs: Sequence[str], within_s: float) -> Iterator[tuple[int, str | None, str]]:
-    """Yield what the process of a command answers to each of the jobs, by its number, or None and why not.
+    """Yield what a process answers to each of the jobs, by its number, or None and why not.
 
     A job that is not done in time, or that ends the process, is left out; the process is started anew for the others.
     Raises CannotDraw if it does not even start.
