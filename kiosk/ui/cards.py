@@ -8,7 +8,6 @@ import logging
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -307,12 +306,28 @@ def card_warnings(drawings: Iterable[CardDrawing]) -> Iterator[str]:
                 f"the picture {each.file} is pale: the contrast of its light to its dark parts is "
                 f"{each.contrast:.1f}:1, and should be {LOW_CONTRAST}:1 or more"
             )
-    for one, other in combinations(good, 2):
-        colour, grey = distances(one, other)
-        if colour < ALIKE:
-            yield f"the pictures {one.file} and {other.file} look alike; a visitor may take them for a pair"
-        elif grey < ALIKE_IN_GREY:
-            yield f"the pictures {one.file} and {other.file} differ by colour alone, which some people do not see"
+    alike = list(_groups(good, 0, ALIKE))
+    for group in alike:
+        yield f"the pictures {_listed(group)} look alike; a visitor may take them for a pair"
+    firsts = [each for each in good if not any(each in group[1:] for group in alike)]
+    for group in _groups(firsts, 1, ALIKE_IN_GREY):
+        yield f"the pictures {_listed(group)} differ by colour alone, which some people do not see"
+
+
+def _groups(drawings: Sequence[CardDrawing], which: int, limit: float) -> Iterator[list[CardDrawing]]:
+    """Return the pictures that are closer to each other than the limit, in colour (0) or in grey (1)."""
+    groups: list[list[CardDrawing]] = []
+    for each in drawings:
+        near = next((group for group in groups if distances(group[0], each)[which] < limit), None)
+        if near is None:
+            groups.append([each])
+        else:
+            near.append(each)
+    return (group for group in groups if len(group) > 1)
+
+
+def _listed(group: Sequence[CardDrawing]) -> str:
+    return f"{', '.join(str(each.file) for each in group[:-1])} and {group[-1].file}"
 
 
 # For the screens
