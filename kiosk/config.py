@@ -423,11 +423,12 @@ _SRGB_LINEAR, _SRGB_OFFSET, _SRGB_GAMMA = 0.04045, 0.055, 2.4
 
 def contrast(one: str, other: str) -> float:
     """Return the contrast of two colours such as ``#22313F``, 1 to 21, by WCAG 2.2."""
-    darker, lighter = sorted((_luminance(one), _luminance(other)))
+    darker, lighter = sorted((luminance(one), luminance(other)))
     return (lighter + 0.05) / (darker + 0.05)
 
 
-def _luminance(colour: str) -> float:
+def luminance(colour: str) -> float:
+    """Return how light a colour such as ``#22313F`` is, 0 to 1, by WCAG 2.2."""
     shares = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
     red, green, blue = (
         share / 12.92 if share <= _SRGB_LINEAR else ((share + _SRGB_OFFSET) / (1 + _SRGB_OFFSET)) ** _SRGB_GAMMA
@@ -905,6 +906,31 @@ class Located:
     path: Path
     is_shipped: bool = False
     unused: Path | None = None
+
+
+PICTURES = (".svg", ".png", ".jpg", ".jpeg", ".webp")
+"""The endings of the pictures that a card can have."""
+
+
+def pictures_in(folder: Path) -> dict[str, Path]:
+    """Map the cards of a deck to their pictures, in alphabetical order; a card is called as its file is.
+
+    Of two files with the same name the first is taken; `recollect study check` reports the other.
+    """
+    found: dict[str, Path] = {}
+    for file in files_in(folder):
+        if file.suffix.lower() in PICTURES:
+            found.setdefault(file.stem, file)
+    return found
+
+
+def files_in(folder: Path) -> list[Path]:
+    """List the files of a folder that are not hidden, by name; none if it cannot be read."""
+    try:
+        files = [file for file in folder.iterdir() if not file.name.startswith(".") and file.is_file()]
+    except OSError:
+        return []
+    return sorted(files, key=lambda file: (file.stem, file.name))
 
 
 def is_path(name: str) -> bool:

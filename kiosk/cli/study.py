@@ -17,7 +17,7 @@ from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
 from kiosk.cli.study_package import diff_command, pack_command, signature_of
 from kiosk.cli.study_texts import translations_command
-from kiosk.config import Settings
+from kiosk.config import Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_config import Source, StudyConfig
@@ -26,7 +26,7 @@ from kiosk.export.tables import renamed_items
 from kiosk.files import write_file
 from kiosk.robots.registry import check_robot
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
-from kiosk.study.decks import NAMES, names_in, names_table, pictures_in
+from kiosk.study.decks import NAMES, names_in, names_table
 from kiosk.study.forming import card_forms
 from kiosk.study.loader import expected_minutes, located, read_study, study_warnings
 from kiosk.study.package import is_package, open_study

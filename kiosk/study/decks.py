@@ -14,11 +14,8 @@ from xml.parsers import expat
 
 from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
-from kiosk.config import code_of, read_text
+from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
 from kiosk.language_codes import is_right
-
-PICTURES = (".svg", ".png", ".jpg", ".jpeg", ".webp")
-"""The endings of the pictures that a card can have."""
 
 _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", ".heif", ".avif", ".psd", ".ico"))
 """The endings of pictures that would be left out without a word."""
@@ -34,30 +31,10 @@ _KEYS = ("card", "file", "picture")
 """What the first column of the table may be called."""
 
 
-def pictures_in(folder: Path) -> dict[str, Path]:
-    """Map the cards of a deck to their pictures, in alphabetical order; a card is called as its file is.
-
-    Of two files with the same name the first is taken; ``deck_faults`` reports the other.
-    """
-    found: dict[str, Path] = {}
-    for file in _files(folder):
-        if file.suffix.lower() in PICTURES:
-            found.setdefault(file.stem, file)
-    return found
-
-
-def _files(folder: Path) -> list[Path]:
-    try:
-        files = [file for file in folder.iterdir() if not file.name.startswith(".") and file.is_file()]
-    except OSError:
-        return []
-    return sorted(files, key=lambda file: (file.stem, file.name))
-
-
 def deck_faults(folder: Path) -> Iterator[str]:
     """Yield a sentence for every file of a deck that looks like a picture and cannot be one."""
     taken = pictures_in(folder)
-    for file in _files(folder):
+    for file in files_in(folder):
         ending = file.suffix.lower()
         if ending in _OTHER_PICTURES:
             yield f"the picture {file} is no PNG, JPEG, WebP or SVG file; save it as one of these"

@@ -24,6 +24,7 @@ from kiosk.config import (
     Settings,
     code_of,
     is_path,
+    pictures_in,
     read_text,
     shipped_names,
 )
@@ -45,7 +46,7 @@ from kiosk.experiment.transitions import StageOrder
 from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.language_codes import standard
 from kiosk.preflight import CheckResult
-from kiosk.study.decks import NAMES, CardNames, deck_faults, picture_faults, pictures_in, read_names
+from kiosk.study.decks import NAMES, CardNames, deck_faults, picture_faults, read_names
 from kiosk.study.forming import as_messages, card_forms, unformed
 from kiosk.study.package import shipped_differences, study_hash
 from kiosk.study.translations import is_untranslated

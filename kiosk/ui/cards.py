@@ -9,9 +9,8 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from statistics import fmean
 
-import numpy as np
-from numpy.typing import NDArray
 from platformdirs import user_cache_path
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRect, QRectF, QSize, Qt, QUrl
 from PySide6.QtGui import (
@@ -27,9 +26,8 @@ from PySide6.QtGui import (
 )
 
 from kiosk import UserInputError, program
-from kiosk.config import ASSETS, Settings
+from kiosk.config import ASSETS, Settings, luminance, pictures_in
 from kiosk.files import replace_file, write_file
-from kiosk.study.decks import pictures_in
 from kiosk.ui.checks import DRAWN_S, CannotDraw, answers
 
 _log = logging.getLogger(__name__)
@@ -177,8 +175,7 @@ def _drawn(file: Path, place: Path) -> CardDrawing:
     card = framed(image, is_svg=is_svg)
     if not card.save(str(place)):
         return replace(drawing, fault=f"its drawing cannot be written to {place.parent}")
-    pixels = _pixels(card)
-    return replace(drawing, drawn=place, contrast=_contrast(pixels), signature=_signature(pixels))
+    return replace(drawing, drawn=place, contrast=_contrast(_pixels(card, _PIXELS)), signature=_signature(card))
 
 
 def _read_no_larger_than_needed(reader: QImageReader, size: QSize, *, is_svg: bool) -> None:
@@ -258,40 +255,43 @@ def _write(painter: QPainter, name: str) -> None:
 
 # What can be said of the drawn cards
 
-Pixels = NDArray[np.float64]
+Colour = tuple[float, float, float]
+"""Red, green and blue, each from 0 to 1."""
+
+_PIXELS = 64
+_GREY = (0.2126, 0.7152, 0.0722)
+"""How light red, green and blue look, by ITU-R BT.709."""
 
 
-def _pixels(card: QImage) -> Pixels:
-    """Return the inside of a drawn card as colours from 0 to 1 (height x width x 3)."""
+def _pixels(card: QImage, side: int) -> list[Colour]:
+    """Return the inside of a drawn card as so many rows of so many colours, one row after another."""
     inner = _CARD.adjusted(_MARGIN, _MARGIN, -_MARGIN, -_MARGIN).toRect()
-    image = card.copy(inner).scaled(QSize(64, 64), mode=Qt.TransformationMode.SmoothTransformation)
-    image = image.convertToFormat(QImage.Format.Format_RGB888)
-    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
-    return rows[:, : image.width() * 3].reshape(image.height(), image.width(), 3) / 255.0
+    image = card.copy(inner).scaled(QSize(side, side), mode=Qt.TransformationMode.SmoothTransformation)
+    colours = (image.pixelColor(x, y) for y in range(side) for x in range(side))
+    return [(each.redF(), each.greenF(), each.blueF()) for each in colours]
 
 
-def _contrast(pixels: Pixels) -> float:
+def _contrast(pixels: Sequence[Colour]) -> float:
     """Return the contrast of the light to the dark parts, 1 to 21, by the formula of WCAG 2.2."""
-    linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)  # noqa: PLR2004
-    dark, light = np.quantile(linear @ (0.2126, 0.7152, 0.0722), (0.05, 0.95))
-    return round(float((light + 0.05) / (dark + 0.05)), 2)
+    hex_colours = ("#" + "".join(f"{round(part * 255):02X}" for part in colour) for colour in pixels)
+    light = sorted(luminance(colour) for colour in hex_colours)
+    return round((light[len(light) * 95 // 100] + 0.05) / (light[len(light) * 5 // 100] + 0.05), 2)
 
 
-def _signature(pixels: Pixels) -> str:
-    step = pixels.shape[0] // _GRID
-    means = pixels.reshape(_GRID, step, _GRID, step, 3).mean(axis=(1, 3))
-    return bytes((means * 255).round().astype(np.uint8)).hex()
-
-
-def _colours(drawing: CardDrawing) -> Pixels:
-    return np.frombuffer(bytes.fromhex(drawing.signature), np.uint8).reshape(_GRID, _GRID, 3) / 255.0
+def _signature(card: QImage) -> str:
+    return bytes(round(part * 255) for colour in _pixels(card, _GRID) for part in colour).hex()
 
 
 def distances(one: CardDrawing, other: CardDrawing) -> tuple[float, float]:
     """Return how far two drawn cards are from each other in colour and in grey, each 0 to 1."""
-    a, b = _colours(one), _colours(other)
-    grey = (0.2126, 0.7152, 0.0722)
-    return float(np.abs(a - b).mean()), float(np.abs(a @ grey - b @ grey).mean())
+    a, b = bytes.fromhex(one.signature), bytes.fromhex(other.signature)
+    colours = fmean(abs(x - y) for x, y in zip(a, b, strict=True)) / 255
+    greys = fmean(abs(_grey(a, at) - _grey(b, at)) for at in range(0, len(a), 3)) / 255
+    return colours, greys
+
+
+def _grey(colours: bytes, at: int) -> float:
+    return sum(colours[at + part] * share for part, share in enumerate(_GREY))
 
 
 def card_warnings(drawings: Iterable[CardDrawing]) -> Iterator[str]:
