@@ -654,6 +654,29 @@ class PackageOrigin:
     shipped: Mapping[str, str]
 
 
+class Privacy(ConfigModel):
+    """What an export tells of who people are. Exact ages are exported only by those who ask for them."""
+
+    age_items: Annotated[
+        tuple[str, ...],
+        Field(
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="The items of questionnaires that ask for an age in years, by their names.",
+        ),
+    ] = ("age",)
+    age_bands: Annotated[
+        int, Unit("years"), Field(ge=2, le=50, description="How many years a band of ages has in an export.")
+    ] = 5
+    shuffled_ids: Annotated[
+        bool,
+        Field(
+            description="Gives participants names in an export that say nothing of the order in which they came, and "
+            "leaves out what else tells that order."
+        ),
+    ] = False
+
+
 class Settings(ConfigModel):
     """Everything that one study may set."""
 
@@ -710,6 +733,7 @@ class Settings(ConfigModel):
     look: Look = Look()
     shortcuts: Keys = Keys()
     experimenter: ExperimenterConfig = ExperimenterConfig()
+    privacy: Privacy = Privacy()
 
     _file: Path | None = PrivateAttr(None)
     """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""

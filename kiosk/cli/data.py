@@ -162,13 +162,15 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
 @click.option("--with-rehearsals", is_flag=True, help="Also rehearsals, told apart by a column.")
 @click.option("--with-trials", is_flag=True, help="Also sessions without a PIN, told apart by a column.")
 @click.option("--with-texts", is_flag=True, help="Also what people typed; it may name a person.")
+@click.option("--with-ages", is_flag=True, help="Also exact ages; by default they stand in bands of some years.")
 @click.option("--with-unshared", is_flag=True, help="Also who did not agree to publishing; then keep it to yourself.")
+@click.option("--shuffled-ids", is_flag=True, help="Let no name and no order of rows tell in which order people came.")
 @json_option
-def export_command(data: Path, out: Path, *, bids: bool, as_json: bool, **also: bool) -> None:
+def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_json: bool, **also: bool) -> None:
     """Write a data set for publishing: every table with a codebook, as Psych-DS asks for."""
     extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
     with progress_bar("sessions", hidden=as_json) as bar:
-        exported = write(data, out, Bids if bids else PsychDs, extras, bar)
+        exported = write(data, out, Bids if bids else PsychDs, extras, bar, shuffled_ids=shuffled_ids)
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return

@@ -28,6 +28,8 @@ class ExportOption(Enum):
     """Sessions at a kiosk without a PIN."""
     TEXTS = "texts"
     """What people typed, and what a failure said."""
+    AGES = "ages"
+    """Exact ages, instead of bands of some years."""
     UNSHARED = "unshared"
     """Sessions whose visitor did not agree to publishing."""
 
@@ -313,8 +315,9 @@ _Row = TypeVar("_Row")
 
 PARTICIPANT = Variable(
     "participant_id",
-    "Who it is about: the site, where there is more than one, and a number in the order in which people came. It has "
-    "nothing to do with the code that the visitor keeps.",
+    "Who it is about: the site, where there is more than one, and a number in the order in which people came or, where "
+    "the README says that the names are shuffled, digits and letters that say nothing of that order. It has nothing to "
+    "do with the code that the visitor keeps.",
 )
 AT = Variable("at_ms", "When it happened, from the session's first event.", ColumnKind.WHOLE, "ms")
 STAGE = Variable("stage", "The stage of the session that it fell into.", levels=enum_levels(Stage))

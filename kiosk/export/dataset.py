@@ -15,7 +15,7 @@ from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
 from kiosk.store.plans import frozen_plans
-from kiosk.store.session_records import RecordSource, SessionRecord, open_records
+from kiosk.store.session_records import RecordSource, SessionRecord, open_records, shuffling_secret
 
 _KINDS = {ExportOption.REHEARSALS: SessionKind.SIMULATED, ExportOption.TRIALS: SessionKind.TRIAL}
 """The kinds of sessions that are exported for those who ask for them."""
@@ -40,21 +40,29 @@ class Exported:
         return told if self.cautions else {key: value for key, value in told.items() if key != "cautions"}
 
 
-def export_dataset(
+def export_dataset(  # noqa: PLR0913 - each is asked for by itself
     data: Path,
     out: Path,
     layout: Callable[[Path, DatasetContents], Layout],
     extras: frozenset[ExportOption] = frozenset(),
     tell: Callable[[int, int], None] | None = None,
+    *,
+    shuffled_ids: bool = False,
 ) -> Exported:
     """Write the data set of the data folder ``data`` into the new folder ``out``.
 
-    ``tell`` hears how many sessions are done, of how many. Raises UserInputError if there is nothing to
-    export or ``out`` cannot be used.
+    ``tell`` hears how many sessions are done, of how many. Names of participants are shuffled if that is asked for
+    here or by the settings of any session. Raises UserInputError if there is nothing to export, ``out`` cannot be
+    used, or dates are asked for, which tell the order that shuffling hides.
     """
     kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
     with open_records(data, kinds) as stored, new_folder(out) as folder:
         study = StudyMaterials(stored.plans())
+        if shuffled_ids or study.asks_for_shuffled_ids:
+            if ExportOption.DATES in extras:
+                raise UserInputError("dates tell the order of the sessions, which shuffled_ids hides; export without")
+            stored.secret = shuffling_secret(data)
+            study = replace(study, shuffled=True)
         contents = DatasetContents(study, all_tables(study, extras), extras, frozen_plans(data))
         flows = {kind: ParticipantFlow(kind, stored.archive.counts(kind=kind)) for kind in sorted(kinds)}
         with closing(layout(folder, contents)) as writing:

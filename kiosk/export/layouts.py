@@ -215,6 +215,7 @@ PUBLISHED = frozenset(
         "idle_ms",
         "voice",
         "screen",
+        "privacy",
     }
 )
 """The parts of a study file that say nothing of people, devices, keys or seeds; a new part is not among them."""
@@ -422,9 +423,12 @@ class Bids(Layout):
     def _tool(self, name: str) -> _Tool:
         """Begin a questionnaire's table: a row for each participant, a column for each item of any version."""
         study = self.contents.study
-        asked = exported_items(study.items(name), self.contents.extras)
+        extras = self.contents.extras
+        asked = exported_items(study.items(name), extras)
         columns = distinct(asked, (PARTICIPANT.name, _TOOL))
-        items = {(item, "value"): item_variable(columns[item], asked_as, study) for item, asked_as in asked.items()}
+        items = {
+            (item, "value"): item_variable(columns[item], asked_as, study, extras) for item, asked_as in asked.items()
+        }
         exempt = (item for item, asked_as in asked.items() if can_be_not_applicable(asked_as))
         marked = {item: f"{columns[item]}_{NOT_APPLICABLE.name}" for item in exempt}
         others = distinct(marked.values(), (PARTICIPANT.name, _TOOL, *columns.values()))

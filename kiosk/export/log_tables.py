@@ -25,7 +25,7 @@ from kiosk.export.columns import (
     enum_levels,
     make_columns,
 )
-from kiosk.export.records import safe_fields
+from kiosk.export.records import StudyMaterials, safe_fields
 from kiosk.store.session_records import EventRecord, SessionRecord
 
 FIELDS = "fields"
@@ -71,13 +71,19 @@ class _Logged:
     record: EventRecord
 
 
-def events_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Logged]:
-    """Return the table of all events; free texts only if they are asked for."""
+def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Table[SessionRecord, _Logged]:
+    """Return the table of all events; free texts and exact ages only if they are asked for."""
     with_texts = ExportOption.TEXTS in extras
+    ages = None if ExportOption.AGES in extras else study.age_bands
     told = "" if with_texts else " Fields that may hold free text are left out."
+    told += "" if ages is None else f" Ages stand in bands of {ages.years} years."
 
     def fields(row: _Logged) -> dict[str, object]:
-        return dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
+        given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
+        item, value = given.get("item"), given.get("value")
+        if ages is not None and isinstance(item, str) and isinstance(value, int | str):
+            given["value"] = ages.applied(item, value, row.kept)
+        return given
 
     logged: tuple[Column[_Logged], ...] = make_columns(
         (PARTICIPANT, lambda row: row.kept.name),
@@ -225,7 +231,7 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
         Variable(
             "sound_device",
             "What kind of sound device it was, after its name. The name itself may tell a person or a place, so it is "
-            "in no table.",
+            "told only in an export with texts, in the events.",
             levels=enum_levels(
                 SoundDevice,
                 bluetooth="a wireless device",

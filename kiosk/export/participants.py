@@ -44,7 +44,7 @@ from kiosk.export.columns import (
     make_columns,
     who_sat_there,
 )
-from kiosk.export.records import Asked, Scale, StudyMaterials
+from kiosk.export.records import AgeBands, Asked, Scale, StudyMaterials
 from kiosk.export.responses import NOT_APPLICABLE, scores_table, session_questionnaires
 from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
 from kiosk.store.session_records import SessionRecord
@@ -336,8 +336,9 @@ def _about_you_columns(
     columns: dict[str, tuple[Column[Person], ...]] = {}
     for item, asked_as in exported_items(study.about_you, extras).items():
         name = _free(item, "about_you", taken)
-        answer = partial(_answer_about_you, item, with_texts=ExportOption.TEXTS in extras)
-        columns[item] = (Column(item_variable(name, asked_as, study), answer),)
+        bands = study.age_bands if is_banded(item, study, extras) else None
+        answer = partial(_answer_about_you, item, bands, with_texts=ExportOption.TEXTS in extras)
+        columns[item] = (Column(item_variable(name, asked_as, study, extras), answer),)
         if can_be_not_applicable(asked_as):
             other = _free(f"{name}_{NOT_APPLICABLE.name}", "about_you", taken)
             columns[item] += (Column(not_applicable_variable(other, name), partial(_is_not_applicable, item)),)
@@ -359,6 +360,11 @@ def not_applicable_variable(name: str, of: str) -> Variable:
     )
 
 
+def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption]) -> bool:
+    """Whether an item asks for an age that is told in bands."""
+    return ExportOption.AGES not in extras and item in study.age_bands.items
+
+
 def _is_not_applicable(item: str, row: Person) -> Cell:
     return row.about_you[item].does_not_apply if item in row.about_you else None
 
@@ -375,17 +381,20 @@ def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) 
     return {name: asked_as for name, asked_as in told.items() if asked_as}
 
 
-def _answer_about_you(item: str, row: Person, *, with_texts: bool) -> Cell:
+def _answer_about_you(item: str, bands: AgeBands | None, row: Person, *, with_texts: bool) -> Cell:
     # What is chosen in one version of an item may be typed in another.
     typed = any(
         each.id == item and isinstance(each, ShortText)
         for of in session_questionnaires(row.kept)[:1]
         for each in of.items
     )
-    return row.about_you[item].value if item in row.about_you and (with_texts or not typed) else None
+    if item not in row.about_you or (typed and not with_texts):
+        return None
+    value = row.about_you[item].value
+    return bands.applied(item, value, row.kept) if bands else value
 
 
-def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable:
+def item_variable(name: str, asked_as: Asked, study: StudyMaterials, extras: frozenset[ExportOption]) -> Variable:
     """Return an item's column: what was asked, and what could be answered, in each version of its questionnaire."""
     items, language = [item for _, item in asked_as], study.language
     newest = items[0]
@@ -403,10 +412,14 @@ def item_variable(name: str, asked_as: Asked, study: StudyMaterials) -> Variable
                 levels.setdefault(option.id, Level(option.id, in_language(option.text, language)))
     elif len(numbers) == len(items):
         kind, least, most = ColumnKind.WHOLE, min(low for low, _ in numbers), max(high for _, high in numbers)
+    banded = ""
+    if is_banded(newest.id, study, extras) and not choices:
+        kind, least, most = ColumnKind.TEXT, None, None
+        banded = f" In bands of {study.age_bands.years} years, such as 20 to {19 + study.age_bands.years}."
     question = _quoted(in_language(newest.text, language))
     return Variable(
         name,
-        f"The answer to {question}.{_item_called(name, newest)}{_versions(asked_as, study)}",
+        f"The answer to {question}.{banded}{_item_called(name, newest)}{_versions(asked_as, study)}",
         kind,
         levels=tuple(levels.values()),
         empty="nothing was answered" + (", or it does not apply" if can_be_not_applicable(asked_as) else ""),
@@ -520,11 +533,14 @@ def participants_table(
     before, after = _own(study, extras)
     taken = _taken((*before, *after), elsewhere)
     declared = (*consent_columns(study, taken), *about_you_columns(study, extras, taken), *scale_columns(study, taken))
+    columns = (*before, *declared, *after)
+    if study.shuffled:
+        columns = tuple(column for column in columns if column.variable.name not in TELLS_THE_ORDER)
     return Table(
         "participants",
         "One row for every participant, that is for every session.",
         (PARTICIPANT.name,),
-        (*before, *declared, *after),
+        columns,
         lambda kept: [Person(kept)],
     )
 
@@ -538,6 +554,9 @@ def renamed(study: StudyMaterials, elsewhere: frozenset[str]) -> dict[str, str]:
     columns_of = _about_you_columns(study, extras, taken)
     return {item: answer.variable.name for item, (answer, *_) in columns_of.items() if item != answer.variable.name}
 
+
+TELLS_THE_ORDER = frozenset({"allocation_slot", "allocation_block", "visitors_before", "started_at"})
+"""The columns that are left out where nothing may tell the order in which people came."""
 
 _Columns = tuple[Column[Person], ...]
 

@@ -26,6 +26,7 @@ _LEFT_OUT = {
     "to, and the files' own dates say nothing.",
     ExportOption.TEXTS: "What people typed: short answers, an experimenter's reason for ending a session, and messages "
     "of failures. They may hold names, or tell where it was.",
+    ExportOption.AGES: "Exact ages: they stand in bands of some years, in every table and event.",
     ExportOption.REHEARSALS: "Rehearsals, in which a program plays.",
     ExportOption.TRIALS: "Trials, in which a person plays at a kiosk without a PIN.",
     ExportOption.UNSHARED: f"Sessions whose visitor was asked whether their data may be published (the purpose "
@@ -35,6 +36,7 @@ _LEFT_OUT = {
 _NOT_FOR_PUBLISHING = {
     ExportOption.DATES: "dates",
     ExportOption.TEXTS: "texts that people typed",
+    ExportOption.AGES: "exact ages",
     ExportOption.UNSHARED: "sessions whose visitor did not agree to publishing",
 }
 
@@ -127,7 +129,7 @@ def dataset_readme(
             "",
             "## What is not here, and why",
             "",
-            *_missing(extras),
+            *_missing(study, extras),
             "",
             _BEFORE_PUBLISHING,
             "",
@@ -138,12 +140,21 @@ def dataset_readme(
 def bids_readme(study: StudyMaterials, extras: frozenset[ExportOption]) -> str:
     """Return the same for names like those of BIDS."""
     opening = [f"# {as_written(study.title)}", "", dataset_abstract(study, extras), "", _HOW_TO_READ_BIDS, "", MARKED]
-    return "\n".join([*opening, "", "## What is not here, and why", "", *_missing(extras), "", _BEFORE_PUBLISHING, ""])
+    return "\n".join(
+        [*opening, "", "## What is not here, and why", "", *_missing(study, extras), "", _BEFORE_PUBLISHING, ""]
+    )
 
 
-def _missing(extras: frozenset[ExportOption]) -> list[str]:
+def _missing(study: StudyMaterials, extras: frozenset[ExportOption]) -> list[str]:
     left_out = (text for extra, text in _LEFT_OUT.items() if extra not in extras)
-    return [f"- {text}" for text in (*_NOT_HERE, *left_out)]
+    return [f"- {text}" for text in (*_NOT_HERE, *left_out, *([_SHUFFLED] if study.shuffled else []))]
+
+
+_SHUFFLED = (
+    "The order in which people came: the names of participants are shuffled with a secret that stays in the data "
+    "folder, the rows go by these names, and the slots and blocks of the allocation list are left out. What sessions "
+    "followed (versions of the program and of questionnaires, settings) still tells before or after a change."
+)
 
 
 _HOW_TO_READ_BIDS = """Here is behaviour alone, without recordings of the brain. `participants.tsv` has a row for

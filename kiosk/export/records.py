@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
+from kiosk.config import Privacy
 from kiosk.experiment.events import (
     AbortRequested,
     EmbodimentChanged,
@@ -18,6 +19,8 @@ from kiosk.experiment.events import (
 )
 from kiosk.experiment.information import Purpose
 from kiosk.experiment.items import (
+    Answer,
+    Choice,
     Rating,
     ShortText,
 )
@@ -68,10 +71,51 @@ class Scale:
 
 
 @dataclass(frozen=True)
+class AgeBands:
+    """Ages in bands of so many years; ``items`` are the items that ask for an age."""
+
+    years: int
+    items: frozenset[str]
+
+    def applied(self, item: str, value: Answer | None, kept: SessionRecord) -> Answer | None:
+        """Return an answer as it is exported: the band of an age, and any other answer as it is.
+
+        What was typed and is no whole number is left out, and an option is as it is: its bands are the study's.
+        """
+        if item not in self.items or value is None or isinstance(value, tuple):
+            return value
+        if isinstance(value, str):
+            if any(isinstance(each, Choice) for each in items_called(item, kept)):
+                return value
+            if not value.strip().isdecimal():
+                return None
+            value = int(value.strip())
+        lowest = value // self.years * self.years
+        return f"{lowest} to {lowest + self.years - 1}"
+
+
+@dataclass(frozen=True)
 class StudyMaterials:
-    """Everything that gives rise to columns; ``plans`` are those that can be read, the newest first."""
+    """Everything that gives rise to columns; ``plans`` are those that can be read, the newest first.
+
+    ``shuffled`` says that nothing may tell the order in which people came.
+    """
 
     plans: tuple[SessionConfig, ...]
+    shuffled: bool = False
+
+    @property
+    def age_bands(self) -> AgeBands:
+        """The bands in which ages are exported: the widest that any session's settings asked for."""
+        asked = [plan.settings.privacy for plan in self.plans] or [Privacy()]
+        return AgeBands(
+            max(each.age_bands for each in asked), frozenset(item for each in asked for item in each.age_items)
+        )
+
+    @property
+    def asks_for_shuffled_ids(self) -> bool:
+        """Whether the settings of any session ask for shuffled names."""
+        return any(plan.settings.privacy.shuffled_ids for plan in self.plans)
 
     @property
     def title(self) -> str:
@@ -232,6 +276,11 @@ def is_free_text(answer: ResponseGiven, kept: SessionRecord) -> bool:
         return False
     if kept.plan is None:
         return True
-    asked = (kept.plan.about_you, *kept.plan.questionnaires)
-    items = [item for questionnaire in asked for item in questionnaire.items if item.id == answer.item]
+    items = items_called(answer.item, kept)
     return not items or any(isinstance(item, ShortText) for item in items)
+
+
+def items_called(name: str, kept: SessionRecord) -> list[Item]:
+    """Return the items of a session's questionnaires that have this name; none if they cannot be read."""
+    asked = (kept.plan.about_you, *kept.plan.questionnaires) if kept.plan else ()
+    return [item for questionnaire in asked for item in questionnaire.items if item.id == name]

@@ -27,6 +27,7 @@ from kiosk.export.columns import (
     Variable,
     make_columns,
 )
+from kiosk.export.records import StudyMaterials
 from kiosk.store.session_records import SessionRecord
 
 QUESTIONNAIRE = Variable("questionnaire", "The questionnaire, by its name.")
@@ -58,11 +59,6 @@ class _Answer:
     answered: ItemResponse
 
     @property
-    def number(self) -> int | None:
-        value = self.answered.value
-        return value if isinstance(value, int) else None
-
-    @property
     def scored(self) -> int | None:
         return None if self.answered.value is None else self.item.score(self.answered.value)
 
@@ -82,13 +78,21 @@ def _answers(kept: SessionRecord) -> Iterator[_Answer]:
                 yield _Answer(kept, questionnaire, item, positions.get(item.id), given[key])
 
 
-def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
-    """Return the table of answers; what was typed only if it is asked for."""
+def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answer]:
+    """Return the table of answers; what was typed and exact ages only if they are asked for."""
     with_texts = ExportOption.TEXTS in extras
     typed = "" if with_texts else "; or it was typed, and such texts are left out"
+    ages = None if ExportOption.AGES in extras else study.age_bands
+    aged = "" if ages is None else ", or it is an age, which is told in a band"
 
     def value(row: _Answer) -> Cell:
-        return None if isinstance(row.item, ShortText) and not with_texts else row.answered.value
+        if isinstance(row.item, ShortText) and not with_texts:
+            return None
+        return ages.applied(row.item.id, row.answered.value, row.kept) if ages else row.answered.value
+
+    def number(row: _Answer) -> int | None:
+        told = value(row)
+        return told if isinstance(told, int) else None
 
     given: tuple[Column[_Answer], ...] = make_columns(
         (PARTICIPANT, lambda row: row.kept.name),
@@ -119,8 +123,10 @@ def answers_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Answ
         ),
         (NOT_APPLICABLE, lambda row: row.answered.does_not_apply),
         (
-            Variable("number", "The answer as a number.", ColumnKind.WHOLE, empty="the answer is none, or no number"),
-            lambda row: row.number,
+            Variable(
+                "number", "The answer as a number.", ColumnKind.WHOLE, empty="the answer is none, or no number" + aged
+            ),
+            number,
         ),
         (
             Variable(

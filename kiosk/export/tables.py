@@ -33,8 +33,8 @@ class DatasetTables:
 
 def all_tables(study: StudyMaterials, extras: frozenset[ExportOption]) -> DatasetTables:
     """Return the tables of a study's data set."""
-    others, whole = _others(extras), flow_table(extras)
-    return DatasetTables((participants_table(study, extras, _elsewhere(extras)), *others), whole)
+    others, whole = _others(study, extras), flow_table(extras)
+    return DatasetTables((participants_table(study, extras, _elsewhere(study, extras)), *others), whole)
 
 
 def renamed_items(study: StudyMaterials) -> dict[str, str]:
@@ -42,14 +42,14 @@ def renamed_items(study: StudyMaterials) -> dict[str, str]:
 
     Their own is that of a column of the program's.
     """
-    return renamed(study, _elsewhere(frozenset(ExportOption)))
+    return renamed(study, _elsewhere(study, frozenset(ExportOption)))
 
 
-def _others(extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any], ...]:
-    return FLIPS, HINTS, DECISIONS, CARDS, answers_table(extras), SCORES, SENTENCES, events_table(extras)
+def _others(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any], ...]:
+    return FLIPS, HINTS, DECISIONS, CARDS, answers_table(study, extras), SCORES, SENTENCES, events_table(study, extras)
 
 
-def _elsewhere(extras: frozenset[ExportOption]) -> frozenset[str]:
+def _elsewhere(study: StudyMaterials, extras: frozenset[ExportOption]) -> frozenset[str]:
     """Return the columns of all tables but that of participants."""
-    shapes = (*(table.shape for table in _others(extras)), flow_table(extras).shape)
+    shapes = (*(table.shape for table in _others(study, extras)), flow_table(extras).shape)
     return frozenset(name for shape in shapes for name in shape.names)

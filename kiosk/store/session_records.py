@@ -5,6 +5,9 @@ What an older program wrote and this one cannot read is left out piece by piece:
 
 from __future__ import annotations
 
+import hashlib
+import hmac
+import secrets
 import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -20,6 +23,7 @@ from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, 
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
+from kiosk.files import replace_file
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.queries import SessionRepository
 
@@ -51,6 +55,8 @@ class SessionRecord:
     status: Status | None
     plan: SessionConfig | None
     records: tuple[EventRecord, ...]
+    secret: bytes | None = None
+    """What participants' names are shuffled with; None if they count in the order in which people came."""
 
     @property
     def id(self) -> int:
@@ -68,10 +74,7 @@ class SessionRecord:
 
         P stands for participants, r for rehearsals and t for trials; as small letters are in no site, no two are alike.
         """
-        if self.row["number"] is None:
-            return f"session-{self.id:0{PADDED}}"
-        number = f"{_LETTERS[self.kind]}{self.row['number']:0{PADDED}}"
-        return f"{self.row['site']}-{number}" if self.row["site"] else number
+        return _name(self.row, self.secret)
 
     @cached_property
     def events(self) -> tuple[Event, ...]:
@@ -94,14 +97,56 @@ class SessionRecord:
         return offered is not None and PUBLISHING not in {purpose.id for purpose in offered}
 
 
+def _name(row: Mapping[str, Any], secret: bytes | None) -> str:
+    if row["number"] is None and secret is None:
+        return f"session-{row['id']:0{PADDED}}"
+    kind = SessionKind(row["kind"])
+    if secret is None:
+        number = f"{row['number']:0{PADDED}}"
+    else:
+        told = f"{row['site']}/{int(kind)}/{row['number']}/{'' if row['number'] is not None else row['id']}"
+        number = hmac.new(secret, told.encode(), hashlib.sha256).hexdigest()[:_SHUFFLED].upper()
+    return f"{row['site']}-{_LETTERS[kind]}{number}" if row["site"] else f"{_LETTERS[kind]}{number}"
+
+
+SHUFFLING_FILE = "shuffled-ids.secret"
+_SECRET_BYTES = 32
+_SHUFFLED = 12
+"""Hexadecimal digits of a shuffled name: 48 bits, so that two alike are not to be expected."""
+
+
+def shuffling_secret(folder: Path) -> bytes:
+    """Return the secret of a data folder that participants' names are shuffled with; make it if there is none.
+
+    It stays in the folder, readable by its owner, so that every export has the same names and nobody else can work out
+    who is who. Raises UserInputError if it cannot be read or written.
+    """
+    file = folder / SHUFFLING_FILE
+    try:
+        if not file.exists():
+            replace_file(file, secrets.token_hex(_SECRET_BYTES), 0o600)
+        secret = bytes.fromhex(file.read_text("ascii"))
+    except OSError as error:
+        raise UserInputError(f"{file}, which shuffles the names of participants, cannot be used: {error}") from error
+    except ValueError as error:
+        raise UserInputError(f"{file} is not the secret that this program wrote") from error
+    if len(secret) != _SECRET_BYTES:
+        raise UserInputError(f"{file} is not the secret that this program wrote")
+    return secret
+
+
 @dataclass
 class RecordSource:
-    """The database at one moment; a kiosk may go on writing meanwhile. Only these kinds are read."""
+    """The database at one moment; a kiosk may go on writing meanwhile. Only these kinds are read.
+
+    With a ``secret``, people's names and their order say nothing of the order in which they came.
+    """
 
     connection: sqlite3.Connection
     archive: SessionRepository
     kinds: frozenset[SessionKind]
     _unended: Status | None
+    secret: bytes | None = None
     _plans: dict[tuple[object, ...], SessionConfig | None] = field(default_factory=dict)
 
     def __len__(self) -> int:
@@ -117,10 +162,21 @@ class RecordSource:
         return 0 if kind in self.kinds else number
 
     def __iter__(self) -> Iterator[SessionRecord]:
-        """Every session in the order in which they began, one in memory at a time."""
-        for row in self._rows("ORDER BY session.id"):
+        """Every session in the order in which they began, or of shuffled names; one in memory at a time."""
+        for number in self._in_order():
+            (row,) = self._rows(f"AND session.id = {number}")
             records = tuple(_told(self.archive.records(row["id"])))
-            yield SessionRecord(row, self._status(records), self._plan(row), records)
+            yield SessionRecord(row, self._status(records), self._plan(row), records, self.secret)
+
+    def _in_order(self) -> list[int]:
+        cursor = self.connection.execute(
+            "SELECT session.id, session.site, session.kind, participant.number FROM session LEFT JOIN participant"  # noqa: S608 - numbers
+            f" ON participant.session = session.id WHERE {self._wanted} ORDER BY session.id"
+        )
+        rows = [dict(zip(("id", "site", "kind", "number"), row, strict=True)) for row in cursor]
+        if self.secret is not None:
+            rows.sort(key=lambda row: _name(row, self.secret))
+        return [row["id"] for row in rows]
 
     def plans(self) -> tuple[SessionConfig, ...]:
         """Return the plans that the sessions followed, the newest first, as far as they can be read."""

@@ -14,13 +14,17 @@ from random import Random
 
 import pytest
 
-from kiosk.config import Allocation, ConsentConfig, RobotConfig
+from kiosk import UserInputError
+from kiosk.config import Allocation, ConsentConfig, Privacy, RobotConfig
 from kiosk.experiment.events import ResponseGiven, Stage
 from kiosk.experiment.items import ShortText
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, Layout, PsychDs
+from kiosk.export.participants import TELLS_THE_ORDER
+from kiosk.export.records import AgeBands, StudyMaterials
 from kiosk.store.database import FILE
+from kiosk.store.session_records import SHUFFLING_FILE
 from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
 from tests.export.visitors import answer_all, store, study_plan, unsharing, visitor
@@ -153,3 +157,138 @@ def test_where_publishing_was_not_asked_about_nobody_is_left_out(tmp_path: Path)
     driver.to(Stage.OVER)
     store(tmp_path / "data", [(driver, 1)])
     assert export_dataset(tmp_path / "data", tmp_path / "out", PsychDs).participants == 1
+
+
+AGE, FIRST_AGE = 87, 83
+BAND, FIRST_BAND = "85 to 89", "80 to 84"
+
+
+def aged(privacy: Privacy = Privacy()) -> Driver:  # noqa: B008 - it is frozen
+    """Return a visitor who types one age and then another one."""
+    plan = study_plan()
+    driver = Driver(replace(plan, settings=plan.settings.model_copy(update={"privacy": privacy})), SEED)
+    driver.to(Stage.ABOUT_YOU)
+    driver.answer(FIRST_AGE, "age")
+    driver.answer(AGE, "age")
+    driver.go_on()
+    driver.end()
+    return driver
+
+
+@pytest.fixture(scope="module")
+def old(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a data folder with that visitor in it."""
+    folder = tmp_path_factory.mktemp("old") / "data"
+    store(folder, [(aged(), SEED)])
+    return folder
+
+
+def ages_told(out: Path) -> tuple[str, tuple[str, str], list[object], str]:
+    """Return the age as the table of participants, that of answers and the events tell it, and how it is described."""
+    (answer,) = (row for row in rows_of(out, "answers") if row["item"] == "age")
+    events = [json.loads(row["fields"]) for row in rows_of(out, "events") if row["type"] == ResponseGiven.__name__]
+    described = json.loads((out / "dataset_description.json").read_text("utf-8"))["variableMeasured"]
+    kind = next(variable["additionalType"] for variable in described if variable["name"] == "age")
+    given = [event["value"] for event in events if event["item"] == "age"]
+    return rows_of(out, "participants")[0]["age"], (answer["value"], answer["number"]), given, kind
+
+
+@pytest.mark.parametrize("extras", [frozenset(), frozenset({ExportOption.TEXTS})], ids=["plain", "with texts"])
+def test_ages_stand_in_bands_in_every_table_and_event(
+    old: Path, tmp_path: Path, extras: frozenset[ExportOption]
+) -> None:
+    export_dataset(old, tmp_path / "out", PsychDs, extras)
+    assert ages_told(tmp_path / "out") == (BAND, (BAND, ""), [FIRST_BAND, BAND], "text")
+    assert "bands" in (tmp_path / "out" / "README.md").read_text("utf-8")
+    export_dataset(old, tmp_path / "bids", Bids, extras)
+    phenotype = (tmp_path / "bids" / "phenotype" / "about_you.tsv").read_text("utf-8")
+    people = (tmp_path / "bids" / "participants.tsv").read_text("utf-8")
+    assert BAND in phenotype
+    assert BAND in people
+    assert re.search(rf"\t{AGE}\b", phenotype + people) is None
+
+
+def test_exact_ages_are_told_to_those_who_ask_for_them_and_the_data_set_says_so(old: Path, tmp_path: Path) -> None:
+    export_dataset(old, tmp_path / "out", PsychDs, frozenset({ExportOption.AGES}))
+    told = ages_told(tmp_path / "out")
+    assert told == (str(AGE), (str(AGE), str(AGE)), [FIRST_AGE, AGE], "whole number")
+    assert "NOT FOR PUBLISHING: it holds exact ages" in (tmp_path / "out" / "README.md").read_text("utf-8")
+
+
+def test_a_study_says_how_wide_the_bands_are_and_which_items_ask_for_ages(tmp_path: Path) -> None:
+    driver = aged(Privacy(age_bands=10, age_items=("age", "years-here")))
+    assert StudyMaterials((driver.plan,)).age_bands == AgeBands(10, frozenset({"age", "years-here"}))
+    store(tmp_path / "data", [(driver, SEED)])
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    assert ages_told(tmp_path / "out")[0] == "80 to 89"
+
+
+def names(out: Path, table: str = "participants") -> list[str]:
+    """Return the participants of a table in the order of its rows, each once."""
+    return list(dict.fromkeys(row["participant_id"] for row in rows_of(out, table)))
+
+
+@pytest.fixture(scope="module")
+def came(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a data folder with ten visitors, each of whom has another age."""
+    folder = tmp_path_factory.mktemp("came") / "data"
+    drivers = []
+    for number in range(10):
+        driver = Driver(study_plan(), number)
+        driver.to(Stage.ABOUT_YOU)
+        driver.answer(20 + number, "age")
+        driver.go_on()
+        driver.end()
+        drivers.append((driver, number))
+    store(folder, drivers)
+    return folder
+
+
+def test_shuffled_names_say_nothing_of_the_order_and_are_the_same_in_every_export(came: Path, tmp_path: Path) -> None:
+    ages = frozenset({ExportOption.AGES})
+    for name in ("one", "two"):
+        export_dataset(came, tmp_path / name, PsychDs, ages, shuffled_ids=True)
+    told = {row["age"]: row["participant_id"] for row in rows_of(tmp_path / "one", "participants")}
+    assert told == {row["age"]: row["participant_id"] for row in rows_of(tmp_path / "two", "participants")}
+    assert all(re.fullmatch("P[0-9A-F]{12}", name) for name in told.values())
+    assert names(tmp_path / "one") == sorted(told.values()) == names(tmp_path / "one", "events")
+    assert list(told) != sorted(told)
+    assert "shuffled" in (tmp_path / "one" / "README.md").read_text("utf-8")
+    secret = came / SHUFFLING_FILE
+    assert secret.stat().st_mode & 0o077 == 0
+    assert [path for path, text in texts(tmp_path / "one") if secret.read_text("ascii") in text] == []
+
+
+def test_another_data_folder_shuffles_otherwise(came: Path, tmp_path: Path) -> None:
+    (tmp_path / "copy").mkdir()
+    (tmp_path / "copy" / FILE).write_bytes((came / FILE).read_bytes())
+    export_dataset(came, tmp_path / "one", PsychDs, shuffled_ids=True)
+    export_dataset(tmp_path / "copy", tmp_path / "two", PsychDs, shuffled_ids=True)
+    assert set(names(tmp_path / "one")).isdisjoint(names(tmp_path / "two"))
+
+
+def test_nothing_else_tells_the_order_where_names_are_shuffled(came: Path, tmp_path: Path) -> None:
+    export_dataset(came, tmp_path / "out", PsychDs, shuffled_ids=True)
+    assert not TELLS_THE_ORDER & set(rows_of(tmp_path / "out", "participants")[0])
+    export_dataset(came, tmp_path / "bids", Bids, shuffled_ids=True)
+    assert sorted(path.name for path in (tmp_path / "bids").glob("sub-*")) == [
+        f"sub-{name}" for name in names(tmp_path / "out")
+    ]
+    with pytest.raises(UserInputError, match="dates tell the order"):
+        export_dataset(came, tmp_path / "no", PsychDs, frozenset({ExportOption.DATES}), shuffled_ids=True)
+    assert not (tmp_path / "no").exists()
+
+
+def test_a_study_file_can_ask_for_shuffled_names(tmp_path: Path) -> None:
+    store(tmp_path / "data", [(aged(Privacy(shuffled_ids=True)), SEED)])
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    assert names(tmp_path / "out") != ["P0001"]
+
+
+@pytest.mark.parametrize("content", ["", "no secret", "00"])
+def test_a_damaged_secret_is_refused(came: Path, tmp_path: Path, content: str) -> None:
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / FILE).write_bytes((came / FILE).read_bytes())
+    (tmp_path / "data" / SHUFFLING_FILE).write_text(content, "ascii")
+    with pytest.raises(UserInputError, match="is not the secret"):
+        export_dataset(tmp_path / "data", tmp_path / "out", PsychDs, shuffled_ids=True)
