@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from typing import Self
@@ -35,12 +35,14 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.config import Settings
+from kiosk.experiment.booth_status import FILE, BoothStatus
 from kiosk.experiment.questionnaire import load_item
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
 from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.robots import checks as robots_checks
 from kiosk.robots import voice_program
+from kiosk.robots.embodiment import Health
 from kiosk.robots.registry import check_robot, load_driver
 from kiosk.store import checks as store_checks
 from kiosk.store.database import in_use
@@ -269,7 +271,8 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
         return
     probe = voice_program(settings.voice_from_here, settings.language_codes[0], probe=True)
     within_s = robots_checks.WITHIN_S + _MARGIN_S
-    yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, probe, busy=booth.busy), within_s)
+    told = _voice_of_kiosk(booth.folder) if booth.busy else None
+    yield Check(robots_checks.SOUND, partial(robots_checks.sound_check, probe, busy=booth.busy, told=told), within_s)
     if not settings.voice.enabled:
         yield Check("voice", lambda: [CheckResult.ok("voice", "switched off in the study file")])
     elif booth.study is not None:
@@ -282,6 +285,17 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
     if settings.robot.pack:
         packs = partial(robots_checks.pack_check, settings.voice_from_here, settings.language_codes)
         yield Check(f"{robots_checks.ROBOT}: clips", packs)
+
+
+def _voice_of_kiosk(folder: Path) -> Health | None:
+    """Return what the kiosk that is open on a folder says of its voice; None if it says nothing."""
+    try:
+        status = BoothStatus.from_json((folder / FILE).read_text("utf-8"))
+    except (OSError, ValueError):
+        return None
+    if not status.is_alive(datetime.now(UTC)):
+        return None
+    return next((Health(part.ok, part.message) for part in status.parts if part.name == "voice"), None)
 
 
 def _kept(booth: CheckTargets) -> Iterator[Check]:

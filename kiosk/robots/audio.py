@@ -553,6 +553,9 @@ class CommandPlayer:
         self._folder = tempfile.TemporaryDirectory(prefix="recollect-sound-")
         self.device = "" if self._command is None else Path(self._command[0]).name
         self.why = "there is no program that plays sound"
+        if self._command is not None:
+            # The program is there even where no sound card is: a moment of silence tells.
+            self.play(None, Clip(np.zeros(RATES[0] // 50, np.int16), RATES[0]))
 
     @property
     def busy(self) -> bool:

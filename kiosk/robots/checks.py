@@ -13,7 +13,7 @@ from kiosk import UserInputError
 from kiosk.config import NO_ROBOT, VoiceConfig
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.preflight import CheckResult
-from kiosk.robots.embodiment import InspectableRobot, RobotDriver, RobotError, chosen_voice
+from kiosk.robots.embodiment import Health, InspectableRobot, RobotDriver, RobotError, chosen_voice
 from kiosk.robots.registry import create_robot
 from kiosk.robots.voice_packs import find_pack
 from kiosk.units import MS_PER_SECOND
@@ -21,12 +21,20 @@ from kiosk.units import MS_PER_SECOND
 SOUND = "sound"
 
 _UNHEARD = "sentences are shown, and nothing is heard"
+_LOUDSPEAKER = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play it any sound"
 
 
-def sound_check(command: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
-    """Have the voice's process play silence; not while a kiosk is ``busy``, which may need the card itself."""
+def sound_check(command: Sequence[str], *, busy: bool, told: Health | None = None) -> Iterator[CheckResult]:
+    """Have the voice's process play silence; not while a kiosk is ``busy``, which may need the card itself.
+
+    ``told`` is what that kiosk says of its voice.
+    """
+    if busy and told is not None and not told.is_ok:
+        yield CheckResult.warning(SOUND, f"the kiosk that is open here says: {told.message}", _LOUDSPEAKER)
+        return
     if busy:
-        yield CheckResult.ok(SOUND, "not tried while a kiosk is open here; its panel tells whether it is heard")
+        words = f": {told.message}" if told else " once its panel is open"
+        yield CheckResult.ok(SOUND, f"not tried while a kiosk is open here, which tells{words}")
         return
     try:
         probed = dict(_events(_run(command))).get("probed", {"why": "the sound's process died"})
@@ -38,8 +46,7 @@ def sound_check(command: Sequence[str], *, busy: bool) -> Iterator[CheckResult]:
     if device:
         yield CheckResult.ok(SOUND, f"{device} plays")
     else:
-        remedy = "plug in a loudspeaker, choose it in the system's settings or as voice.device, and play it any sound"
-        yield CheckResult.warning(SOUND, f"{_UNHEARD}: {why}", remedy)
+        yield CheckResult.warning(SOUND, f"{_UNHEARD}: {why}", _LOUDSPEAKER)
 
 
 WITHIN_S = 12.0

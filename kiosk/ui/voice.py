@@ -205,7 +205,9 @@ class EngineVoice(Voice):
 
     @property
     def health(self) -> Health:
-        """What the engine said of itself, or why it is gone."""
+        """What the engine said of itself, or why it is gone; at volume 0 nothing is heard of it either."""
+        if self._health.is_ok and self._settings.volume == 0:
+            return Health(is_ok=False, message="sentences are only shown: the volume is 0")
         return self._health
 
     def _take_health(self, health: Health) -> None:

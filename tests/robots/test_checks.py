@@ -14,6 +14,7 @@ from kiosk.preflight import CheckResult, Severity
 from kiosk.robots import audio, voice_program
 from kiosk.robots import checks as robots_checks
 from kiosk.robots.checks import SLOW_MS, pack_check, robot_check, say_check, sound_check, voice_check, within_s
+from kiosk.robots.embodiment import Health
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -74,6 +75,15 @@ def test_the_sound_card_of_a_kiosk_at_work_is_left_alone(tmp_path: Path) -> None
     found = alone(sound_check(python(f"open({str(tmp_path / 'played')!r}, 'w')"), busy=True))
     assert found.severity is Severity.OK
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_kiosk_at_work_that_is_not_heard_is_no_reason_to_say_that_all_is_well() -> None:
+    told = Health(is_ok=False, message="sentences are only shown: there is no sound device")
+    found = alone(sound_check(python(""), busy=True, told=told))
+    assert found.severity is Severity.WARNING
+    assert "there is no sound device" in found.message
+    heard = alone(sound_check(python(""), busy=True, told=Health(is_ok=True, message="the voice en speaks")))
+    assert (heard.severity, "the voice en speaks" in heard.message) == (Severity.OK, True)
 
 
 # Voice

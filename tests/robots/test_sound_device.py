@@ -263,10 +263,11 @@ def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_pla
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
     player = CommandPlayer(ears.posts.put)
+    # Nothing was to be played yet.
+    assert ears.next(player) == {"event": "device", "device": "", "why": audio.NO_DEVICE}
     player.play(1, TONE)
     assert ears.next(player) == {"event": "started", "id": 1}
     assert ears.next(player) == {"event": "broken", "id": 1, "why": audio.NO_DEVICE}
-    assert ears.next(player) == {"event": "device", "device": "", "why": audio.NO_DEVICE}
     program.write_text("#!/bin/sh\nexit 0\n")
     player.play(2, TONE)
     posts = [ears.next(player) for _ in range(3)]

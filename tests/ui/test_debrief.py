@@ -67,7 +67,27 @@ def test_it_is_a_letter_to_the_contact_that_names_the_code(debriefed: Booth) -> 
     assert " " not in payload
 
 
-@pytest.mark.parametrize("contact", ["", "Room 12"])
+@pytest.mark.parametrize("contact", ["Dr Ada <ada@university.test>", "ada@university.test.", "ada@university.test, 5"])
+def test_a_mail_address_is_found_among_the_words_of_a_contact(debriefed: Booth, contact: str) -> None:
+    debriefed.app.screens.debrief.give_contact(contact)
+    assert debriefed.app.screens.debrief.payload.startswith("mailto:ada@university.test?subject=")
+
+
+def test_whom_to_ask_is_told_with_and_without_a_code(debriefed: Booth) -> None:
+    def shown() -> set[str]:
+        debriefed.settle()
+        return {item.objectName() for item in items(debriefed.app.window.contentItem())} & {"questions", "qr", "code"}
+
+    assert shown() == {"qr", "code"}
+    assert MAIL in str(debriefed.app.screens.debrief.property("withdrawing"))
+    debriefed.app.screens.debrief.give_code("")
+    assert shown() == {"questions"}
+    assert debriefed.item("questions").property("text") == f"Questions about the study: {MAIL}"
+    debriefed.app.screens.debrief.give_contact("")
+    assert shown() == set()
+
+
+@pytest.mark.parametrize("contact", ["", "Room 12", "ada@a.test or bob@b.test"])
 def test_without_a_mail_address_it_says_what_to_tell(debriefed: Booth, contact: str) -> None:
     debriefed.app.screens.debrief.give_contact(contact)
     assert debriefed.app.screens.debrief.payload == f"Please delete my data: {CODE}\n{contact}".rstrip()

@@ -247,11 +247,20 @@ def test_no_text_is_smaller_than_can_be_read(window: Window, study: StudyConfig,
 
 def test_words_over_everything_fit(window: Window) -> None:
     kiosk = window.screens.kiosk
-    for cover in (partial(kiosk.ask_still_there, asks=True), partial(kiosk.pause, paused=True)):
+    said = []
+    for cover in (
+        partial(kiosk.ask_still_there, asks=True),
+        partial(kiosk.pause, paused=True),
+        partial(kiosk.show, "pause"),
+    ):
         cover()
         lay_out(window.shown)
+        said.append({str(text.property("text")) for text in texts(window.shown.contentItem())})
         whole = QRectF(0, 0, window.shown.width(), window.shown.height())
         assert all(whole.contains(painted(text)) for text in texts(window.shown.contentItem()))
+    words = kiosk.property("words")
+    assert [words["pause-line"] in each for each in said] == [False, True, False]
+    assert [words["pause-help"] in each for each in said] == [False, False, True]
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)

@@ -23,6 +23,11 @@ for line in sys.stdin:
         print(json.dumps({"event": "started", "id": n, "duration_ms": 10, "loudness": [0.5]}), flush=True)
         print(json.dumps({"event": "finished", "id": n}), flush=True)
 """
+READY = """
+import json, sys
+print(json.dumps({"event": "ready", "voice": "en", "device": "Speaker"}), flush=True)
+sys.stdin.read()
+"""
 SPEAKS_NONSENSE_FIRST = "print('Audio saved!', flush=True); print('[1, 2]', flush=True)" + SPEAKS
 HANGS = "import sys\nfor line in sys.stdin: pass"
 DIES_WHEN_IT_SHOULD_SPEAK = "import sys\nsys.stdin.readline(); sys.exit(3)"
@@ -261,6 +266,15 @@ def test_a_sentence_whose_device_goes_away_fails_and_the_experimenter_is_told_un
     qtbot.waitUntil(lambda: voice.health.is_ok)
     assert told == [(False, "sentences are only shown: the sound device is gone"), (True, "the voice en speaks")]
     caplog.clear()
+
+
+def test_at_volume_0_the_panel_does_not_say_that_the_voice_speaks(qtbot: QtBot, voices: list[EngineVoice]) -> None:
+    voice = engine(voices, READY)
+    qtbot.waitUntil(lambda: voice.health.message == "the voice en speaks")
+    voice.set_volume(0)
+    assert (voice.health.is_ok, voice.health.message) == (False, "sentences are only shown: the volume is 0")
+    voice.set_volume(0.5)
+    assert voice.health.is_ok
 
 
 SPEAKS_LATE = """

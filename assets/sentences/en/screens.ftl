@@ -129,6 +129,7 @@ debrief-take-home = To take home: photograph this card
 debrief-code = Your code
 debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
+debrief-questions = Questions about the study: { $contact }
 debrief-subject = Please delete my data: { $code }
 debrief-continue = Continue
 
@@ -148,7 +149,8 @@ still-there-title = Are you still there?
 still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here
 pause-title = A short break
-pause-line = Please ask the people at this table for help.
+pause-line = It goes on in a moment.
+pause-help = Please ask the people at this table for help.
 wait-title = One moment, please
 wait-line = It goes on by itself.
 replay-line = How far it has been played

@@ -130,6 +130,7 @@ debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
 debrief-code = Tu código
 debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
+debrief-questions = Preguntas sobre el estudio: { $contact }
 debrief-subject = Por favor, borren mis datos: { $code }
 debrief-continue = Continuar
 
@@ -149,7 +150,8 @@ still-there-title = ¿Sigues ahí?
 still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí
 pause-title = Una breve pausa
-pause-line = Pide ayuda a las personas de esta mesa, por favor.
+pause-line = Seguimos en un momento.
+pause-help = Pide ayuda a las personas de esta mesa, por favor.
 wait-title = Un momento, por favor
 wait-line = Continúa por sí solo.
 replay-line = Hasta dónde se ha reproducido

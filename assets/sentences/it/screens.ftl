@@ -134,6 +134,7 @@ debrief-take-home = Da portare a casa: fotografa questa scheda
 debrief-code = Il tuo codice
 debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
+debrief-questions = Domande sullo studio: { $contact }
 debrief-subject = Per favore, cancellate i miei dati: { $code }
 debrief-continue = Continua
 
@@ -153,7 +154,8 @@ still-there-title = Ci sei ancora?
 still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui
 pause-title = Una breve pausa
-pause-line = Chiedi aiuto alle persone a questo tavolo.
+pause-line = Si continua tra un momento.
+pause-help = Chiedi aiuto alle persone a questo tavolo.
 wait-title = Un momento, per favore
 wait-line = Continua da solo.
 replay-line = Fin dove è arrivata la riproduzione

@@ -45,7 +45,8 @@ FocusScope {
             id: keepsake
             width: parent.width
             height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
-            visible: view.debrief.code !== ""
+            // Who is not stored has no code, and may have questions all the same.
+            visible: view.debrief.code !== "" || view.debrief.questions !== ""
             radius: Theme.radius
             color: Theme.white
             border { color: Theme.amber; width: 4 * Theme.unit }
@@ -54,6 +55,7 @@ FocusScope {
             Rectangle {
                 id: qr
                 objectName: "qr"
+                visible: view.debrief.code !== ""
                 anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
                 width: view.square * view.debrief.squares
                 height: width
@@ -69,7 +71,7 @@ FocusScope {
             Column {
                 id: told
                 anchors {
-                    left: qr.right; leftMargin: 1.5 * Theme.gap
+                    left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
                     right: parent.right; rightMargin: Theme.gap
                     verticalCenter: parent.verticalCenter
                 }
@@ -92,6 +94,7 @@ FocusScope {
                 }
                 PlainText {
                     width: parent.width
+                    visible: view.debrief.code !== ""
                     text: view.words["debrief-code"]
                     font.pixelSize: Theme.small
                     wrapMode: Text.Wrap
@@ -100,6 +103,7 @@ FocusScope {
                 PlainText {
                     objectName: "code"
                     width: parent.width
+                    visible: text !== ""
                     text: view.debrief.code
                     font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
                     fontSizeMode: Text.HorizontalFit
@@ -108,7 +112,17 @@ FocusScope {
                 }
                 PlainText {
                     width: parent.width
+                    visible: text !== ""
                     text: view.debrief.withdrawing
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
+                PlainText {
+                    objectName: "questions"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.questions
                     font.pixelSize: Theme.small
                     wrapMode: Text.Wrap
                     color: Theme.ink

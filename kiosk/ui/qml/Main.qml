@@ -247,7 +247,8 @@ Window {
         anchors.fill: parent
         visible: root.kiosk.paused || root.kiosk.screen === "pause"
         title: root.kiosk.words["pause-title"]
-        line: root.kiosk.words["pause-line"]
+        // A pause goes on by itself; the screen of that name waits for the experimenter.
+        line: root.kiosk.words[root.kiosk.screen === "pause" ? "pause-help" : "pause-line"]
     }
     CalmCard {
         objectName: "wait"

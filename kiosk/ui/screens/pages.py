@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import segno
@@ -15,6 +16,8 @@ from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
+
+_MAIL_ADDRESS = re.compile(r"[^\s<>(),;:@]+@[^\s<>(),;:@]*[^\s<>(),;:@.]")
 
 QUIET_MODULES = 4
 """The white frame that a QR code must have to be found, in its own squares."""
@@ -199,8 +202,9 @@ class DebriefScreen(PageScreen):
         if not self._code:
             return ""
         subject = self._catalogue.text("debrief-subject", code=self._code)
-        if "@" in self._contact:
-            return f"mailto:{self._contact}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
+        addresses = _MAIL_ADDRESS.findall(self._contact)
+        if len(addresses) == 1:
+            return f"mailto:{addresses[0]}?subject={QUrl.toPercentEncoding(subject).toStdString()}"
         return f"{subject}\n{self._contact}".rstrip()
 
     @Property(str, notify=given)
@@ -221,6 +225,13 @@ class DebriefScreen(PageScreen):
         if not self._contact:
             return self._catalogue.text("debrief-withdraw-here")
         return self._catalogue.text("debrief-withdraw-by-mail", contact=self._contact)
+
+    @Property(str, notify=given)
+    def questions(self) -> str:
+        """Return whom to ask; empty without a contact, and beside a code, which names the contact already."""
+        if self._code or not self._contact:
+            return ""
+        return self._catalogue.text("debrief-questions", contact=self._contact)
 
     @Property(str, notify=given)
     def picture(self) -> str:

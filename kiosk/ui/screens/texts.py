@@ -67,6 +67,7 @@ FIXED = (
     "still-there-yes",
     "pause-title",
     "pause-line",
+    "pause-help",
     "wait-title",
     "wait-line",
     "replay-line",

@@ -59,7 +59,6 @@ Column {
             PanelButton {
                 objectName: "action-mute"
                 words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-                chosen: actions.choices.muted
                 onClicked: actions.panel.wish("mute", "")
             }
             PanelButton {
