@@ -6,14 +6,13 @@ they follow from the world events, and are recorded beside them so that the data
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from functools import partial
+from functools import cache
 from typing import Any, ClassVar
 
 from cattrs import BaseValidationError, Converter, transform_error
-from cattrs.strategies import configure_tagged_union, include_subclasses
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import HintReason
@@ -626,9 +625,9 @@ def _action(name: str) -> ActionSpec:
         raise ValueError(str(error)) from error
 
 
-def _converter() -> Converter:
+def _converter(*, explaining: bool) -> Converter:
     """Return a converter to and from JSON values in which every closed set goes by name."""
-    converter = Converter(forbid_extra_keys=True)
+    converter = Converter(forbid_extra_keys=True, detailed_validation=explaining)
     converter.register_structure_hook(Response | None, _response)
     converter.register_unstructure_hook(NotApplicable, lambda _: dict(_NOT_APPLICABLE_RECORD))
     converter.register_unstructure_hook(EmbodimentName, str)
@@ -642,19 +641,57 @@ def _converter() -> Converter:
     return converter
 
 
-_CONVERTER = _converter()
-include_subclasses(Event, _CONVERTER, union_strategy=partial(configure_tagged_union, tag_name="type"))
+_CONVERTER = _converter(explaining=False)
+_EXPLAINING = _converter(explaining=True)
+"""The same, three times as slow, for what is wrong in a record."""
+
+
+@cache
+def _kinds() -> Mapping[str, type[Event]]:
+    """Return every class of event that has none below it, by its name."""
+    found: dict[str, type[Event]] = {}
+    above: list[type[Event]] = [Event]
+    while above:
+        below = above.pop().__subclasses__()
+        above += below
+        found |= {kind.__name__: kind for kind in below if not kind.__subclasses__()}
+    return found
+
+
+@cache
+def _writes(kind: type[Event]) -> Callable[[Event], dict[str, Any]]:
+    """Return what writes a kind of event; it is made when the first one comes, as no session has them all."""
+    return _CONVERTER.get_unstructure_hook(kind)
+
+
+@cache
+def _reads(kind: type[Event]) -> Callable[[Mapping[str, Any], type[Event]], Event]:
+    """Return what reads a kind of event."""
+    return _CONVERTER.get_structure_hook(kind)
 
 
 def to_record(event: Event) -> dict[str, Any]:
     """Return an event as JSON values: its class under ``type``, its fields under their names."""
-    record: dict[str, Any] = _CONVERTER.unstructure(event, unstructure_as=Event)
+    record = _writes(type(event))(event)
+    record["type"] = type(event).__name__
     return record
 
 
 def from_record(record: Mapping[str, Any]) -> Event:
     """Return the event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
+    fields = dict(record)
+    kind = _kinds().get(fields.pop("type", ""))
+    if kind is None:
+        raise ValueError(f"event: there is no event {record.get('type')!r}")
     try:
-        return _CONVERTER.structure(record, Event)
+        return _reads(kind)(fields, kind)
+    except Exception:  # noqa: BLE001 - anything can be wrong in a record; the other converter finds out what
+        return _explained(fields, kind)
+
+
+def _explained(fields: dict[str, Any], kind: type[Event]) -> Event:
+    """Read an event once more; raises ValueError, saying what is wrong with it."""
+    try:
+        return _EXPLAINING.structure(fields, kind)
     except (BaseValidationError, KeyError) as error:
         raise ValueError("; ".join(transform_error(error, path="event"))) from error
