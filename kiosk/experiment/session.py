@@ -275,6 +275,7 @@ class Session:
         self._offers_back = False
         self._text_size, self._sound = TextSize.NORMAL, True
         self._log: list[Event] = []
+        self._measured = (0, Measures())
         self._waiting: set[Timer] = set()
         self._scenery = StageFactory(plan, seed, lambda outcome: [*self._log, *outcome.events])
         self._presence = IdleTimeout(plan.settings.idle_ms, self._reading_ms)
@@ -297,8 +298,10 @@ class Session:
 
     @property
     def measures(self) -> Measures:
-        """The measures of the game so far."""
-        return measure(self._log)
+        """The measures of the game so far; they are worked out once for each event."""
+        if self._measured[0] != len(self._log):
+            self._measured = (len(self._log), measure(self._log))
+        return self._measured[1]
 
     def _reading_ms(self, stage: Stage) -> int:
         """How long it takes to read the longest page of a stage."""

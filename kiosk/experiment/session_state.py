@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import islice
 from typing import TypeVar
 
 from kiosk.assistance.mentaliser import points_to
@@ -262,10 +263,16 @@ class SessionState:
         """Read the events in their order; ``embodiment`` is the one that helped when the session began."""
         course, board, asked, speech = _Course(), _Boards(), _Responses(), _Speech(embodiment)
         for stage, event in with_stages(events):
-            course.take(event)
-            board.take(event, stage, course.pauses)
-            asked.take(event, course.pauses)
-            speech.take(event, stage)
+            # Most events concern one part or none, and a day has a million of them.
+            kind = type(event)
+            if kind in _OF_THE_COURSE or course.status:
+                course.take(event)
+            if kind in _OF_BOARDS:
+                board.take(event, stage, course.pauses)
+            if kind in _OF_RESPONSES or asked.goes_back:
+                asked.take(event, course.pauses)
+            if kind in _OF_SPEECH:
+                speech.take(event, stage)
         return cls(
             stages=tuple(course.stages),
             pauses=tuple(course.pauses),
@@ -290,6 +297,27 @@ class SessionState:
     def game(self) -> DealtBoard | None:
         """The board of the game; the practice's does not count. None if none was dealt."""
         return next((dealt for dealt in reversed(self.boards) if dealt.stage is Stage.GAME), None)
+
+
+_OF_THE_COURSE: frozenset[type[Event]] = frozenset(
+    {
+        *(StageEntered, ConsentGiven, PracticeFinished, GameFinished, EmbodimentChanged),
+        *(SessionResumed, PauseRequested, PauseEnded, SessionEnded),
+    }
+)
+_OF_BOARDS: frozenset[type[Event]] = frozenset(
+    {BoardDealt, CardFlipped, TimerExpired, AssistanceDecided, HintGiven, RemarkGiven, HintHighlighted, BoardUnlocked}
+)
+_OF_RESPONSES: frozenset[type[Event]] = frozenset({StageEntered, QuestionnairePageShown, ResponseGiven, BackPressed})
+_OF_SPEECH: frozenset[type[Event]] = frozenset(
+    {
+        *(HintGiven, RemarkGiven, SentenceRequested, SentenceRepeated),
+        *(SpeechStarted, SpeechFinished, SpeechFailed, SpeechCutShort),
+        *(StageEntered, TimerExpired, BoardUnlocked, CardFlipped),
+        *(RobotDisconnected, EmbodimentChanged, SessionResumed),
+    }
+)
+"""Which events each part of the state takes notice of; the other ones cannot change it."""
 
 
 _AnyEvent = TypeVar("_AnyEvent", bound=Event | None)
@@ -390,10 +418,11 @@ class _Boards:
 
     def _cover(self, at_ms: int, pauses: Iterable[Interval]) -> None:
         """Note how long the cards of the last move lay open."""
-        move = next(reversed(self._flips.values())).event.move if self._flips else 0
-        for number, flip in self._flips.items():
-            if flip.event.move == move:
-                self._flips[number] = replace(flip, exposure_ms=elapsed_ms(flip.event.at_ms, at_ms, pauses))
+        last = tuple(islice(reversed(self._flips.items()), CARDS_IN_A_MOVE))
+        for number, flip in last:
+            if flip.event.move == last[0][1].event.move:
+                exposure_ms = elapsed_ms(flip.event.at_ms, at_ms, pauses)
+                self._flips[number] = BoardFlip(flip.event, flip.decision_ms, exposure_ms)
 
     def _take_help(self, event: HintGiven | RemarkGiven | HintHighlighted | BoardUnlocked) -> None:
         match event:
@@ -421,7 +450,7 @@ class _Responses:
         self._questionnaire = ""
         self._shown_ms: dict[tuple[str, str], int] = {}
         self._shown_by_stage: dict[Stage, dict[tuple[str, str], int]] = {}
-        self._goes_back = False
+        self.goes_back = False
 
     @property
     def given(self) -> dict[tuple[str, str], ItemResponse]:
@@ -431,7 +460,7 @@ class _Responses:
         match event:
             case StageEntered(stage=stage):
                 # A visitor who goes back finds the answers given there; a stage that begins anew has none.
-                if not self._goes_back:
+                if not self.goes_back:
                     self._by_stage[stage], self._shown_by_stage[stage] = {}, {}
                 self._here = self._by_stage.setdefault(stage, {})
                 self._shown_ms = self._shown_by_stage.setdefault(stage, {})
@@ -447,7 +476,7 @@ class _Responses:
                 after_ms = elapsed_ms(self._shown_ms.get(key, at_ms), at_ms, pauses)
                 self._here[key] = self._here.get(key, ItemResponse(*key)).answered(value, after_ms)
         if not isinstance(event, StageEntered | QuestionnairePageShown):
-            self._goes_back = isinstance(event, BackPressed)
+            self.goes_back = isinstance(event, BackPressed)
 
 
 class _Speech:

@@ -381,4 +381,4 @@ class AnySession(RuleBasedStateMachine):
 
 
 TestAnySession = AnySession.TestCase
-TestAnySession.settings = settings(max_examples=200, stateful_step_count=50, deadline=None, report_multiple_bugs=False)
+TestAnySession.settings = settings(max_examples=120, stateful_step_count=50, deadline=None, report_multiple_bugs=False)
