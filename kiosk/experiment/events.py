@@ -6,7 +6,7 @@ they follow from the world events, and are recorded beside them so that the data
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
@@ -658,21 +658,10 @@ def _kinds() -> Mapping[str, type[Event]]:
     return found
 
 
-@cache
-def _writes(kind: type[Event]) -> Callable[[Event], dict[str, Any]]:
-    """Return what writes a kind of event; it is made when the first one comes, as no session has them all."""
-    return _CONVERTER.get_unstructure_hook(kind)
-
-
-@cache
-def _reads(kind: type[Event]) -> Callable[[Mapping[str, Any], type[Event]], Event]:
-    """Return what reads a kind of event."""
-    return _CONVERTER.get_structure_hook(kind)
-
-
 def to_record(event: Event) -> dict[str, Any]:
     """Return an event as JSON values: its class under ``type``, its fields under their names."""
-    record = _writes(type(event))(event)
+    # The converter makes what writes a kind of event when the first one comes, as no session has them all.
+    record: dict[str, Any] = _CONVERTER.get_unstructure_hook(type(event))(event)
     record["type"] = type(event).__name__
     return record
 
@@ -684,9 +673,10 @@ def from_record(record: Mapping[str, Any]) -> Event:
     if kind is None:
         raise ValueError(f"event: there is no event {record.get('type')!r}")
     try:
-        return _reads(kind)(fields, kind)
+        event: Event = _CONVERTER.get_structure_hook(kind)(fields, kind)
     except Exception:  # noqa: BLE001 - anything can be wrong in a record; the other converter finds out what
-        return _explained(fields, kind)
+        event = _explained(fields, kind)
+    return event
 
 
 def _explained(fields: dict[str, Any], kind: type[Event]) -> Event:
