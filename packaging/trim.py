@@ -16,7 +16,7 @@ from PyInstaller.depend.bindepend import get_imports
 
 PLUGINS = {
     "platforms": ("qxcb", "qwayland", "qoffscreen", "qminimal", "qwindows", "qcocoa"),
-    "imageformats": ("qsvg", "qjpeg"),
+    "imageformats": ("qsvg", "qjpeg", "qwebp"),
     "iconengines": ("qsvgicon",),
     "platforminputcontexts": ("composeplatforminputcontext", "ibusplatforminputcontext"),
     "wayland-shell-integration": ("xdg-shell", "fullscreen-shell-v1"),

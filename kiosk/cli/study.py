@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -17,18 +18,21 @@ from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
 from kiosk.cli.study_package import diff_command, pack_command, signature_of
 from kiosk.cli.study_texts import translations_command
-from kiosk.config import Settings, pictures_in
+from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_config import Source, StudyConfig
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import renamed_items
+from kiosk.extensions import ExtensionGroup, find, registered_names
 from kiosk.files import write_file
-from kiosk.robots.registry import check_robot
+from kiosk.robots.registry import check_robot, load_driver
+from kiosk.store.connecting import atomic_directory
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.decks import NAMES, names_in, names_table
 from kiosk.study.forming import card_forms
 from kiosk.study.loader import expected_minutes, located, read_study, study_warnings
+from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file
 from kiosk.ui.checks import CannotDraw, found_in_pictures
@@ -223,16 +227,77 @@ def write_names(settings: Settings, deck: str) -> None:
     click.echo(f"Fill in the names of the cards in {file}.", err=True)
 
 
-@study.command("example")
-def study_example() -> None:
-    """Print a study file with every key as it is without one, each with its sentence."""
-    click.echo(as_study_file(Settings()), nl=False)
+@study.command("new")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path, file_okay=False))
+@click.option("--template", help=f"What to begin with: {', '.join(templates())}.")
+@click.option("--title", help="What the study is called.")
+@click.option("--contact", help="Whom visitors write to, best a mail address.")
+@click.option("--language", "languages", multiple=True, help="A language, such as 'en'; may be given several times.")
+@click.option("--robot", help="The robot, by the name of its driver, or 'none'.")
+def study_new(
+    folder: Path,
+    template: str | None,
+    title: str | None,
+    contact: str | None,
+    languages: tuple[str, ...],
+    robot: str | None,
+) -> None:
+    """Make the folder DIR with a whole study in it; what is not given by an option is asked for."""
+    check_free(folder)
+    asks = sys.stdin.isatty()
+    if template is None and asks:
+        for each in templates().values():
+            click.echo(f"  {each.name:15} {each.about}")
+    chosen = find_template(_ask("Template", template, "paper", asks=asks))
+    title = _ask("Title", title, chosen.study["title"], asks=asks)
+    spoken = languages or _ask("Languages", None, " ".join(chosen.languages), asks=asks).replace(",", " ").split()
+    contact = _ask("Whom visitors write to", contact, "", asks=asks)
+    usual = str(chosen.study.get("robot", {}).get("kind", NO_ROBOT))
+    kind = _ask(f"Robot ({NO_ROBOT}, {', '.join(registered_names(ExtensionGroup.ROBOTS))})", robot, usual, asks=asks)
+    new = NewStudy(chosen, title, contact, default_languages(chosen, spoken), {} if kind == usual else _robot(kind))
+    files = new.files()
+    with atomic_directory(folder) as made:
+        for name, content in files.items():
+            (made / name).parent.mkdir(parents=True, exist_ok=True)
+            (made / name).write_bytes(content)
+        made.chmod(0o755)
+    click.echo(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:")
+    for name in chosen.packages:
+        click.echo(f"  pip install {folder / 'packages' / name}")
+    click.echo(f"  recollect rehearse --headless --study {folder / STUDY_FILE}")
+
+
+def _ask(what: str, given: str | None, usual: str, *, asks: bool) -> str:
+    """Return what is given, or ask for it where a person can answer."""
+    if given is not None:
+        return given
+    return str(click.prompt(what, default=usual, show_default=bool(usual))) if asks else usual
+
+
+def check_free(folder: Path) -> None:
+    """Raise UserInputError if there is something in a folder that is to be made."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise UserInputError(f"{folder} is there already and is not empty; name a new folder")
+
+
+def _robot(kind: str) -> dict[str, Any]:
+    """Return the section of a robot, with all options of its driver; raises UserInputError if there is none."""
+    if kind == NO_ROBOT:
+        return {"kind": kind}
+    driver = load_driver(find(ExtensionGroup.ROBOTS, kind))
+    options = {
+        key: field.default
+        for key, field in driver.options.model_fields.items()
+        if isinstance(field.default, bool | int | float | str)
+    }
+    return {"kind": kind, "options": options}
 
 
 @study.command("reference")
-def study_reference() -> None:
+@click.option("--toml", is_flag=True, help="Print a study file with every key instead, as it is without one.")
+def study_reference(*, toml: bool) -> None:
     """Print the reference of every key of a study file (Markdown)."""
-    click.echo(as_page(Settings), nl=False)
+    click.echo(as_study_file(Settings()) if toml else as_page(Settings), nl=False)
 
 
 @study.command(name="import")

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
-from functools import partial
+from functools import cache, partial
 from itertools import combinations
 from pathlib import Path
 from typing import TypeVar
@@ -351,7 +351,7 @@ class _Look:
     def _own_file(self, code: str) -> dict[str, Path]:
         """Return the file of a study's own words for messages of a language."""
         file = self._settings.own_texts_file(code)
-        return {} if file is None else {f"{REPLACING}{file.name}": file}
+        return {} if file is None else {f"{REPLACING}own-{file.name}": file}
 
     def _names_of_decks(self, code: str) -> dict[str, CardNames]:
         """Return the tables in which decks name their cards in a language, by what to call them in records."""
@@ -360,7 +360,7 @@ class _Look:
             place = self._settings.locate("cards", board.deck)
             named = {} if place is None else self._tables.get(place.path, {})
             if place is not None and code in named:
-                found[f"deck-{place.path.name}-names.ftl"] = named[code]
+                found[f"{REPLACING}deck-{place.path.name}-names.ftl"] = named[code]
         return found
 
     def _words_of_actions(self, code: str, actions: Sequence[ActionSpec]) -> dict[str, Path]:
@@ -375,7 +375,7 @@ class _Look:
             place = self._settings.locate("cards", board.deck)
             if place is not None:
                 there = (file for file in sorted(place.path.glob("*.ftl")) if code_of(file.stem) == code)
-                words |= {f"deck-{place.path.name}.ftl": file for file in there}
+                words |= {f"{REPLACING}deck-{place.path.name}.ftl": file for file in there}
         return words
 
     def _cards(self) -> tuple[str, ...]:
@@ -608,17 +608,24 @@ def _pages(sheet: Information) -> tuple[Page, ...]:
     return (sheet.about, sheet.consent, sheet.debrief)
 
 
+@cache
+def _examples(language: str) -> tuple[Information, ...]:
+    """Return the sheets that come with Recollect in a language: the example, and those of the templates."""
+    folders = (ASSETS / "consent" / SHIPPED_TEXT, *(ASSETS / "templates").glob("*/information"))
+    files = (folder / f"{language}.toml" for folder in folders)
+    return tuple(Information.read(file) for file in files if file.is_file())
+
+
 def _of_example(plan: SessionConfig) -> Iterator[str]:
-    """Yield that a sheet, wherever it lies, says what the shipped example says."""
+    """Yield that a sheet, wherever it lies, says what a shipped example says."""
     if plan.settings.consent.text == SHIPPED_TEXT:
         return
-    try:
-        example = Information.of(ASSETS / "consent" / SHIPPED_TEXT, plan.language)
-    except UserInputError:
-        return
-    names = ("about", "consent", "debrief")
-    pages = zip(names, _pages(plan.information), _pages(example), strict=True)
-    same = [name for name, own, shipped in pages if own.paragraphs == shipped.paragraphs]
+    examples = [_pages(sheet) for sheet in _examples(plan.language)]
+    same = [
+        name
+        for at, name in enumerate(("about", "consent", "debrief"))
+        if any(_pages(plan.information)[at].paragraphs == example[at].paragraphs for example in examples)
+    ]
     if same:
         yield (
             f"the information sheet in {plan.language!r} still has the example's text under {', '.join(same)}; an "

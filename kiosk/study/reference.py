@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from textwrap import wrap
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin
@@ -31,10 +31,10 @@ _PAGE = """\
 # The study file: every key
 
 A study file is TOML. Whatever it leaves out is as in the column *without it*, which follows the study wherever it says
-anything; so an empty file is the study. `recollect study example` prints a file with every key, and `recollect study
-check FILE` reads a file with everything that it names. A name with a slash or an ending is a path that starts from the
-study file's own folder. Any other name is that of something shipped in `assets/` or `policies/` or, if nothing shipped
-has it, of something in the study file's folder.
+anything; so an empty file is the study. `recollect study new DIR` writes a folder to begin with. `recollect study
+reference --toml` prints a file with every key, and `recollect study check FILE` reads a file with everything that it
+names. A name with a slash or an ending is a path that starts from the study file's own folder. Any other name is that
+of something shipped in `assets/` or `policies/` or, if nothing shipped has it, of something in the study file's folder.
 
 This page is printed by `recollect study reference`; change the declarations in `kiosk/config.py`, not the page.
 """
@@ -53,6 +53,24 @@ def as_study_file(settings: Settings) -> str:
             parts.append(f"\n{_comment(_described(kind))}\n[{section}]\n")
         parts += (_entry(key, field, getattr(model, key)) for key, field in _keys(kind))
         described.add(kind)
+    return "".join(parts)
+
+
+def as_short_study_file(settings: Settings, shown: Collection[str], head: str) -> str:
+    """Return a study file with the keys that differ from the defaults, and those in ``shown``."""
+    parts, usual = [head], Settings()
+    for section, model in _sections(settings):
+        if section.startswith("conditions.") and settings.conditions == usual.conditions:
+            continue
+        defaults = type(model)()
+        keys = [
+            (key, field)
+            for key, field in _keys(type(model))
+            if getattr(model, key) != getattr(defaults, key) or (f"{section}.{key}" if section else key) in shown
+        ]
+        if keys and section:
+            parts.append(f"\n{_comment(_described(type(model)))}\n[{section}]\n")
+        parts += (_entry(key, field, getattr(model, key)) for key, field in keys)
     return "".join(parts)
 
 

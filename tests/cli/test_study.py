@@ -234,13 +234,72 @@ def test_a_language_that_is_none_is_refused_in_a_sentence(tag: str, tmp_path: Pa
     assert "Traceback" not in said.err
 
 
+# What is new
+
+
+def test_a_new_study_is_made_and_is_right(tmp_path: Path, recollect: Recollect) -> None:
+    made = recollect(
+        "study", "new", tmp_path / "mine", "--template", "children", "--language", "es", "--robot", "furhat"
+    )
+    assert (made.code, made.err) == (0, "")
+    study = tmp_path / "mine" / "study.toml"
+    assert f"recollect rehearse --headless --study {study}" in made.out
+    said = recollect("study", "check", study, "--json")
+    assert (said.code, json.loads(said.out)["faults"]) == (0, [])
+    assert json.loads(said.out)["languages"] == ["es"]
+    assert tomllib.loads(study.read_text("utf-8"))["robot"]["kind"] == "furhat"
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        (("--template", "papre"), "there is no template 'papre'; there are "),
+        (("--language", "de"), "the language 'de' is not shipped"),
+        (("--robot", "nao"), "there is no robot 'nao'; there are "),
+        (("--title", "x" * 600), "title must have at most 500 characters, but it has 600"),
+    ],
+)
+def test_a_study_that_cannot_be_made_leaves_nothing(
+    options: tuple[str, str], why: str, tmp_path: Path, recollect: Recollect
+) -> None:
+    said = recollect("study", "new", tmp_path / "mine", *options)
+    assert (said.code, len(said.err.splitlines())) == (2, 1)
+    assert why in said.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_with_something_in_it_is_left_alone(tmp_path: Path, recollect: Recollect) -> None:
+    (tmp_path / "mine.txt").write_text("mine", "utf-8")
+    said = recollect("study", "new", tmp_path)
+    assert (said.code, "is there already and is not empty" in said.err) == (2, True)
+    assert [file.name for file in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_the_cards_are_listed_drawn_and_named(tmp_path: Path, recollect: Recollect) -> None:
+    shutil.copytree(ASSETS / "cards" / "animals", tmp_path / "cards")
+    study = tmp_path / "study.toml"
+    study.write_text("languages = ['en', 'it']\n[game]\ndeck = './cards'\n", "utf-8")
+    said = recollect("study", "cards", study, "--names", "--sheet", tmp_path / "cards.png", "--json")
+    told = json.loads(said.out)
+    assert (said.code, told["cautions"], len(told["cards"])) == (0, [], 12)
+    assert told["cards"][0]["names"] == {"en": "bear", "it": "orso"}
+    assert (tmp_path / "cards.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "cards" / "names.csv").read_text("utf-8").splitlines()
+    assert table[:2] == [
+        "card,en,it,it.del,it.genere,it.il,it.plurale,it.questo",
+        "bear,bear,orso,dell'orso,m,l'orso,orsi,quest'orso",
+    ]
+    again = recollect("study", "cards", study, "--names")
+    assert (again.code, "names.csv is there already" in again.err) == (2, True)
+
+
 # What is printed
 
 
 def test_the_documented_example_is_printed_from_the_declarations(recollect: Recollect) -> None:
-    printed = recollect("study", "example").out
+    printed = recollect("study", "reference", "--toml").out
     assert printed == as_study_file(Settings())
-    assert PAPER.read_text("utf-8") == printed, "write the output of `recollect study example` into it"
+    assert PAPER.read_text("utf-8") == printed, "write the output of `recollect study reference --toml` into it"
 
 
 def test_the_documented_example_sets_every_key_to_what_it_is_without_it() -> None:

@@ -20,9 +20,14 @@ import pytest
 from kiosk import UserInputError
 from kiosk.assistance.policy import find_action
 from kiosk.extensions import installed
+from kiosk.study.new import TEMPLATES
 
 PLUGINS = Path(__file__).parent
-PACKAGES = ("encourage", "printing_robot", "ranking")
+PACKAGES = {
+    "encourage": PLUGINS / "encourage",
+    **{name: TEMPLATES / "packages" / "packages" / name for name in ("printing_robot", "ranking")},
+}
+"""Two of them come with the template of a study that needs them."""
 
 QUESTIONS = """\
 id = "helpers"
@@ -39,17 +44,6 @@ options = [
     { id = "person", text.en = "a person" },
     { id = "alone", text.en = "nobody" },
 ]
-"""
-
-STUDY = """\
-languages = ["en"]
-questionnaires = ["helpers.toml"]
-[assistance]
-policy = "enc.json"
-[robot]
-kind = "printing"
-[robot.options]
-delay_ms = 1
 """
 
 
@@ -93,8 +87,8 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
     beneath = (str(PLUGINS.parents[1]), sysconfig.get_path("purelib"))
     lines = "".join(f"import site; site.addsitedir({place!r})\n" for place in beneath)
     (made.site / "beneath.pth").write_text(lines, "utf-8")
-    for name in PACKAGES:
-        shutil.copytree(PLUGINS / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    for name, source in PACKAGES.items():
+        shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     pip = [sys.executable, "-m", "pip", "--python", str(made.python), "install", "--quiet"]
     offline = ["--no-index", "--no-deps", "--no-build-isolation"]
     subprocess.run([*pip, *offline, *(str(folder / name) for name in PACKAGES)], check=True, timeout=240)
@@ -127,16 +121,18 @@ class Day:
 
 @pytest.fixture(scope="package")
 def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
-    """Provide a day with a table that was trained with the action.
+    """Provide a day of the template that needs packages, with a table that was trained with the action.
 
     After so few games it still takes it often.
     """
     folder = tmp_path_factory.mktemp("day")
-    study, data, dataset = folder / "study.toml", folder / "data", folder / "set"
-    trained = lab.recollect("train", "--action", "encourage", "--episodes", 100, "--out", folder / "enc.json")
+    study, data, dataset = folder / "own" / "study.toml", folder / "data", folder / "set"
+    made = lab.recollect("study", "new", study.parent, "--template", "packages")
+    assert made.returncode == 0, made.stderr
+    trained = lab.recollect("train", "--action", "encourage", "--episodes", 100, "--out", study.parent / "enc.json")
     assert trained.returncode == 0, trained.stderr
-    (folder / "helpers.toml").write_text(QUESTIONS, "utf-8")
-    study.write_text(STUDY, "utf-8")
+    text = study.read_text("utf-8").replace("delay_ms = 500", "delay_ms = 1")
+    study.write_text(text.replace("[assistance]", '[assistance]\npolicy = "enc.json"'), "utf-8")
     rehearsed = lab.recollect("rehearse", "--headless", "--json", "--seed", 1, "--study", study, "--data", data)
     assert rehearsed.returncode == 0, rehearsed.stderr
     exported = lab.recollect("export", "--out", dataset, "--data", data, "--with-rehearsals")
@@ -225,4 +221,4 @@ def refusal(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
 def documented() -> Callable[[str, str], bool]:
     """Whether docs/extend.md shows a file of a package as it is installed here."""
     page = (PLUGINS.parents[1] / "docs" / "extend.md").read_text("utf-8")
-    return lambda package, file: (PLUGINS / package / file).read_text("utf-8") in page
+    return lambda package, file: (PACKAGES[package] / file).read_text("utf-8") in page
