@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import StorageError
+from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
+from kiosk.store import drives
 from kiosk.store import maintenance as copies
 from kiosk.store import merge as merging
 from kiosk.store import verify as checking
 from kiosk.store import withdrawal as withdrawing
+from kiosk.store.database import FILE as DATABASE
 from kiosk.store.verify import Flaw, Verification
 
 SHORT_SHA = 12
@@ -39,18 +44,75 @@ def _disk_in_words() -> Iterator[None]:
 
 @click.command()
 @database_data_option
-@click.option("--to", type=click.Path(path_type=Path), help="Where copies are kept; by default in the data folder.")
+@click.option(
+    "--to",
+    metavar="PLACE",
+    help="Where copies are kept: a folder, a drive by its name, or 'stick' for the one that is plugged in; by default "
+    "in the data folder.",
+)
 @click.option(
     "--keep", type=click.IntRange(min=1), default=copies.KEPT, show_default=True, help="How many copies are kept."
 )
+@click.option(
+    "--encrypt-for",
+    "keys",
+    multiple=True,
+    metavar="KEY",
+    help="Encrypt the copy for a public key of age (age1...) or SSH, or for those in a file; may be given again.",
+)
 @json_option
-def backup_command(data: Path, to: Path | None, keep: int, *, as_json: bool) -> None:
-    """Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed."""
-    into = to or data / copies.FOLDER
+def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...], *, as_json: bool) -> None:
+    """Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed.
+
+    A copy that goes to another place is read back from there, and has its name only once it is whole.
+    """
+    if to is None and not keys:
+        into = data / copies.FOLDER
+        with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
+            copy = copies.back_up(data, into, keep, tell)
+        told = {"backup": str(copy), "bytes": copy.stat().st_size, "kept": len(copies.list_backups(into))}
+        click.echo(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
+        return
+    if to is None:
+        raise UserInputError("--encrypt-for is for a copy that is carried away: name the place with --to")
+    readers = drives.recipients(keys) if keys else ()
+    into = drives.destination(to)
     with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
-        copy = copies.back_up(data, into, keep, tell)
-    told = {"backup": str(copy), "bytes": copy.stat().st_size, "kept": len(copies.list_backups(into))}
-    click.echo(json.dumps(told) if as_json else f"The copy is {copy}, one of {told['kept']} that are kept there.")
+        carried = drives.carry(data, into, keep, readers, tell)
+    if as_json:
+        told = {"backup": str(carried.file), "bytes": carried.bytes, "kept": carried.kept}
+        click.echo(json.dumps(told | {"sha256": carried.sha256, "encrypted": carried.encrypted}))
+        return
+    how = ", encrypted" if carried.encrypted else ""
+    click.echo(f"The copy is {carried.file}{how}: {carried.bytes:,} bytes, written and read back alike.")
+    click.echo(f"SHA-256 {carried.sha256}; copies kept there: {carried.kept}.")
+
+
+@click.command()
+@database_data_option
+@click.option("--port", type=click.IntRange(1, 65535), default=8001, show_default=True, help="On this machine only.")
+@click.option("--open", "opens", is_flag=True, help="Open the page in the browser.")
+def browse_command(data: Path, port: int, *, opens: bool) -> None:
+    """Look into a verified copy of the database with Datasette, read only, until Ctrl+C.
+
+    The page is served to this machine alone; the copy is removed at the end. It needs the extra 'browse'.
+    """
+    if find_spec("datasette") is None:
+        raise UserInputError("browsing needs Datasette: pip install 'recollect[browse]'")
+    with tempfile.TemporaryDirectory(prefix="recollect-browse-") as place, _disk_in_words():
+        copy = copies.back_up(data, Path(place), 1).rename(Path(place) / DATABASE)
+        with progress_bar("checking", hidden=False) as tell:
+            flaws = checking.verify(Path(place), tell)
+        if flaws:
+            raise UserInputError(f"the database is not as it was written: 'recollect verify --data {data}' says why")
+        click.echo(f"http://127.0.0.1:{port}/ shows a verified copy of {data}; Ctrl+C ends it and removes the copy.")
+        serve = ("serve", "--immutable", str(copy), "--host", "127.0.0.1", "--port", str(port))
+        command = [sys.executable, "-m", "datasette", *serve, "--setting", "allow_download", "off"]
+        # Ctrl+C reaches both; this one waits until the other has ended.
+        with suppress(KeyboardInterrupt), subprocess.Popen(command + ["--open"] * opens) as datasette:  # noqa: S603
+            code = datasette.wait()
+            if code:
+                raise UserInputError(f"Datasette ended with exit code {code}; is the port {port} taken? Try --port")
 
 
 @click.command()

@@ -69,6 +69,10 @@ _COMMANDS = {
         "kiosk.cli.data:backup_command",
         "Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed.",
     ),
+    "browse": (
+        "kiosk.cli.data:browse_command",
+        "Look into a verified copy of the database with Datasette, read only, until Ctrl+C.",
+    ),
     "verify": (
         "kiosk.cli.data:verify_command",
         "Check the database row by row; exit code 1 if anything is wrong.",

@@ -67,7 +67,7 @@ STEP_PAGES = 64
 """256 KiB at a time, so that a thread that copies lets the others go on."""
 
 _PATTERN = "recollect-*.db"
-_UNFINISHED = ".unfinished"
+UNFINISHED = ".unfinished"
 _LOCK = "backup.lock"
 
 Progress = Callable[[int, int], None]
@@ -89,12 +89,12 @@ def back_up(
     """
     if keep < 1:
         raise UserInputError(f"at least 1 copy must be kept, not {keep}")
-    with closing(open_as_it_is(folder)) as source, _alone(into):
-        unfinished = into / f"{_name()}{_UNFINISHED}"
+    with closing(open_as_it_is(folder)) as source, alone(into):
+        unfinished = into / f"{copy_name()}{UNFINISHED}"
         try:
             _copy(source, unfinished, tell, amend)
             copy = unfinished.replace(unfinished.with_suffix(""))
-            _sync(into)
+            sync_folder(into)
             _remove_older(into, copy, keep)
         except (OSError, sqlite3.Error) as error:
             raise StorageError(f"the copy in {into} could not be written: {reason(error, into)}") from error
@@ -114,11 +114,11 @@ def remove_all_but(kept: Path | None, into: Path) -> None:
         if kept is None or not file.name.startswith(kept.name):
             file.unlink(missing_ok=True)
     if into.is_dir():
-        _sync(into)
+        sync_folder(into)
 
 
 @contextmanager
-def _alone(into: Path) -> Iterator[None]:
+def alone(into: Path) -> Iterator[None]:
     """Be the only one who copies into a folder, and clear what a copy that was cut off has left."""
     try:
         if not into.is_dir():
@@ -126,7 +126,7 @@ def _alone(into: Path) -> Iterator[None]:
             give_to_owner_of_folder(into)
         with FileLock(into / _LOCK, blocking=False):
             give_to_owner_of_folder(into / _LOCK)
-            for unfinished in into.glob(f"{_PATTERN}{_UNFINISHED}*"):
+            for unfinished in into.glob(f"{_PATTERN}{UNFINISHED}*"):
                 unfinished.unlink()
             yield
     except Timeout as error:
@@ -142,7 +142,8 @@ def _remove_older(into: Path, copy: Path, keep: int) -> None:
             older.unlink()
 
 
-def _name() -> str:
+def copy_name() -> str:
+    """Return the name of a copy that is made now."""
     return f"recollect-{datetime.now(UTC):%Y%m%dT%H%M%S.%f}Z.db"
 
 
@@ -163,7 +164,7 @@ def _copy(source: sqlite3.Connection, path: Path, tell: Progress, amend: Callabl
         os.fsync(file.fileno())
 
 
-def _sync(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
     """Have the new name on the disk as well, where folders can be told so."""
     if os.name != "posix":
         return
