@@ -14,13 +14,14 @@ from io import TextIOWrapper
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 from platformdirs import user_data_path
 
 from kiosk import DISK_FULL, UserInputError, why
-from kiosk.config import NO_ROBOT, Settings
-from kiosk.extensions import ExtensionGroup, registered_names
-from kiosk.study.package import open_study
+
+if TYPE_CHECKING:
+    from kiosk.config import Settings
 
 DATA = user_data_path("recollect", appauthor=False)
 """Where a study's data are kept unless told otherwise."""
@@ -39,6 +40,11 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
 
     A robot's host or port goes before the file's.
     """
+    # The voice's process and the splash read this module and no settings.
+    from kiosk.config import NO_ROBOT, Settings  # noqa: PLC0415
+    from kiosk.extensions import ExtensionGroup, registered_names  # noqa: PLC0415
+    from kiosk.study.package import open_study  # noqa: PLC0415
+
     settings = open_study(study) if study else Settings()
     if robot_host is None and robot_port is None:
         return settings

@@ -58,7 +58,7 @@ _COMMANDS = {
         "List what happened in a SESSION, in the order in which it was written.",
     ),
     "replay": (
-        "kiosk.cli.sessions:replay_command",
+        "kiosk.cli.run:replay_command",
         "Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.",
     ),
     "explain": (

@@ -7,18 +7,19 @@ import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from kiosk import UserInputError
-from kiosk.assistance.wording import Catalogue
 from kiosk.cli.composition import DATA
-from kiosk.config import ASSETS
-from kiosk.experiment.experimenter import SALT_BYTES, hash_pin
 from kiosk.store.database import has_database, has_sessions
+
+if TYPE_CHECKING:
+    from kiosk.assistance.wording import Catalogue
+
+# Every process that Recollect starts reads this module, so it loads at once only what all of them need.
+# ruff: noqa: PLC0415
 
 REHEARSALS = DATA / "rehearsals"
 """Where rehearsals go unless told otherwise."""
@@ -76,6 +77,9 @@ class ProgressCallback(Protocol):
 @contextmanager
 def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterator[ProgressCallback]:
     """Provide a bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
     columns = (
         TextColumn(what),
         BarColumn(),
@@ -98,6 +102,8 @@ def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterat
 @json_option
 def set_pin_command(*, as_json: bool) -> None:
     """Choose the experimenter's PIN, and print the line for the study file that keeps it."""
+    from kiosk.experiment.experimenter import SALT_BYTES, hash_pin
+
     chosen = _ask("PIN (4 to 12 digits)")
     if _ask("The same again") != chosen:
         raise UserInputError("the two PINs are not the same; nothing was changed")
@@ -113,6 +119,9 @@ def _ask(prompt: str) -> str:
 
 def read_catalogue(language: str) -> Catalogue:
     """Return the catalogue of a language; raises UserInputError with all the languages there are."""
+    from kiosk.assistance.wording import Catalogue
+    from kiosk.config import ASSETS
+
     if language not in shipped_languages():
         raise UserInputError(f"there is no language {language!r}; there are {', '.join(shipped_languages())}")
     return Catalogue(ASSETS / "sentences" / language)
@@ -120,5 +129,7 @@ def read_catalogue(language: str) -> Catalogue:
 
 def shipped_languages() -> tuple[str, ...]:
     """Every language that has a folder of sentences, English first, as everything else is measured against it."""
+    from kiosk.config import ASSETS
+
     names = sorted(folder.name for folder in (ASSETS / "sentences").iterdir() if folder.is_dir())
     return tuple(sorted(names, key=lambda name: name != "en"))

@@ -1,4 +1,4 @@
-"""Commands that open the kiosk, supervised or not, and their internal processes."""
+"""Commands that open the kiosk, supervised or not, and play a stored session again in its window."""
 
 from __future__ import annotations
 
@@ -17,19 +17,28 @@ from kiosk import UserInputError, program
 from kiosk.cli.composition import check_pin, code_commit, log_into, read_settings
 from kiosk.cli.options import (
     data_option,
+    json_option,
+    progress_bar,
     robot_host_option,
     robot_port_option,
+    sessions_data_option,
     site_option,
     study_option,
 )
-from kiosk.experiment.session_config import kind_of
+from kiosk.experiment.events import Event
+from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
+from kiosk.experiment.session_config import SessionConfig, kind_of
 from kiosk.robots.registry import check_robot
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts, guarded
 from kiosk.ui.app import App
+from kiosk.ui.rehearsal import make_folder
+from kiosk.ui.replay import Replay
+from kiosk.ui.replay_controls import FASTEST, SLOWEST
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.window import RunMode, WindowMode, check_screen
+from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 SEED_BITS = 63
 """As many as the column holds. Boards are published: seeds, and so codes, must not be found by trying."""
@@ -156,3 +165,90 @@ def _write_down(happening: SupervisorEvent) -> None:
         away = "" if happening.away_s is None else f" ({happening.away_s:.1f} s)"
         detail = f": {happening.detail}" if happening.detail else ""
         _log.warning("start %d of the kiosk: %s%s%s", happening.start, happening.what.value, detail, away)
+
+
+@click.command()
+@click.argument("session", type=int)
+@sessions_data_option
+@study_option
+@click.option(
+    "--speed",
+    type=click.FloatRange(SLOWEST, FASTEST),
+    default=1.0,
+    show_default=True,
+    help="How many times as fast as it was.",
+)
+@click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
+@click.option("--headless", is_flag=True, help="Use no screen, and save every picture in a folder.")
+@click.option("--frames", type=click.Path(path_type=Path), help="That folder; by default session-N here.")
+@json_option
+def replay_command(
+    session: int,
+    data: Path,
+    study: Path | None,
+    speed: float,
+    frames: Path | None,
+    *,
+    window: bool,
+    headless: bool,
+    as_json: bool,
+) -> None:
+    """Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.
+
+    Its events are handled again, and compared with the record; --study names a study file beside whose folder the
+    session's own pictures lie, if they do not come with Recollect.
+    """
+    with open_repository(data) as stored:
+        events, plan = stored.story(session), stored.plan(session)
+        seed = stored.seed(session)
+    plan = plan if study is None else plan.with_base_dir(read_settings(study))
+    _check_pictures(plan)
+    steps = replay_events(plan, seed, events)
+    frames = frames or (Path(f"session-{session}") if headless else None)
+    mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN, ClockMode.WALL, speed)
+    if frames is not None:
+        make_folder(frames)
+        mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
+    check_screen(mode.display)
+    with guarded() as beat, Replay(mode, plan, steps, f"Session {session}", beat) as played:
+        saved = _save(played, frames, hidden=as_json) if frames is not None else None
+        if saved is None:
+            played.run()
+    _tell(session, steps, events, saved, frames, as_json=as_json)
+
+
+def _check_pictures(plan: SessionConfig) -> None:
+    settings = plan.settings
+    for deck in (settings.game.deck, settings.practice.deck):
+        if not settings.resolve_asset("cards", deck).is_dir():
+            raise UserInputError(f"the pictures of the deck {deck!r} are not here; name the study file with --study")
+
+
+def _save(played: Replay, folder: Path, *, hidden: bool) -> int:
+    saved: list[Path] = []
+    with progress_bar("steps", len(played.player.steps), hidden=hidden) as tell:
+        for file in played.frames(folder):
+            saved.append(file)
+            tell(played.player.played)
+    return len(saved)
+
+
+def _tell(
+    session: int,
+    steps: tuple[ReplayStep, ...],
+    events: list[Event],
+    saved: int | None,
+    frames: Path | None,
+    *,
+    as_json: bool,
+) -> None:
+    differs = first_difference(steps, events)
+    if as_json:
+        click.echo(json.dumps({"session": session, "steps": len(steps), "pictures": saved, "differs_at": differs}))
+        return
+    if saved is not None:
+        click.echo(f"{saved} pictures of session {session} are in {frames}.")
+    if differs is None:
+        click.echo(f"Every event of session {session} leads to what was recorded.")
+    else:
+        click.echo(f"Event {differs} of session {session} leads to something else today than what was recorded.")

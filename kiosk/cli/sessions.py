@@ -1,4 +1,4 @@
-"""Commands that list, print and replay stored sessions."""
+"""Commands that list and print stored sessions, and tell how the booth is now."""
 
 from __future__ import annotations
 
@@ -13,18 +13,9 @@ from rich.console import Console
 from rich.table import Table
 
 from kiosk import UserInputError
-from kiosk.cli.composition import read_settings
-from kiosk.cli.options import data_option, json_option, progress_bar, sessions_data_option, study_option
+from kiosk.cli.options import data_option, json_option, sessions_data_option
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
-from kiosk.experiment.events import Event
-from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
-from kiosk.experiment.session_config import SessionConfig
 from kiosk.store.queries import StoredSession, open_repository
-from kiosk.supervisor import guarded
-from kiosk.ui.rehearsal import make_folder
-from kiosk.ui.replay import Replay
-from kiosk.ui.replay_controls import FASTEST, SLOWEST
-from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 from kiosk.units import MS_PER_SECOND
 
 WIDTH = 150
@@ -83,93 +74,6 @@ def events_command(session: int, data: Path, *, as_json: bool) -> None:
         details = "  ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in record.items())
         mark = "<" if origin == "world" else ">"
         click.echo(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}")
-
-
-@click.command()
-@click.argument("session", type=int)
-@sessions_data_option
-@study_option
-@click.option(
-    "--speed",
-    type=click.FloatRange(SLOWEST, FASTEST),
-    default=1.0,
-    show_default=True,
-    help="How many times as fast as it was.",
-)
-@click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
-@click.option("--headless", is_flag=True, help="Use no screen, and save every picture in a folder.")
-@click.option("--frames", type=click.Path(path_type=Path), help="That folder; by default session-N here.")
-@json_option
-def replay_command(
-    session: int,
-    data: Path,
-    study: Path | None,
-    speed: float,
-    frames: Path | None,
-    *,
-    window: bool,
-    headless: bool,
-    as_json: bool,
-) -> None:
-    """Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.
-
-    Its events are handled again, and compared with the record; --study names a study file beside whose folder the
-    session's own pictures lie, if they do not come with Recollect.
-    """
-    with open_repository(data) as stored:
-        events, plan = stored.story(session), stored.plan(session)
-        seed = stored.seed(session)
-    plan = plan if study is None else plan.with_base_dir(read_settings(study))
-    _check_pictures(plan)
-    steps = replay_events(plan, seed, events)
-    frames = frames or (Path(f"session-{session}") if headless else None)
-    mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN, ClockMode.WALL, speed)
-    if frames is not None:
-        make_folder(frames)
-        mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
-    check_screen(mode.display)
-    with guarded() as beat, Replay(mode, plan, steps, f"Session {session}", beat) as played:
-        saved = _save(played, frames, hidden=as_json) if frames is not None else None
-        if saved is None:
-            played.run()
-    _tell(session, steps, events, saved, frames, as_json=as_json)
-
-
-def _check_pictures(plan: SessionConfig) -> None:
-    settings = plan.settings
-    for deck in (settings.game.deck, settings.practice.deck):
-        if not settings.resolve_asset("cards", deck).is_dir():
-            raise UserInputError(f"the pictures of the deck {deck!r} are not here; name the study file with --study")
-
-
-def _save(played: Replay, folder: Path, *, hidden: bool) -> int:
-    saved: list[Path] = []
-    with progress_bar("steps", len(played.player.steps), hidden=hidden) as tell:
-        for file in played.frames(folder):
-            saved.append(file)
-            tell(played.player.played)
-    return len(saved)
-
-
-def _tell(
-    session: int,
-    steps: tuple[ReplayStep, ...],
-    events: list[Event],
-    saved: int | None,
-    frames: Path | None,
-    *,
-    as_json: bool,
-) -> None:
-    differs = first_difference(steps, events)
-    if as_json:
-        click.echo(json.dumps({"session": session, "steps": len(steps), "pictures": saved, "differs_at": differs}))
-        return
-    if saved is not None:
-        click.echo(f"{saved} pictures of session {session} are in {frames}.")
-    if differs is None:
-        click.echo(f"Every event of session {session} leads to what was recorded.")
-    else:
-        click.echo(f"Event {differs} of session {session} leads to something else today than what was recorded.")
 
 
 NOT_ALIVE, TROUBLE = 3, 1

@@ -16,12 +16,10 @@ from kiosk.cli.composition import read_settings
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import read_catalogue, shipped_languages, study_option
 from kiosk.preflight import CheckResult
-from kiosk.robots.tts_worker import run_tts_worker
-from kiosk.study.loader import read_study
-from kiosk.ui.checks import to_json
 from kiosk.ui.qt_platform import missing_library, obstacle
 
-# Qt is loaded by the look itself: where the system lacks a library that it needs, that is what is found.
+# Each command loads what it needs. Qt is loaded by the look itself: where the system lacks a library of Qt's, that is
+# what is found.
 # ruff: noqa: PLC0415
 
 
@@ -65,6 +63,7 @@ def frame_command(study: Path | None) -> None:
     """Draw the kiosk off screen."""
 
     def look() -> Iterable[CheckResult]:
+        from kiosk.study.loader import read_study
         from kiosk.ui.checks import frame_check as draw
 
         return draw(read_study(read_settings(study)))
@@ -73,6 +72,8 @@ def frame_command(study: Path | None) -> None:
 
 
 def _print(what: str, look: Callable[[], Iterable[CheckResult]]) -> None:
+    from kiosk.ui.checks import to_json
+
     try:
         found = to_json(look())
     except ImportError as error:
@@ -87,6 +88,8 @@ def _print(what: str, look: Callable[[], Iterable[CheckResult]]) -> None:
 @click.argument("options")
 def voice_command(options: str) -> None:
     """Be the voice, in a process of its own; the kiosk starts it."""
+    from kiosk.robots.tts_worker import run_tts_worker
+
     run_tts_worker(json.loads(options))
 
 

@@ -1,9 +1,14 @@
 """Embodiments that speak: what a body is, and the voice in a process of its own. No windows, no database."""
 
+from __future__ import annotations
+
 import json
+from typing import TYPE_CHECKING
 
 from kiosk import program
-from kiosk.config import VoiceConfig
+
+if TYPE_CHECKING:
+    from kiosk.config import VoiceConfig
 
 LOUDNESS_MS = 40
 """Length of one step of a sentence's loudness, in ms: 25 steps a second, the rate at which a mouth moves."""

@@ -13,16 +13,18 @@ import wave
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 import platformdirs
 
 from kiosk import UserInputError
-from kiosk.config import VoiceConfig
 from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, trimmed
-from kiosk.robots.embodiment import SpokenClip
 from kiosk.robots.tts_engines import ENGINES, SpeechEngine, is_installed
+
+if TYPE_CHECKING:
+    from kiosk.config import VoiceConfig
+    from kiosk.robots.embodiment import SpokenClip
 
 _log = logging.getLogger(__name__)
 
@@ -193,6 +195,8 @@ class PackClips:
         if pack is None or not parts:
             return None
         clip = joined(parts, PAUSE_MS)
+        from kiosk.robots.embodiment import SpokenClip  # noqa: PLC0415 - the voice's process needs nothing of it
+
         return SpokenClip(clip.to_bytes(), clip.duration_ms, pack.spoken_by | {"pack": pack.sha256})
 
 

@@ -16,7 +16,6 @@ from time import monotonic, perf_counter
 from typing import IO, TYPE_CHECKING
 
 from kiosk import program
-from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import CheckResult, Severity
 from kiosk.ui.qt_platform import obstacle
 from kiosk.units import MS_PER_SECOND
@@ -24,6 +23,7 @@ from kiosk.units import MS_PER_SECOND
 if TYPE_CHECKING:
     from PySide6.QtGui import QScreen
 
+    from kiosk.experiment.session_config import StudyConfig
     from kiosk.ui.window import Window
 
 # Qt is loaded by the checks themselves: where the system lacks a library that it needs, that is what is found.

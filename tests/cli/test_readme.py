@@ -39,6 +39,17 @@ LESS = {
 }
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
 
+DECK = ("owl", "frog")
+SPOKEN = """
+languages = ["en"]
+stages = ["introduction", "game", "result"]
+[game]
+rows = 2
+columns = 2
+deck = "cards"
+"""
+"""A study with a deck of two cards, of which there is less to be said than of the shipped ones."""
+
 LEFT_AT_ONCE = """
 import sys
 from PySide6.QtCore import QTimer
@@ -110,7 +121,8 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     def run(command: Sequence[str], environment: Mapping[str, str]) -> int:
         del environment
-        done = newcomer.run([*command[1:]])
+        shorter = ("--study", "spoken.toml", "--out", "pack") if command[1] == "voice" else ()
+        done = newcomer.run([*command[1:], *shorter])
         assert done.stderr == ""
         return done.returncode
 
@@ -122,8 +134,13 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
         patch.object(start, "run", run),
     ):
         (newcomer.home / "small.toml").write_text(SMALL)
+        (newcomer.home / "spoken.toml").write_text(SPOKEN)
+        (newcomer.home / "cards").mkdir()
+        for card in DECK:
+            shutil.copy(ROOT / "assets" / "cards" / "animals" / f"{card}.svg", newcomer.home / "cards")
         assert start.start(["--study", "small.toml"]) == 0
     assert list((newcomer.home / "checkout" / "rehearsals" / "first").glob("*.png"))
+    assert list((newcomer.home / "pack").iterdir())
     return newcomer.home
 
 
