@@ -60,9 +60,13 @@ class ShowAgeQuestion:
 
 @dataclass(frozen=True)
 class ShowIntroduction:
-    """Show what the game is about; hints are spoken of only where there are some."""
+    """Show what the game is about; hints are spoken of only where there are some.
+
+    ``points`` tells whether they mark a place on the board.
+    """
 
     helped: bool = True
+    points: bool = True
 
 
 @dataclass(frozen=True)

@@ -204,15 +204,15 @@ class AboutStage(StageHandler):
 class IntroductionStage(StageHandler):
     """The assistant greets, and says what is to be done."""
 
-    def __init__(self, speaker: SpeechWriter, pairs: int, *, helped: bool) -> None:
-        """Introduce a game of so many pairs, with help or without."""
+    def __init__(self, speaker: SpeechWriter, pairs: int, *, helped: bool, points: bool = True) -> None:
+        """Introduce a game of so many pairs, with help or without; ``points``: whether hints name a place."""
         self._speaker = speaker
         self._pairs = pairs
-        self._helped = helped
+        self._helped, self._points = helped, points
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the rules and say them."""
-        outcome.effect(do.ShowIntroduction(helped=self._helped))
+        outcome.effect(do.ShowIntroduction(helped=self._helped, points=self._points))
         speech = "introduction-speech" if self._helped else "introduction-speech-alone"
         self._speaker.say(speech, outcome, cards=2 * self._pairs, pairs=self._pairs)
 

@@ -197,7 +197,9 @@ class StageFactory:
         game = _game(plan, self._seed, self._wording, self._numbers)
         pairs = game.game.board.pairs
         self._scenes[Stage.GAME] = game
-        self._scenes[Stage.INTRODUCTION] = IntroductionStage(self.speaker, pairs, helped=game.helped)
+        self._scenes[Stage.INTRODUCTION] = IntroductionStage(
+            self.speaker, pairs, helped=game.helped, points=plan.cell.location
+        )
         if Stage.PRACTICE in plan.stage_order.stages:
             self._scenes[Stage.PRACTICE] = self._practice(plan)
 

@@ -114,8 +114,8 @@ class Renderer:
                 case do.ShowAgeQuestion(adult=adult):
                     screens.age.ask(adult)
                     screens.kiosk.show("age")
-                case do.ShowIntroduction(helped=helped):
-                    screens.introduction.show(helped=helped)
+                case do.ShowIntroduction(helped=helped, points=points):
+                    screens.introduction.show(helped=helped, points=points)
                     screens.kiosk.show("introduction")
                 case do.ShowBoard(practice=practice):
                     screens.board.deal(effect.rows, effect.columns, effect.pairs, effect.deck, practice=practice)

@@ -15,12 +15,14 @@ FocusScope {
     // Where there is far more room beside the cards than above them, the tray stands there.
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
-    readonly property real title: board.practice ? 72 * Math.max(1, Theme.textSize) * Theme.unit : 0
     readonly property real strip: broad ? 0 : 84 * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
-    readonly property real header: 12 * Theme.unit + title + strip
+    readonly property real header: 12 * Theme.unit + strip
+    // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
+    readonly property bool skipsBelow: !broad
+        && practice.width + progress.implicitWidth + skip.implicitWidth + 240 * Theme.unit + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
-    readonly property real footer: (broad && !board.practice ? 40 : 64) * Theme.unit + (board.practice ? skip.height + Theme.gap : 0)
+    readonly property real footer: (broad && !board.practice ? 40 : 64) * Theme.unit + (board.practice && skipsBelow ? skip.height + Theme.gap : 0)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min((width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
                                                      (height - header - numbers - footer) / Math.max(1, board.rows)))
@@ -56,17 +58,31 @@ FocusScope {
         }
     }
 
-    PlainText {
-        anchors { horizontalCenter: cards.horizontalCenter; top: parent.top; topMargin: 10 * Theme.unit }
+    Rectangle {
+        id: practice
         visible: view.board.practice
-        text: view.words["practice-title"]
-        font { pixelSize: Theme.heading; bold: true }
-        color: Theme.sea
+        x: Theme.gap
+        y: view.broad ? table.y : tray.y + (tray.height - height) / 2
+        width: named.width + 1.6 * Theme.gap
+        height: named.height + 0.5 * Theme.gap
+        radius: height / 2
+        color: Theme.sand
+        PlainText {
+            id: named
+            anchors.centerIn: parent
+            width: Math.min(implicitWidth, (view.broad ? view.side - Theme.gap : view.width) - 1.6 * Theme.gap)
+            horizontalAlignment: Text.AlignHCenter
+            wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
+            text: view.words["practice-title"]
+            font { pixelSize: Theme.body; bold: true }
+            color: Theme.ink
+            Accessible.role: Accessible.Heading
+        }
     }
     PlainText {
         id: progress
-        x: view.broad ? Theme.gap : table.x
-        y: view.broad ? table.y : tray.y
+        x: !view.board.practice ? (view.broad ? Theme.gap : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
+        y: !view.broad ? tray.y : view.board.practice ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : tray.height
         verticalAlignment: Text.AlignVCenter
@@ -77,6 +93,8 @@ FocusScope {
     }
     PlainText {
         id: moves
+        // Nothing counts in a practice.
+        visible: !view.board.practice
         x: view.broad ? Theme.gap : table.x + table.width - width
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : tray.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
@@ -90,8 +108,9 @@ FocusScope {
     Tray {
         id: tray
         x: view.broad ? view.width - view.side : progress.x + progress.width + Theme.gap
-        y: view.broad ? table.y : 12 * Theme.unit + view.title
-        width: view.broad ? view.side - Theme.gap : Math.max(0, moves.x - x - Theme.gap)
+        y: view.broad ? table.y : 12 * Theme.unit
+        width: view.broad ? view.side - Theme.gap : Math.max(0, end - x - Theme.gap)
+        readonly property real end: !view.board.practice ? moves.x : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.strip - 8 * Theme.unit
         places: view.board.pairs
         lines: view.broad ? Math.ceil(places / 2) : 1
@@ -136,11 +155,14 @@ FocusScope {
     BigButton {
         id: skip
         objectName: "skip"
-        most: view.width - 2 * Theme.gap
-        anchors { bottom: parent.bottom; bottomMargin: Theme.gap; horizontalCenter: cards.horizontalCenter }
+        most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
+        x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2 : view.width - width - Theme.gap
+        y: view.broad ? table.y + table.height - height
+         : view.skipsBelow ? view.height - height - Theme.gap : tray.y + (tray.height - height) / 2
         visible: view.board.practice
         quiet: true
-        verticalPadding: 16 * Theme.unit
+        horizontalPadding: (view.broad ? 20 : 36) * Theme.unit
+        verticalPadding: 12 * Theme.unit
         words: view.words["practice-skip"]
         onClicked: view.board.skip()
     }

@@ -40,47 +40,89 @@ FocusScope {
                 width: parent.width
                 room: view.height - title.height - answers.height - 4 * Theme.gap
                 more: view.words["scroll-more"]
-                spacing: 0.5 * Theme.gap
+                spacing: 0.4 * Theme.gap
 
-                Paragraphs {
-                    width: parent.width
-                    texts: view.consent.paragraphs
+                Rectangle {
+                    id: sheet
+                    readonly property var texts: view.consent.paragraphs
+                    // Short lines are read with less effort than long ones: in two columns where there is room.
+                    readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
+                    // How many paragraphs stand in the first column, so that both are about as long.
+                    readonly property int first: {
+                        if (!halved)
+                            return texts.length
+                        const lengths = texts.map(text => text.length + 40)
+                        const all = lengths.reduce((sum, each) => sum + each, 0)
+                        let best = 1, least = Infinity
+                        for (let i = 1, sum = lengths[0]; i < texts.length; sum += lengths[i++])
+                            if (Math.abs(all - 2 * sum) < least) {
+                                least = Math.abs(all - 2 * sum)
+                                best = i
+                            }
+                        return best
+                    }
+                    readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
+                    width: pane.width
+                    height: Math.max(left.height, right.visible ? right.height : 0) + 1.4 * Theme.gap
+                    radius: Theme.radius
+                    color: Theme.white
+                    Paragraphs {
+                        id: left
+                        x: Theme.gap
+                        y: 0.7 * Theme.gap
+                        width: sheet.column
+                        texts: sheet.texts.slice(0, sheet.first)
+                        size: Theme.small
+                    }
+                    Rectangle {
+                        visible: sheet.halved
+                        x: (parent.width - width) / 2
+                        y: 0.9 * Theme.gap
+                        width: 2 * Theme.unit
+                        height: parent.height - 2 * y
+                        color: Theme.edge
+                    }
+                    Paragraphs {
+                        id: right
+                        visible: sheet.halved
+                        x: sheet.column + 3 * Theme.gap
+                        y: 0.7 * Theme.gap
+                        width: sheet.column
+                        texts: sheet.texts.slice(sheet.first)
+                        size: Theme.small
+                    }
                 }
-                Column {
-                    id: boxes
-                    // The boxes stand out of the text by their padding alone; their edges are the text's.
-                    x: -8 * Theme.unit
-                    width: parent.width - x
-                    Repeater {
-                        id: purposes
-                        model: view.consent.purposes
-                        TickBox {
-                            required property var modelData
-                            objectName: "purpose-" + modelData.id
-                            width: boxes.width
-                            words: modelData.text
-                            on: view.consent.ticks.includes(modelData.id)
-                            note: view.words[modelData.required ? "consent-required" : "consent-optional"]
-                            warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
-                            onClicked: view.consent.tick(modelData.id, !on)
-                        }
+                Repeater {
+                    id: purposes
+                    model: view.consent.purposes
+                    TickBox {
+                        required property var modelData
+                        objectName: "purpose-" + modelData.id
+                        width: pane.width
+                        words: modelData.text
+                        on: view.consent.ticks.includes(modelData.id)
+                        note: view.words[modelData.required ? "consent-required" : "consent-optional"]
+                        warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
+                        onClicked: view.consent.tick(modelData.id, !on)
                     }
                 }
             }
         }
-        Grid {
+        Item {
             id: answers
-            readonly property real wish: agree.implicitWidth + decline.implicitWidth
-                + (back.visible ? back.implicitWidth + 2 * Theme.gap : 0) + columnSpacing
-            // Side by side, or where texts are long, one above the other.
-            columns: wish <= parent.width ? 3 : 1
-            columnSpacing: 1.5 * Theme.gap
-            rowSpacing: 0.7 * Theme.gap
-            topPadding: 0.5 * Theme.gap
+            readonly property real wish: agree.implicitWidth + decline.implicitWidth + Theme.gap
+                + (back.visible ? back.implicitWidth + Theme.gap : 0)
+            // Side by side, the way on at the right as on every page; or where texts are long, one above the other.
+            readonly property bool abreast: wish <= width
+            width: parent.width
+            height: abreast ? agree.height + 0.3 * Theme.gap
+                            : agree.height + decline.height + (back.visible ? back.height + 0.5 * Theme.gap : 0) + 0.8 * Theme.gap
             BigButton {
                 id: agree
                 objectName: "agree"
-                most: answers.parent.width
+                most: answers.width
+                x: answers.width - width
+                y: 0.3 * Theme.gap
                 quiet: !view.consent.complete
                 words: view.words["consent-agree"]
                 onClicked: view.consent.agree()
@@ -88,8 +130,11 @@ FocusScope {
             BigButton {
                 id: decline
                 objectName: "decline"
-                most: answers.parent.width
+                most: answers.width
+                x: answers.abreast ? agree.x - width - Theme.gap : answers.width - width
+                y: answers.abreast ? agree.y : agree.y + agree.height + 0.5 * Theme.gap
                 quiet: true
+                horizontalPadding: 44 * Theme.unit
                 words: view.words["consent-decline"]
                 onClicked: view.consent.decline()
             }
@@ -97,9 +142,11 @@ FocusScope {
                 id: back
                 objectName: "back"
                 visible: view.kiosk.goesBack
-                most: answers.parent.width
+                most: answers.width
+                y: answers.abreast ? agree.y + (agree.height - height) / 2 : decline.y + decline.height + 0.5 * Theme.gap
                 quiet: true
-                horizontalPadding: 40 * Theme.unit
+                horizontalPadding: 34 * Theme.unit
+                verticalPadding: 18 * Theme.unit
                 words: view.words["control-back"]
                 onClicked: view.kiosk.goBack()
             }

@@ -1,4 +1,4 @@
-// What the game is about, in three lines that can be read while the assistant says the same.
+// What the game is about: three small boards that play it, one after another, while the assistant says the same.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -14,65 +14,153 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
-    readonly property real cardSize: 120 * Theme.unit
+    readonly property int boards: introduction.helped ? 3 : 2
+    readonly property bool abreast: width > height
+    readonly property real room: Math.min(view.width - 3 * Theme.gap, (abreast ? 1560 : 960) * Theme.unit)
+    // Where the story is, in beats; without motion every board shows its end.
+    property int beat: 0
+    readonly property bool still: Theme.motion === 0
 
-    component Rule: Row {
-        id: rule
-        property string text
-        property string leftCard
-        property string rightCard
-        spacing: Theme.gap
-        CardFace {
-            width: view.cardSize
-            height: view.cardSize
-            back: view.cardBack
-            shadow: view.cardShadow
-            picture: rule.leftCard
-            up: rule.leftCard !== ""
-        }
-        CardFace {
-            width: view.cardSize
-            height: view.cardSize
-            back: view.cardBack
-            shadow: view.cardShadow
-            picture: rule.rightCard
-            up: rule.rightCard !== ""
+    onVisibleChanged: beat = 0
+    Timer {
+        interval: 1100
+        repeat: true
+        running: view.visible && !view.still
+        onTriggered: view.beat = (view.beat + 1) % 16
+    }
+
+    // Six cards, some of them up or marked, above a sentence or beside it.
+    component Scene: Rectangle {
+        id: scene
+        required property string text
+        required property list<int> pictures
+        required property list<int> up
+        property bool found: false
+        property int markRow: -1
+        property int markColumn: -1
+        // Whether it is this board's turn.
+        required property bool plays
+
+        // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
+        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 6, 150 * Theme.unit,
+            ((view.height - title.height - go.height - 6 * Theme.gap) / view.boards - 2 * pad - 2 * numbers) / 2))
+        readonly property real cell: view.abreast
+            ? Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / 3, (view.height - title.height - go.height - telling.height - 11 * Theme.gap) / 2))
+            : small
+        readonly property real numbers: 34 * Theme.unit
+        readonly property real pad: 0.8 * Theme.gap
+
+        width: view.abreast ? (view.room - (view.boards - 1) * Theme.gap) / view.boards : view.room
+        height: view.abreast ? scenes.tallest : Math.max(board.height + numbers, telling.height) + 2 * pad
+        radius: Theme.radius
+        color: Theme.white
+        border { color: plays && !view.still ? Theme.sea : Theme.edge; width: 3 * Theme.unit }
+
+        Item {
+            id: board
+            x: view.abreast ? (scene.width - width) / 2 : scene.pad + scene.numbers
+            y: scene.pad + scene.numbers
+            width: 3 * scene.cell
+            height: 2 * scene.cell
+            Mark {
+                anchors.fill: parent
+                row: scene.markRow
+                column: scene.markColumn
+                cell: scene.cell
+            }
+            Repeater {
+                model: 6
+                Item {
+                    id: place
+                    required property int index
+                    readonly property bool open: scene.up.includes(index)
+                    x: index % 3 * scene.cell
+                    y: Math.floor(index / 3) * scene.cell
+                    width: scene.cell
+                    height: scene.cell
+                    Rectangle {
+                        visible: scene.found && place.open
+                        anchors.centerIn: parent
+                        width: face.width + 10 * Theme.unit
+                        height: width
+                        radius: width * 0.13
+                        color: Theme.amber
+                    }
+                    CardFace {
+                        id: face
+                        anchors.centerIn: parent
+                        width: Math.floor(scene.cell * 0.84)
+                        height: width
+                        back: view.cardBack
+                        shadow: view.cardShadow
+                        picture: view.attract.pictures[scene.pictures[place.index] % view.attract.pictures.length] ?? ""
+                        up: place.open
+                    }
+                }
+            }
         }
         PlainText {
-            anchors.verticalCenter: parent.verticalCenter
-            width: Math.min(720 * Theme.unit, view.width - 2 * view.cardSize - 6 * Theme.gap)
-            leftPadding: Theme.gap
-            text: rule.text
-            font.pixelSize: Theme.body
+            id: telling
+            x: view.abreast ? scene.pad : board.x + board.width + 1.2 * Theme.gap
+            y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
+            width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
+            text: scene.text
+            font { pixelSize: Theme.reading; bold: true }
+            horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.ink
         }
+        readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + pad
     }
 
     Column {
         anchors.centerIn: parent
-        spacing: 1.6 * Theme.gap
+        spacing: 1.2 * Theme.gap
 
         Line {
             id: title
-            room: view.width - 4 * Theme.gap
+            room: view.room
             text: view.words["introduction-title"]
             font { pixelSize: Theme.title; bold: true }
         }
-        Rule { id: turn; text: view.words["introduction-turn"]; leftCard: view.attract.pictures[0] }
-        Rule {
-            text: view.words["introduction-match"]
-            leftCard: view.attract.pictures[2]
-            rightCard: view.attract.pictures[2]
-        }
-        Rule {
-            visible: view.introduction.helped
-            text: view.words["introduction-help"]
-            leftCard: view.attract.pictures[4]
+        Grid {
+            id: scenes
+            readonly property real tallest: Math.max(turn.wish, match.wish, hint.visible ? hint.wish : 0)
+            columns: view.abreast ? 3 : 1
+            spacing: Theme.gap
+            // Two that differ: turned one after the other, and turned back.
+            Scene {
+                id: turn
+                text: view.words["introduction-turn"]
+                pictures: [0, 1, 2, 3, 0, 1]
+                plays: view.beat < 5
+                up: view.still ? [0, 5] : view.beat === 1 ? [0] : view.beat === 2 || view.beat === 3 ? [0, 5] : []
+            }
+            // Two alike: they stay.
+            Scene {
+                id: match
+                text: view.words["introduction-match"]
+                pictures: [1, 2, 3, 0, 2, 3]
+                plays: view.beat >= 5 && view.beat < 9
+                found: view.still || view.beat >= 7
+                up: view.still || view.beat >= 7 ? [1, 4] : view.beat === 6 ? [1] : []
+            }
+            // What a hint marks: a column, a row, a card.
+            Scene {
+                id: hint
+                visible: view.introduction.helped
+                text: view.words["introduction-help"]
+                pictures: [3, 0, 4, 2, 4, 1]
+                plays: view.beat >= 9
+                markColumn: view.introduction.points && (view.still || view.beat === 10 || view.beat === 11 || view.beat === 14) ? 2 : -1
+                markRow: view.introduction.points && !view.still && (view.beat === 12 || view.beat === 13 || view.beat === 14) ? 0 : -1
+                up: view.still || view.beat === 9 || view.beat > 9 && view.beat < 15 ? [4] : view.beat === 15 ? [4, 2] : []
+                found: view.beat === 15
+            }
         }
         WayOn {
-            // Not the column's: that follows the widest of what it holds, and would never become narrower again.
-            width: Math.max(title.width, turn.width)
+            id: go
+            width: view.room
             kiosk: view.kiosk
             words: view.words
             label: view.words["introduction-continue"]

@@ -75,7 +75,9 @@ Window {
         // A form without an onlooker stands in the middle.
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
-        height: root.wide ? root.room - root.said : root.room * 0.64
+        // On an upright screen the assistant stands below: with its sentence, alone, or not at all.
+        height: root.wide ? root.room - root.said
+              : unwatched ? root.room - corner.height - Theme.gap : root.room * (root.speaks ? 0.64 : 0.78)
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -169,8 +171,11 @@ Window {
             visible: root.kiosk.screen === "thanks"
             focus: visible && root.kiosk.bare
             thanks: root.thanks
+            attract: root.attract
             kiosk: root.kiosk
             words: root.kiosk.words
+            cardBack: root.cardBack
+            cardShadow: root.cardShadow
         }
     }
     // Where the mouse is; a finger is only seen where it touches.
@@ -188,6 +193,7 @@ Window {
         height: below ? root.room - stage.height : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
+        share: below && !root.speaks && !root.whole ? 0.94 : 0.52
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
@@ -199,7 +205,7 @@ Window {
         kiosk: root.kiosk
         words: root.kiosk.words
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
-        places: !root.wide ? 1 : root.whole && root.speaks ? 3 : 5
+        places: !root.wide ? (stage.unwatched ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: kiosk.inSession && root.replay === null
         x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
         y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap

@@ -7,6 +7,8 @@ Item {
     id: panel
 
     required property AvatarScreen avatar
+    // How much of its height the face has; the rest is for what it says.
+    property real share: 0.52
 
     // What a hint marks, in this item: the face looks there and points at it.
     property bool marks: false
@@ -72,7 +74,7 @@ Item {
         property real gone: panel.avatar.away ? 1 : 0
         Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
-        width: Math.min(parent.width - 40 * Theme.unit, parent.height * 0.52 * 400 / 440)
+        width: Math.min(parent.width - 40 * Theme.unit, parent.height * panel.share * 400 / 440)
         height: width * 440 / 400
         mood: panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.

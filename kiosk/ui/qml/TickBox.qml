@@ -9,7 +9,8 @@ Choosable {
     property string note: ""
     property string warning: ""
 
-    padding: 8 * Theme.unit
+    horizontalPadding: 0.7 * Theme.gap
+    verticalPadding: 0.45 * Theme.gap
     font.pixelSize: Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -17,17 +18,20 @@ Choosable {
 
     background: Rectangle {
         radius: Theme.radius
-        color: box.hovered || box.down ? Theme.white : "transparent"
+        // Only what is ticked is filled; the pointer over it changes the edge alone.
+        color: box.on ? Theme.sand : Theme.white
+        border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.hovered ? 4 : 2) * Theme.unit }
         FocusRing {
             around: box
-            reach: 0
-            radius: Theme.radius
+            reach: 7 * Theme.unit
+            radius: Theme.radius + reach
         }
     }
     contentItem: Row {
         spacing: Theme.gap
         Rectangle {
             id: mark
+            anchors.verticalCenter: parent.verticalCenter
             width: 48 * Theme.unit
             height: width
             radius: 10 * Theme.unit
@@ -49,6 +53,7 @@ Choosable {
             }
         }
         Column {
+            anchors.verticalCenter: parent.verticalCenter
             width: box.availableWidth - mark.width - parent.spacing
             Text {
                 textFormat: Text.PlainText

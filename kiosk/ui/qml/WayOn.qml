@@ -1,4 +1,4 @@
-// The way on at the bottom right of a page, and at its left the way back, where there is one.
+// The way on at the bottom right of a page, or in its middle, and at its left the way back, where there is one.
 import QtQuick
 import Recollect
 import "."
@@ -11,10 +11,11 @@ FocusScope {
     // What the way on says; with no words there is none but the page's own buttons.
     property string label: ""
     property bool quiet: false
+    property bool centred: false
     readonly property alias button: go
     signal went()
 
-    readonly property bool beside: back.implicitWidth + go.implicitWidth + Theme.gap <= width
+    readonly property bool beside: (centred ? 2 : 1) * (back.implicitWidth + Theme.gap) + go.implicitWidth <= width
 
     height: label === "" ? (back.visible ? back.height : 0)
                          : back.visible && !beside ? go.height + 0.5 * Theme.gap + back.height : go.height
@@ -24,7 +25,7 @@ FocusScope {
         objectName: "continue"
         visible: ways.label !== ""
         most: ways.width
-        anchors.right: parent.right
+        x: ways.centred ? (ways.width - width) / 2 : ways.width - width
         quiet: ways.quiet
         words: ways.label
         focus: true

@@ -83,11 +83,11 @@ class IntroductionScreen(ReadingScreen):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._helped = True
+        self._helped = self._points = True
 
-    def show(self, *, helped: bool) -> None:
-        """Speak of hints, or not."""
-        self._helped = helped
+    def show(self, *, helped: bool, points: bool = True) -> None:
+        """Speak of hints, or not; with ``points``, show how they mark the board."""
+        self._helped, self._points = helped, points
         self.changed.emit()
 
     def clear(self) -> None:
@@ -98,6 +98,11 @@ class IntroductionScreen(ReadingScreen):
     def helped(self) -> bool:
         """Whether hints are spoken of."""
         return self._helped
+
+    @Property(bool, notify=changed)
+    def points(self) -> bool:
+        """Whether hints mark a place on the board."""
+        return self._points
 
 
 @QmlElement

@@ -12,9 +12,23 @@ Flow {
     required property var chosen        // the ids of what is chosen
     required property bool several
     required property bool alone
+    required property bool dense
     signal picked(string option)
 
     readonly property bool stacked: alone && options.length <= 6
+    // Where there is room for it, all are as wide, in rows that are as full.
+    readonly property bool tiled: !stacked && !dense
+    readonly property real widest: {
+        let most = 0
+        for (let i = 0; i < buttons.count; i++)
+            most = Math.max(most, (buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0)
+        return most
+    }
+    readonly property int columns: {
+        const fit = Math.max(1, Math.min(options.length, Math.floor((width + spacing) / (widest + spacing))))
+        return Math.ceil(options.length / Math.ceil(options.length / fit))
+    }
+    readonly property real tile: Math.floor((width - (columns - 1) * spacing) / columns)
 
     spacing: 0.5 * Theme.gap
     flow: stacked ? Flow.TopToBottom : Flow.LeftToRight
@@ -36,12 +50,12 @@ Flow {
             on: list.chosen.includes(modelData.id)
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
-            width: list.stacked ? list.width : Math.min(implicitWidth, list.width)
+            width: list.stacked ? list.width : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.alone ? Theme.body : Theme.reading
             leftPadding: 22 * Theme.unit
             rightPadding: 30 * Theme.unit
-            verticalPadding: (list.alone ? 16 : 10) * Theme.unit
+            verticalPadding: (list.dense ? 10 : list.alone ? 16 : 13) * Theme.unit
             spacing: 16 * Theme.unit
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
