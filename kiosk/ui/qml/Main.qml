@@ -193,7 +193,7 @@ Window {
         height: below ? root.room - stage.height : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
-        share: below && !root.speaks && !root.whole ? 0.94 : 0.52
+        speaks: root.wide || root.speaks
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)

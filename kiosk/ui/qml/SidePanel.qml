@@ -7,8 +7,8 @@ Item {
     id: panel
 
     required property AvatarScreen avatar
-    // How much of its height the face has; the rest is for what it says.
-    property real share: 0.52
+    // Whether it says anything here; where it does not, the face has all of the height.
+    property bool speaks: true
 
     // What a hint marks, in this item: the face looks there and points at it.
     property bool marks: false
@@ -63,7 +63,7 @@ Item {
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
         anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: 4 * Theme.unit }
-        sentence: panel.avatar.bubble
+        sentence: panel.speaks ? panel.avatar.bubble : ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
     }
@@ -74,7 +74,7 @@ Item {
         property real gone: panel.avatar.away ? 1 : 0
         Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
-        width: Math.min(parent.width - 40 * Theme.unit, parent.height * panel.share * 400 / 440)
+        width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? 0.52 : 0.94) * 400 / 440)
         height: width * 440 / 400
         mood: panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.

@@ -193,7 +193,7 @@ Rectangle {
             several: box.item.kind === "multiple"
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
             alone: box.alone
-            dense: box.dense
+            dense: box.form.items.length > 3
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }
