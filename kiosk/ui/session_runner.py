@@ -322,7 +322,10 @@ class SessionRunner:
         self._busy.end()
         record = SessionRecording(self._recorder, provenance, partial(self._assigner.confirm_recorded, provenance))
         self._begin(provenance, record, tapped_at)
+        chosen = tuple(self._renderer.screens.kiosk.choices(at_ms=0))
         self.dispatch(happened.SessionStarted(at_ms=0))
+        for choice in chosen:
+            self.dispatch(choice)
         self._tell_begun()
 
     def resume(

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk.config import Settings
-from kiosk.experiment.events import Stage, Status
+from kiosk.experiment.events import SoundSelected, Stage, Status, TextSize, TextSizeSelected
 from kiosk.experiment.replay import replay_events
 from kiosk.store.queries import open_repository
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
@@ -43,6 +43,45 @@ def to_the_form(booth: Booth) -> None:
                 booth.click("age-yes")
             case _:
                 booth.click("continue")
+
+
+@pytest.fixture
+def resting(make_booth: MakeBooth) -> Booth:
+    """Return a booth that waits for a visitor."""
+    return make_booth(settings=SMALL)
+
+
+def test_text_size_and_sound_are_chosen_on_the_start_screen_and_hold_in_the_session(resting: Booth) -> None:
+    assert [name for name in CONTROLS if resting.sees(name)] == ["control-text-size", "control-sound"]
+    for name in ("control-text-size", "control-text-size", "control-sound"):
+        resting.click(name)
+    resting.click("start-en")
+    resting.settle()
+    kiosk = resting.app.screens.kiosk
+    assert (kiosk.property("textStep"), kiosk.property("sound"), resting.screen) == (2, False, "about")
+    resting.click("control-stop")
+    resting.click("stop-yes")
+    assert (kiosk.property("textStep"), kiosk.property("sound"), resting.screen) == (0, True, "attract")
+
+
+def test_what_was_chosen_on_the_start_screen_stands_in_the_record(resting: Booth) -> None:
+    resting.click("control-text-size")
+    resting.click("control-sound")
+    resting.click("start-en")
+    to_the_form(resting)
+    with open_repository(resting.data) as there:
+        (session,) = there.sessions()
+        events = there.events(session.id)
+    assert TextSizeSelected(at_ms=0, size=TextSize.LARGE) in events
+    assert SoundSelected(at_ms=0, on=False) in events
+
+
+def test_what_a_passer_by_chose_is_taken_back_when_nobody_begins(resting: Booth) -> None:
+    kiosk = resting.app.screens.kiosk
+    resting.click("control-text-size")
+    resting.click("control-sound")
+    kiosk.forgetChoices()
+    assert (kiosk.property("textStep"), kiosk.property("sound")) == (0, True)
 
 
 def test_stop_asks_once_and_then_ends_the_session(reading: Booth) -> None:

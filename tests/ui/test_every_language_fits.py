@@ -6,16 +6,16 @@ longer in the same way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QCoreApplication, QRectF
 from PySide6.QtQuick import QQuickItem, QQuickWindow
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.mentaliser import HintReason
@@ -23,10 +23,11 @@ from kiosk.assistance.policy import FlipInMove
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.effects import BoardWait
+from kiosk.experiment.events import TextSize
 from kiosk.experiment.information import Information
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import Item, Questionnaire
-from kiosk.experiment.session_config import StudyConfig
+from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.simulated_visitor import find_item, lay_out
@@ -34,8 +35,47 @@ from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests import pseudo
 
 SIZES = [(1280, 720), (1920, 1080), (1080, 1920)]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A window, and whether a robot stands beside it in the avatar's place.
+
+    To Qt, a screen of 3840 x 2160 at 200 % is a window of 1920 x 1080.
+    """
+
+    width: int
+    height: int
+    robot: bool = False
+
+    def __str__(self) -> str:
+        """Its name in the list of tests."""
+        return f"{self.width}x{self.height}{', robot' if self.robot else ''}"
+
+
+LAYOUTS = (
+    Layout(1920, 1080),
+    Layout(1080, 1920),
+    Layout(1280, 800),
+    Layout(1366, 768),
+    Layout(1920, 1080, robot=True),
+    Layout(1080, 1920, robot=True),
+)
+SHIPPED = ("en", "es", "it")
 HALF_A_PIXEL = 0.5
 """Sizes are rounded when texts are measured."""
+MARGINS = 170
+"""The most that a page which scrolls leaves free above and below, in pixels of a screen of 1080 lines."""
+SPEAKING = {"attract", "introduction", "practice", "game", "result", "thanks"}
+"""The screens on which the helper says something."""
+RATED = {"trust", "four ratings", "six ratings", "four ratings, missing"}
+"""The pages on which the helper is rated, and has left."""
+LATER = {
+    "form": {"about you", "about you, missing", "trust", "four ratings", "six ratings", "four ratings, missing"},
+    "game": {"waiting"},
+    "consent": {"consent", "missing ticks"},
+}
+"""What of these screens is looked at in every layout: the study's forms, and the board with all that it can show."""
 SMALLEST = 24
 """What a text must at least measure, in pixels of a screen of 1080 lines."""
 
@@ -43,7 +83,19 @@ GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
 ASKED = {file.stem: Questionnaire.read(file) for file in (ASSETS / "questionnaires").glob("*.toml")}
 
 
-@pytest.fixture(params=["en", "es", "it", pseudo.LANGUAGE])
+@pytest.fixture(scope="module")
+def kiosk(qapp: QApplication) -> Iterator[tuple[Window, StudyConfig]]:
+    """Provide one window in all shipped languages, as a visitor who can go back has it."""
+    study = read_study(Settings.model_validate({"languages": SHIPPED}))
+    opened = Window(study, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL))
+    opened.show()
+    while not opened.shown.isExposed():
+        qapp.processEvents()
+    yield opened, study
+    opened.close()
+
+
+@pytest.fixture(params=["en", pseudo.LANGUAGE])
 def study(request: pytest.FixtureRequest, tmp_path: Path) -> StudyConfig:
     """Return the study in one language."""
     if request.param != pseudo.LANGUAGE:
@@ -142,24 +194,94 @@ def scrolls(text: QQuickItem) -> QRectF | None:
     return above.mapRectToScene(QRectF(0, 0, above.width(), above.height())) if above else None
 
 
+def controls(item: QQuickItem) -> Iterator[QQuickItem]:
+    """Every visible button below an item."""
+    if not item.isVisible() or item.opacity() == 0:
+        return
+    if item.inherits("QQuickAbstractButton"):
+        yield item
+    for child in item.childItems():
+        yield from controls(child)
+
+
+def belongs(item: QQuickItem, control: QQuickItem) -> bool:
+    """Whether an item is a part of a button, or the button itself."""
+    above: QQuickItem | None = item
+    while above is not None and above is not control:
+        above = above.parentItem()
+    return above is not None
+
+
+def whole(item: QQuickItem) -> QRectF:
+    """Where an item is in the window."""
+    return item.mapRectToScene(QRectF(0, 0, item.width(), item.height()))
+
+
+def assert_no_needless_scrolling(shown: QQuickWindow, moment: str) -> None:
+    """Assert that a page that scrolls leaves only its margins free above and below."""
+    more = find_item(shown.contentItem(), "more")
+    if more is None:
+        return
+    above, page = more.parentItem(), more
+    while above is not None:
+        page = above if above.inherits("QQuickFocusScope") else page
+        above = above.parentItem()
+    top = min(painted(text).top() for text in texts(page))
+    low = max(whole(control).bottom() for control in controls(page))
+    unused = (top - whole(page).top()) + (whole(page).bottom() - low)
+    long, short = max(shown.width(), shown.height()), min(shown.width(), shown.height())
+    unit = min(long / 1920, short / 1080)
+    assert unused <= MARGINS * unit, (moment, unused / unit)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A text or a button, where it is, and what of the window it scrolls in."""
+
+    item: QQuickItem
+    place: QRectF
+    pane: QRectF | None
+
+    @property
+    def seen(self) -> QRectF:
+        """What of it is in sight."""
+        return self.place if self.pane is None else self.place.intersected(self.pane)
+
+    @property
+    def told(self) -> tuple[str, QRectF]:
+        """Its words or name, and its place."""
+        return str(self.item.property("text") or self.item.objectName()), self.place
+
+
+def crossings(parts: Sequence[Part]) -> Iterator[tuple[Part, Part]]:
+    """Every two parts that are in sight and lie on each other."""
+    # From the top down, each is compared only with those that begin above its end.
+    sorted_parts = sorted(((part, part.seen) for part in parts), key=lambda both: both[1].top())
+    edges = [(seen.left(), seen.right(), seen.top(), seen.bottom()) for _, seen in sorted_parts]
+    for one, (left, right, _, bottom) in enumerate(edges):
+        for other in range(one + 1, len(edges)):
+            if edges[other][2] >= bottom:
+                break
+            if edges[other][0] < right and left < edges[other][1]:
+                yield sorted_parts[one][0], sorted_parts[other][0]
+
+
 def assert_all_can_be_read(shown: QQuickWindow, moment: str) -> None:
-    """No text of the window is cut off, reaches out of the window or lies on another one."""
+    """No text of the window is cut off, reaches out of the window, or lies on another one or under a button."""
     inside = QRectF(0, 0, shown.width(), shown.height()).adjusted(*(-HALF_A_PIXEL,) * 2, *(HALF_A_PIXEL,) * 2)
-    places = [(text, painted(text), scrolls(text)) for text in texts(shown.contentItem())]
-    assert places, moment
-    for text, place, pane in places:
-        told = (moment, text.property("text"), place, pane)
-        assert not text.property("truncated"), told
-        if pane is None:
-            assert inside.contains(place), told
+    written = [Part(text, painted(text), scrolls(text)) for text in texts(shown.contentItem())]
+    assert written, moment
+    for part in written:
+        assert not part.item.property("truncated"), (moment, part.told)
+        if part.pane is None:
+            assert inside.contains(part.place), (moment, part.told)
         else:
-            assert inside.left() <= place.left() < place.right() <= inside.right(), told
-            assert inside.contains(pane), told
-    for (one, there, pane), (other, here, other_pane) in combinations(places, 2):
-        # Of what scrolls, only what is in sight can be covered by what stands still.
-        seen = there if pane == other_pane or pane is None else there.intersected(pane)
-        too = here if pane == other_pane or other_pane is None else here.intersected(other_pane)
-        assert not seen.intersects(too), (moment, one.property("text"), other.property("text"))
+            assert inside.left() <= part.place.left() < part.place.right() <= inside.right(), (moment, part.told)
+            assert inside.contains(part.pane), (moment, part.told)
+    buttons = [Part(item, whole(item).adjusted(1, 1, -1, -1), scrolls(item)) for item in controls(shown.contentItem())]
+    for one, other in crossings([*written, *buttons]):
+        apart = not belongs(one.item, other.item) and not belongs(other.item, one.item)
+        assert not apart, (moment, one.told, other.told)
 
 
 def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, Callable[[], None]]]:
@@ -182,7 +304,7 @@ def moments(screens: ScreenSet, study: StudyConfig) -> Iterator[tuple[str, str, 
     yield "result", "result", lambda: screens.result.show(12, 188, 59 * 60_000 + 59_000, 188, found)
     for name, items in pages():
         shown = tuple(worded(item, language) for item in items)
-        yield name, "form", partial(screens.form.show, shown, 10, 12)
+        yield name, "form", partial(screens.form.show, shown, *((1, 1) if name == "about you" else (10, 12)))
         if not any(isinstance(item, TextPage) for item in items):
             names = tuple(item.id for item in items)
             yield f"{name}, missing", "form", partial(screens.form.show_missing, names)
@@ -206,6 +328,72 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
     yield "six ratings", ASKED["social-intelligence"].items[4:10]
 
 
+@pytest.mark.parametrize("size", list(TextSize), ids=lambda size: str(size.value))
+@pytest.mark.parametrize("language", SHIPPED)
+def test_every_screen_fits_in_every_language_and_text_size(
+    kiosk: tuple[Window, StudyConfig], language: str, size: TextSize
+) -> None:
+    # Together, they have every layout once and half of them twice.
+    place = SHIPPED.index(language) + len(SHIPPED) * list(TextSize).index(size)
+    fits(kiosk, language, size, LAYOUTS[place % len(LAYOUTS) :][:1])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("size", list(TextSize), ids=lambda size: str(size.value))
+@pytest.mark.parametrize("language", SHIPPED)
+def test_every_screen_fits_in_every_language_layout_and_text_size(
+    kiosk: tuple[Window, StudyConfig], language: str, size: TextSize
+) -> None:
+    fits(kiosk, language, size, LAYOUTS)
+
+
+def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layouts: tuple[Layout, ...]) -> None:
+    """Assert that every screen fits; the text size changes least often, as it costs most."""
+    window, study = kiosk
+    shown, screens = window.shown, window.screens
+    plan = next(plan for plan in study.plans if plan.language == language)
+    screens.avatar.clear()
+    screens.set_language(plan.catalogue)
+    screens.kiosk.begin(SHIPPED, language, plan.settings.consent)
+    screens.kiosk.offer_back(offered=True)
+    screens.kiosk.set_text_size(size)
+    for layout in layouts:
+        screens.avatar.appear(present=not layout.robot)
+        screens.kiosk.show("attract")
+        shown.resize(layout.width, layout.height)
+        QCoreApplication.processEvents()
+        # Those without the helper come last: its coming and going changes every screen's size, which takes long.
+        every = moments(screens, replace(study, plans=(plan,)))
+        for moment, screen, fill in sorted(every, key=lambda each: each[0] in RATED):
+            if screen in LATER and moment not in LATER[screen]:
+                if screen == "game":
+                    fill()
+                continue
+            fill()
+            screens.avatar.leave(away=moment in RATED)
+            screens.kiosk.show(screen)
+            screens.avatar.say(said(screen, plan))
+            lay_out(shown)
+            told = f"{moment}, {layout}"
+            assert shown.contentItem().width() == layout.width
+            assert_all_can_be_read(shown, told)
+            assert_no_needless_scrolling(shown, told)
+            may_scroll = size is not TextSize.NORMAL or "missing" in moment
+            assert may_scroll or find_item(shown.contentItem(), "more") is None, told
+        screens.avatar.leave(away=False)
+
+
+def said(screen: str, plan: SessionConfig) -> str:
+    """Return the longest that is said on a screen."""
+    catalogue = plan.catalogue
+    given = {"introduction": {"cards": 24, "pairs": 12}, "practice": {}, "thanks": {}}
+    if screen in given:
+        return max(catalogue.wordings(f"{screen}-speech", **given[screen]), key=len)
+    if screen == "result":
+        return max(catalogue.wordings("result-speech-many", moves=188), key=len)
+    return longest_hint(catalogue) if screen == "game" else ""
+
+
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_no_text_is_cut_off_or_covers_another(
     window: Window, study: StudyConfig, qtbot: QtBot, width: int, height: int
@@ -213,10 +401,10 @@ def test_no_text_is_cut_off_or_covers_another(
     shown, screens = window.shown, window.screens
     shown.resize(width, height)
     qtbot.waitUntil(lambda: shown.contentItem().width() == width)
-    screens.avatar.say(longest_hint(study.plans[0].catalogue))
     for moment, screen, fill in moments(screens, study):
         fill()
         screens.kiosk.show(screen)
+        screens.avatar.say(longest_hint(study.plans[0].catalogue) if screen in SPEAKING else "")
         lay_out(shown)
         assert_all_can_be_read(shown, moment)
 

@@ -12,6 +12,9 @@ FocusScope {
     required property url cardBack
     required property url cardShadow
 
+    // Columns are counted from the left in every language, on the board and in what is said.
+    LayoutMirroring.enabled: false
+    LayoutMirroring.childrenInherit: true
     // Where there is far more room beside the cards than above them, the tray stands there.
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0

@@ -16,7 +16,7 @@ FocusScope {
 
     Column {
         anchors.centerIn: parent
-        width: Math.min(1240 * Theme.unit, view.width - 4 * Theme.gap)
+        width: Math.min((view.width > 1600 * Theme.unit ? 1500 : 1240) * Theme.unit, view.width - 4 * Theme.gap)
         spacing: 0.8 * Theme.gap
 
         PlainText {
@@ -68,7 +68,7 @@ FocusScope {
                     color: Theme.white
                     Paragraphs {
                         id: left
-                        x: Theme.gap
+                        x: Theme.across(Theme.gap, width, sheet.width)
                         y: 0.7 * Theme.gap
                         width: sheet.column
                         texts: sheet.texts.slice(0, sheet.first)
@@ -85,7 +85,7 @@ FocusScope {
                     Paragraphs {
                         id: right
                         visible: sheet.halved
-                        x: sheet.column + 3 * Theme.gap
+                        x: Theme.across(sheet.column + 3 * Theme.gap, width, sheet.width)
                         y: 0.7 * Theme.gap
                         width: sheet.column
                         texts: sheet.texts.slice(sheet.first)
@@ -121,7 +121,7 @@ FocusScope {
                 id: agree
                 objectName: "agree"
                 most: answers.width
-                x: answers.width - width
+                x: Theme.across(answers.width - width, width, answers.width)
                 y: 0.3 * Theme.gap
                 quiet: !view.consent.complete
                 words: view.words["consent-agree"]
@@ -131,7 +131,7 @@ FocusScope {
                 id: decline
                 objectName: "decline"
                 most: answers.width
-                x: answers.abreast ? agree.x - width - Theme.gap : answers.width - width
+                x: Theme.across(answers.width - width - (answers.abreast ? agree.width + Theme.gap : 0), width, answers.width)
                 y: answers.abreast ? agree.y : agree.y + agree.height + 0.5 * Theme.gap
                 quiet: true
                 horizontalPadding: 44 * Theme.unit
@@ -142,6 +142,7 @@ FocusScope {
                 id: back
                 objectName: "back"
                 visible: view.kiosk.goesBack
+                x: Theme.across(0, width, answers.width)
                 most: answers.width
                 y: answers.abreast ? agree.y + (agree.height - height) / 2 : decline.y + decline.height + 0.5 * Theme.gap
                 quiet: true

@@ -1,4 +1,5 @@
-// What a visitor can do on every screen: hear the last sentence again, sound, text size, language, stop.
+// What a visitor can do on every screen: hear the last sentence again, sound, text size, language, stop; on the start
+// screen, sound and text size.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -18,18 +19,19 @@ Grid {
     columns: places
     spacing: 10 * Theme.unit
     layoutDirection: Qt.RightToLeft
-    visible: kiosk.inSession
     enabled: kiosk.bare && kiosk.takesInput
 
     CornerButton {
         objectName: "control-stop"
+        visible: corner.kiosk.inSession
         words: corner.words["control-stop"]
         drawing: "M6 6 L18 18 M18 6 L6 18"
         onClicked: corner.kiosk.ask("stop")
     }
     CornerButton {
         objectName: "control-language"
-        visible: corner.kiosk.languages.length > 1
+        // On the start screen, every language has a button of its own.
+        visible: corner.kiosk.inSession && corner.kiosk.languages.length > 1
         words: corner.words["control-language"]
         drawing: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
         onClicked: corner.kiosk.ask("language")

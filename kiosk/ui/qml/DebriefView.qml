@@ -20,7 +20,7 @@ FocusScope {
 
     Column {
         anchors.centerIn: parent
-        width: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
+        width: Math.min((view.width > 1600 * Theme.unit ? 1500 : 1200) * Theme.unit, view.width - 4 * Theme.gap)
         spacing: 1.2 * Theme.gap
 
         PlainText {

@@ -63,7 +63,7 @@ FocusScope {
         Column {
             id: group
             anchors.centerIn: parent
-            width: Math.min((view.alone ? 1100 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
+            width: Math.min((view.alone ? 1100 : view.width > 1600 * Theme.unit ? 1500 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
             // The keys move nothing, unless they would cover what is typed into.
             transform: Translate { y: -view.lift }
             spacing: (view.dense ? 0.8 : view.alone ? 2 : 0.9) * Theme.gap
@@ -89,7 +89,7 @@ FocusScope {
                     width: parent.width
                     room: place.height - (progress.visible ? progress.height + group.spacing : 0) - go.height - group.spacing - 2 * Theme.gap
                     more: view.words["scroll-more"]
-                    spacing: (view.dense ? 10 : 18) * Theme.unit
+                    spacing: (view.dense ? 10 : 14) * Theme.unit
                     Repeater {
                         id: boxes
                         model: view.form.items

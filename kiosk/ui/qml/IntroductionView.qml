@@ -58,7 +58,7 @@ FocusScope {
 
         Item {
             id: board
-            x: view.abreast ? (scene.width - width) / 2 : scene.pad + scene.numbers
+            x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers, width, scene.width)
             y: scene.pad + scene.numbers
             width: 3 * scene.cell
             height: 2 * scene.cell
@@ -101,7 +101,7 @@ FocusScope {
         }
         PlainText {
             id: telling
-            x: view.abreast ? scene.pad : board.x + board.width + 1.2 * Theme.gap
+            x: view.abreast ? scene.pad : Theme.across(scene.pad + scene.numbers + board.width + 1.2 * Theme.gap, width, scene.width)
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
             width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
             text: scene.text

@@ -64,6 +64,7 @@ Window {
     }
     Binding { target: Theme; property: "textSize"; value: root.texts }
     Binding { target: Theme; property: "screenKeys"; value: root.screenKeys }
+    Binding { target: Theme; property: "mirrored"; value: root.kiosk.mirrored }
     Binding { target: Theme; property: "motion"; value: root.motion }
     Binding { target: Theme; property: "highContrast"; value: root.highContrast }
     Binding { target: Theme; property: "accent"; value: root.accent }
@@ -72,6 +73,8 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
+        LayoutMirroring.enabled: Theme.mirrored
+        LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
@@ -206,9 +209,18 @@ Window {
         words: root.kiosk.words
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
         places: !root.wide ? (stage.unwatched ? 5 : 1) : root.whole && root.speaks ? 3 : 5
-        visible: kiosk.inSession && root.replay === null
+        visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
         x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
         y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
+    }
+    // What a passer-by changed on the start screen is not left to the next one.
+    Timer {
+        readonly property bool changed: !root.kiosk.inSession && (root.kiosk.textStep > 0 || !root.kiosk.sound)
+        readonly property int step: root.kiosk.textStep
+        interval: 60000
+        running: changed
+        onStepChanged: if (changed) restart()
+        onTriggered: root.kiosk.forgetChoices()
     }
     Feast {
         id: feast

@@ -13,6 +13,9 @@ QtObject {
     property bool byKeyboard: false
     // When the keys on the screen come: "touch", "always" or "never".
     property string screenKeys: "touch"
+    // Whether the page is read from right to left: then what stands at the left stands at the right.
+    property bool mirrored: false
+    readonly property int ahead: mirrored ? -1 : 1
     // How long anything takes to move, in ms; 0 without motion.
     property int motion: 0
 
@@ -46,6 +49,10 @@ QtObject {
     readonly property real gap: 24 * unit
     readonly property real radius: 22 * unit
 
+    // Where something of this width stands, in so much room, that is so far from the edge where reading begins.
+    function across(from: real, width: real, room: real): real {
+        return mirrored ? room - from - width : from
+    }
     // Nothing is set smaller than 24 of 1080 lines, whatever the factor.
     function size(usual: real): real {
         return Math.max(24, usual * textSize) * unit

@@ -25,7 +25,7 @@ FocusScope {
         objectName: "continue"
         visible: ways.label !== ""
         most: ways.width
-        x: ways.centred ? (ways.width - width) / 2 : ways.width - width
+        x: ways.centred ? (ways.width - width) / 2 : Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
         words: ways.label
         focus: true
@@ -36,6 +36,7 @@ FocusScope {
         objectName: "back"
         visible: ways.kiosk.goesBack
         most: ways.width
+        x: Theme.across(0, width, ways.width)
         y: ways.label === "" ? 0 : ways.beside ? (go.height - height) / 2 : go.height + 0.5 * Theme.gap
         quiet: true
         words: ways.words["control-back"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 
 import segno
 from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
@@ -241,16 +242,20 @@ class DebriefScreen(PageScreen):
     @Property(str, notify=given)
     def picture(self) -> str:
         """Return the QR code as a data address, one pixel for each of its squares, with its white frame."""
-        if not self._code:
-            return ""
-        return str(segno.make(self.payload, micro=False).png_data_uri(scale=1, border=QUIET_MODULES))
+        return _qr_code(self.payload)[0] if self._code else ""
 
     @Property(int, notify=given)
     def squares(self) -> int:
         """How many squares the picture is wide; 0 without one."""
-        if not self._code:
-            return 0
-        return int(segno.make(self.payload, micro=False).symbol_size(border=QUIET_MODULES)[0])
+        return _qr_code(self.payload)[1] if self._code else 0
+
+
+# A visitor's code is drawn once, however often the page asks for it.
+@lru_cache(maxsize=4)
+def _qr_code(payload: str) -> tuple[str, int]:
+    """Return a QR code as a data address, and how many squares it is wide with its frame."""
+    code = segno.make(payload, micro=False)
+    return str(code.png_data_uri(scale=1, border=QUIET_MODULES)), int(code.symbol_size(border=QUIET_MODULES)[0])
 
 
 @QmlElement

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from PySide6.QtCore import Property, QObject, Signal, Slot
+from PySide6.QtCore import Property, QLocale, QObject, Qt, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConsentConfig
-from kiosk.experiment.events import TextSize
+from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
 from kiosk.ui.screens.texts import fixed_texts
 
 QML_IMPORT_NAME = "Recollect"
@@ -246,6 +246,11 @@ class KioskScreen(QObject):
         """Return the code of the language that is shown."""
         return self._language
 
+    @Property(bool, notify=controls)
+    def mirrored(self) -> bool:
+        """Whether the language is written from right to left, and the page laid out so."""
+        return QLocale(self._language).textDirection() == Qt.LayoutDirection.RightToLeft
+
     @Property(list, notify=controls)
     def languages(self) -> list[str]:
         """Return the codes of the languages to choose from; fewer than two are no choice."""
@@ -294,12 +299,33 @@ class KioskScreen(QObject):
     def changeTextSize(self) -> None:  # noqa: N802 - QML's convention
         """Show the next size of texts; after the largest comes the usual one."""
         sizes = list(TextSize)
-        self.text_size_selected.emit(sizes[(sizes.index(self._text_size) + 1) % len(sizes)].value)
+        size = sizes[(sizes.index(self._text_size) + 1) % len(sizes)]
+        if self._consent is not None:
+            self.text_size_selected.emit(size.value)
+        else:
+            self.set_text_size(size)
 
     @Slot()
     def changeSound(self) -> None:  # noqa: N802 - QML's convention
         """Turn sound off, or on again."""
-        self.sound_selected.emit(not self._sound)
+        if self._consent is not None:
+            self.sound_selected.emit(not self._sound)
+        else:
+            self.set_sound(on=not self._sound)
+
+    @Slot()
+    def forgetChoices(self) -> None:  # noqa: N802 - QML's convention
+        """Take back what was chosen on the start screen by a person who has not begun."""
+        if self._consent is None:
+            self.set_text_size(TextSize.NORMAL)
+            self.set_sound(on=True)
+
+    def choices(self, at_ms: int) -> Iterator[TextSizeSelected | SoundSelected]:
+        """Yield what was chosen on the start screen, for the session that begins there."""
+        if self._text_size is not TextSize.NORMAL:
+            yield TextSizeSelected(at_ms=at_ms, size=self._text_size)
+        if not self._sound:
+            yield SoundSelected(at_ms=at_ms, on=False)
 
     def _start_input_guard(self) -> None:
         self._takes_input = False

@@ -55,14 +55,14 @@ Flow {
             font.pixelSize: list.alone ? Theme.body : Theme.reading
             leftPadding: 22 * Theme.unit
             rightPadding: 30 * Theme.unit
-            verticalPadding: (list.dense ? 10 : list.alone ? 16 : 13) * Theme.unit
+            verticalPadding: (list.alone ? 16 : 10) * Theme.unit
             spacing: 16 * Theme.unit
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
             Accessible.name: `${list.label} ${words}`
             onClicked: list.picked(modelData.id)
-            Keys.onLeftPressed: go(index - 1)
-            Keys.onRightPressed: go(index + 1)
+            Keys.onLeftPressed: go(index - Theme.ahead)
+            Keys.onRightPressed: go(index + Theme.ahead)
 
             contentItem: Row {
                 spacing: option.spacing

@@ -86,7 +86,7 @@ Rectangle {
         }
         Loader {
             id: way
-            x: box.alone ? (parent.width - width) / 2 : 0
+            x: box.alone ? (parent.width - width) / 2 : Theme.across(0, width, parent.width)
             active: (box.ways[box.item.kind] ?? null) !== null
             visible: active
             sourceComponent: box.ways[box.item.kind] ?? null

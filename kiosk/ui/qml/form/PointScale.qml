@@ -32,7 +32,7 @@ Item {
 
     PlainText {
         id: lowest
-        x: scale.below ? scale.width / 2 - Theme.gap - width : 0
+        x: Theme.across(scale.below ? scale.width / 2 - Theme.gap - width : 0, width, scale.width)
         y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
         // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
         width: scale.below ? Math.max(scale.span / 2, Math.min(scale.width / 2, 280 * Theme.unit * Theme.textSize)) - Theme.gap : scale.beside
@@ -44,7 +44,7 @@ Item {
     }
     PlainText {
         id: highest
-        x: scale.below ? scale.width / 2 + Theme.gap : scale.width - width
+        x: Theme.across(scale.below ? scale.width / 2 + Theme.gap : scale.width - width, width, scale.width)
         y: scale.below ? lowest.y : (scale.height - height) / 2
         width: lowest.width
         text: scale.rightEnd
@@ -82,8 +82,8 @@ Item {
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${scale.label} ${number}` + (index === 0 ? ` ${scale.leftEnd}` : number === scale.points ? ` ${scale.rightEnd}` : "")
                 onClicked: scale.chosen(number)
-                Keys.onLeftPressed: go(index - 1)
-                Keys.onRightPressed: go(index + 1)
+                Keys.onLeftPressed: go(index - Theme.ahead)
+                Keys.onRightPressed: go(index + Theme.ahead)
 
                 contentItem: Item {
                     Text {

@@ -16,6 +16,10 @@ Rectangle {
     property real wayOn: Infinity
     signal done()
 
+    // A keyboard is not turned round with the page.
+    LayoutMirroring.enabled: false
+    LayoutMirroring.childrenInherit: true
+
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
@@ -30,7 +34,7 @@ Rectangle {
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
-    x: parent.width - width
+    x: Theme.across(parent.width - width, width, parent.width)
     y: numbers ? Math.max(0, Math.min(parent.height - height, wayOn - height - Theme.gap, beside)) : parent.height - height
     radius: numbers ? Theme.radius : 0
     color: Theme.sand

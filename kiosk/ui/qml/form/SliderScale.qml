@@ -32,7 +32,7 @@ Item {
     PlainText {
         id: lower
         y: scale.below ? slider.height + 0.3 * Theme.gap : (scale.height - height) / 2
-        x: scale.below ? slider.x : 0
+        x: Theme.across(scale.below ? slider.x : 0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.beside
         text: scale.leftEnd
         horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
@@ -43,7 +43,7 @@ Item {
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: scale.below ? slider.x + slider.width - width : scale.width - width
+        x: Theme.across(scale.below ? slider.x + slider.width - width : scale.width - width, width, scale.width)
         width: lower.width
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
@@ -80,7 +80,7 @@ Item {
         onPressedChanged: if (!pressed) tell(value)
         Keys.onPressed: event => {
             const ways = {
-                [Qt.Key_Left]: -1, [Qt.Key_Right]: 1, [Qt.Key_Space]: 0, [Qt.Key_Return]: 0, [Qt.Key_Enter]: 0,
+                [Qt.Key_Left]: -Theme.ahead, [Qt.Key_Right]: Theme.ahead, [Qt.Key_Space]: 0, [Qt.Key_Return]: 0, [Qt.Key_Enter]: 0,
                 [Qt.Key_PageDown]: -scale.leap, [Qt.Key_PageUp]: scale.leap,
                 [Qt.Key_Home]: -scale.range, [Qt.Key_End]: scale.range
             }
