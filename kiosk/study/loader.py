@@ -547,7 +547,14 @@ TAP_MS = 2000
 
 def study_warnings(study: StudyConfig) -> tuple[str, ...]:
     """Return a sentence for everything that can be run but may not be meant."""
-    return (*_of_package(study), *_of_texts(study), *_of_translations(study), *_of_names(study), *_of_cards(study))
+    return (
+        *_of_package(study),
+        *_of_texts(study),
+        *_of_translations(study),
+        *_of_names(study),
+        *_of_cards(study),
+        *_of_keys(study),
+    )
 
 
 def _of_package(study: StudyConfig) -> Iterator[str]:
@@ -675,6 +682,40 @@ def _of_cards(study: StudyConfig) -> Iterator[str]:
                     f"the deck {deck!r} has cards without a name in {plan.language!r}: {', '.join(unnamed)}; "
                     f"until they have one, their files' names are said. {_where_to_write(folder, unnamed, plan)}"
                 )
+
+
+def _of_keys(study: StudyConfig) -> Iterator[str]:
+    """Yield the letters of a language that nobody can type on the screen, where something is to be typed."""
+    if study.settings.screen.keyboard == "never":
+        return
+    for plan in study.plans:
+        items = [item for asked in (plan.about_you, *plan.questionnaires) for item in asked.items]
+        if not any(isinstance(item, ShortText) for item in items):
+            continue
+        rows = plan.catalogue.key_rows
+        missing = rows.missing(_words_of(plan, items))
+        if missing:
+            more = f" and {len(missing) - _KEYS_TOLD} more" if len(missing) > _KEYS_TOLD else ""
+            yield (
+                f"the keys on the screen lack letters of the words in {plan.language!r}: "
+                f"{' '.join(missing[:_KEYS_TOLD])}{more}; without a keyboard nobody can type them. Give the language "
+                f"a message 'keyboard-rows': one row of letters a line"
+            )
+
+
+_KEYS_TOLD = 20
+"""Of the letters without a key, how many are named."""
+
+
+def _words_of(plan: SessionConfig, items: Iterable[Item]) -> Iterator[str]:
+    """Yield what visitors read in a language: the information sheet, the questions, and the names of the cards."""
+    sheet = plan.information
+    for page in (sheet.about, sheet.consent, sheet.debrief):
+        yield page.title
+        yield from page.paragraphs
+    yield from (purpose.text for purpose in sheet.consent.purposes)
+    yield from (in_language(words, plan.language) for item in items for words in item.texts())
+    yield from (plan.catalogue.card(card)[CARD] for card in plan.deck if plan.catalogue.names(card))
 
 
 def _where_to_write(folder: Path, unnamed: Sequence[str], plan: SessionConfig) -> str:
