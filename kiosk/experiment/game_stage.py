@@ -433,7 +433,7 @@ class PracticeStage(GameStage):
             self._speaker.say("practice-speech", outcome)
 
     def show_again(self, outcome: OutcomeBuilder) -> None:
-        """Say the hint that stands, or what there is to do if that is still to be read, in the language of now."""
+        """Say the hint that stands, or what there is to do, in the language of now."""
         if self._given is not None:
             super().show_again(outcome)
         elif self.game.flips == 0:

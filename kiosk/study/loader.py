@@ -685,7 +685,7 @@ def _of_cards(study: StudyConfig) -> Iterator[str]:
 
 
 def _of_keys(study: StudyConfig) -> Iterator[str]:
-    """Yield the letters of a language that nobody can type on the screen, where something is to be typed."""
+    """Yield the letters of a language that no key on the screen types, where something is to be typed."""
     if study.settings.screen.keyboard == "never":
         return
     for plan in study.plans:
@@ -698,8 +698,8 @@ def _of_keys(study: StudyConfig) -> Iterator[str]:
             more = f" and {len(missing) - _KEYS_TOLD} more" if len(missing) > _KEYS_TOLD else ""
             yield (
                 f"the keys on the screen lack letters of the words in {plan.language!r}: "
-                f"{' '.join(missing[:_KEYS_TOLD])}{more}; without a keyboard nobody can type them. Give the language "
-                f"a message 'keyboard-rows': one row of letters a line"
+                f"{' '.join(missing[:_KEYS_TOLD])}{more}; visitors without a keyboard cannot type them. Give "
+                f"the language a message 'keyboard-rows': one row of letters a line"
             )
 
 

@@ -190,7 +190,8 @@ Window {
         id: helper
         readonly property bool below: !root.wide || root.whole
         x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
-        readonly property real above: !below && corner.visible ? corner.height + 0.7 * Theme.gap : 0
+        // A whole number: edges that move by fractions do not come back to the last bit.
+        readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         y: below ? stage.height : above
         width: below ? root.width * 0.76 : root.width - stage.width - Theme.gap
         height: below ? root.room - stage.height : root.room - above
