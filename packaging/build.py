@@ -23,8 +23,8 @@ DATA = {"assets": "kiosk/assets", "policies": "kiosk/policies", "kiosk/ui/qml": 
 """Folders of the checkout, and where kiosk/config.py looks for them in a build."""
 HIDDEN = ("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
 """What is imported by a name that is only known at run time."""
-ENGINES = ("py_nanotts", "hibari")
-"""Speech engines that bring models as data; which of them are installed is in the build."""
+ENGINES = {"py_nanotts": "py-nanotts", "hibari": "hibari-tts"}
+"""Speech engines that bring models as data, and their packages; which of them are installed is in the build."""
 EXCLUDED = (
     *("numba", "llvmlite", "matplotlib", "scipy", "pandas", "gymnasium", "PIL"),
     # readline is under the GPL, and a kiosk's terminal takes no typing.
@@ -79,6 +79,8 @@ def folder() -> str:
         f"--add-data={commit}{os.pathsep}kiosk",
         *(f"--hidden-import={name}" for name in (*HIDDEN, *engines)),
         *(f"--collect-data={name}" for name in engines),
+        # The record tells their versions.
+        *(f"--copy-metadata={package}" for package in ("pyttsx3", *(ENGINES[name] for name in engines))),
         *(f"--exclude-module={name}" for name in EXCLUDED),
         # Not --strip: numpy's linear algebra does not survive it.
         *(["--hide-console", "hide-early"] if os.name == "nt" else []),

@@ -53,6 +53,10 @@ _COMMANDS = {
         "kiosk.cli.sessions:sessions_command",
         "List the stored sessions: when, in which condition, how and where they ended.",
     ),
+    "day": (
+        "kiosk.cli.day:day_command",
+        "Write one page about a day: time lines, dropouts, faults, and what to look at tomorrow.",
+    ),
     "events": (
         "kiosk.cli.sessions:events_command",
         "List what happened in a SESSION, in the order in which it was written.",

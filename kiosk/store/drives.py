@@ -1,4 +1,4 @@
-"""Copies that are carried away: find a stick, copy to it, read the copy back, and encrypt it for a lab's public key."""
+"""Carry copies away: find a stick, copy to it, read the copy back, and encrypt it for a lab."""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from datetime import datetime
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -163,10 +164,18 @@ class RecordSource:
 
     def __iter__(self) -> Iterator[SessionRecord]:
         """Every session in the order in which they began, or of shuffled names; one in memory at a time."""
-        for number in self._in_order():
-            (row,) = self._rows(f"AND session.id = {number}")
-            records = tuple(_told(self.archive.records(row["id"])))
-            yield SessionRecord(row, self._status(records), self._plan(row), records, self.secret)
+        yield from map(self._record, self._in_order())
+
+    def begun_between(self, since: datetime, until: datetime) -> Iterator[SessionRecord]:
+        """Every session that began at or after one moment and before the other, in the order in which they began."""
+        rows = self.connection.execute(f"SELECT id, started_at FROM session WHERE {self._wanted} ORDER BY id")  # noqa: S608 - numbers
+        found = [number for number, began in rows if since <= datetime.fromisoformat(began) < until]
+        yield from map(self._record, found)
+
+    def _record(self, number: int) -> SessionRecord:
+        (row,) = self._rows(f"AND session.id = {number}")
+        records = tuple(_told(self.archive.records(row["id"])))
+        return SessionRecord(row, self._status(records), self._plan(row), records, self.secret)
 
     def _in_order(self) -> list[int]:
         cursor = self.connection.execute(

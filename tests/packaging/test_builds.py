@@ -106,6 +106,7 @@ def test_the_voice_of_a_build_says_a_sentence_to_its_end(
     events = [json.loads(line) for line in done.stdout.splitlines()]
     assert [event["event"] for event in events] == ["ready", "started", "finished"], done.stderr
     assert events[1]["by"]["engine"] == engine
+    assert events[1]["by"]["engine_version"] != "unknown"
 
 
 def test_a_command_that_needs_the_full_install_says_so_in_a_sentence(folder: Path, tmp_path: Path) -> None:
