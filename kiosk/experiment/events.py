@@ -135,6 +135,54 @@ class EmbodimentName:
 EmbodimentName.AVATAR = EmbodimentName(EmbodimentKind.AVATAR)
 
 
+class FallbackReason(Enum):
+    """Why another body than the one that was meant helps when a session begins."""
+
+    CHOSEN = "chosen"
+    """The experimenter chose the avatar."""
+    SOUGHT = "sought"
+    """The robot was still being looked for."""
+    FAILED = "failed"
+    """The robot was not found, or had failed."""
+
+
+class InputDevice(Enum):
+    """What a visitor used."""
+
+    MOUSE = "mouse"
+    TOUCH = "touch"
+    PEN = "pen"
+    KEYBOARD = "keyboard"
+
+
+HOURS_IN_A_BAND = 4
+
+
+@dataclass(frozen=True)
+class SessionSetup:
+    """What a session began with, besides what it follows.
+
+    ``intended`` is the body that was meant. If another one helps, ``fallback`` says why, and ``detail`` what the
+    robot's driver said. Sizes of the screen and the window are in pixels of the screen, ``screen_scale`` is how many
+    of them the system counts as one, and millimetres are 0 where the screen does not tell them. ``hour_band`` is the
+    hour of the day, local time, by four hours: 0 for 0 to 4 o'clock. ``visitors_before`` counts the stored sessions of
+    the same kind and site that had begun on that day. Both are None where time is not that of a clock.
+    """
+
+    intended: EmbodimentName
+    fallback: FallbackReason | None
+    detail: str
+    screen_width: int
+    screen_height: int
+    screen_scale: float
+    screen_width_mm: int
+    screen_height_mm: int
+    window_width: int
+    window_height: int
+    hour_band: int | None = None
+    visitors_before: int | None = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Event:
     """Anything that happened, ``at_ms`` milliseconds after the session's first event."""
@@ -152,9 +200,10 @@ class WorldEvent(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class SessionStarted(WorldEvent):
-    """The visitor began; the session exists from here."""
+    """The visitor began; the session exists from here. ``setup`` is what it began with, where that was noted."""
 
     by_visitor = True
+    setup: SessionSetup | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -249,10 +298,11 @@ class PracticeSkipped(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class CardSelected(WorldEvent):
-    """The visitor tapped a card, whether or not it could be turned."""
+    """The visitor tapped a card, whether or not it could be turned. ``device`` is what with, where that is known."""
 
     by_visitor = True
     position: Position
+    device: InputDevice | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -604,7 +654,7 @@ _NOT_APPLICABLE_RECORD = {NOT_APPLICABLE.value: True}
 
 
 def _response(value: object, _: object) -> Response | None:
-    """Return a response as it was written: a number, a text, a list of options, that it does not apply, or none."""
+    """Return a response as it was written; raises ValueError for anything else."""
     if value == _NOT_APPLICABLE_RECORD:
         return NOT_APPLICABLE
     match value:

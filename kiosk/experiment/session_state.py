@@ -16,6 +16,7 @@ from kiosk.experiment.events import (
     BoardDealt,
     BoardUnlocked,
     CardFlipped,
+    CardSelected,
     ConsentGiven,
     EmbodimentChanged,
     EmbodimentName,
@@ -23,6 +24,7 @@ from kiosk.experiment.events import (
     GameFinished,
     HintGiven,
     HintHighlighted,
+    InputDevice,
     LanguageSelected,
     PauseEnded,
     PauseRequested,
@@ -36,6 +38,8 @@ from kiosk.experiment.events import (
     SentenceRequested,
     SessionEnded,
     SessionResumed,
+    SessionSetup,
+    SessionStarted,
     SpeechCutShort,
     SpeechFailed,
     SpeechFinished,
@@ -83,12 +87,14 @@ class BoardFlip:
     """A flip; times in ms without pauses.
 
     ``decision_ms`` is how long the visitor took for it while the board could be tapped. ``exposure_ms`` is how long its
-    card lay open, until it was turned back or its pair was found; None if neither came.
+    card lay open, until it was turned back or its pair was found; None if neither came. ``device`` is what the visitor
+    tapped it with; None if that is not known.
     """
 
     event: CardFlipped
     decision_ms: int
     exposure_ms: int | None = None
+    device: InputDevice | None = None
 
 
 @dataclass(frozen=True)
@@ -257,6 +263,7 @@ class SessionState:
     embodiment_changes: tuple[EmbodimentChanged, ...]
     resumptions: tuple[SessionResumed, ...]
     status: Status | None
+    setup: SessionSetup | None = None
 
     @classmethod
     def from_events(cls, events: Iterable[Event], embodiment: EmbodimentName | None = None) -> SessionState:
@@ -286,12 +293,19 @@ class SessionState:
             embodiment_changes=tuple(course.embodiment_changes),
             resumptions=tuple(course.resumptions),
             status=course.status,
+            setup=course.setup,
         )
 
     @property
     def last_stage(self) -> Stage | None:
         """The stage that it is in, or was in last before its end; None if it never came to one."""
         return next((visit.stage for visit in reversed(self.stages) if visit.stage is not Stage.OVER), None)
+
+    @property
+    def input_devices(self) -> frozenset[InputDevice]:
+        """What cards were turned with, on any board."""
+        flips = (flip for dealt in self.boards for flip in dealt.flips.values())
+        return frozenset(flip.device for flip in flips if flip.device is not None)
 
     @property
     def game(self) -> DealtBoard | None:
@@ -356,11 +370,14 @@ class _Course:
         self.practice_end: PracticeEnd | None = None
         self.game_completed = False
         self.status: Status | None = None
+        self.setup: SessionSetup | None = None
 
     def take(self, event: Event) -> None:
         self.status = event.status if isinstance(event, SessionEnded) else None
         self._pause(event)
         match event:
+            case SessionStarted(setup=setup):
+                self.setup = setup
             case StageEntered(stage=stage, at_ms=at_ms):
                 self.stages.append(StageVisit(stage, at_ms))
             case ConsentGiven() if self.consent is None:
@@ -393,8 +410,12 @@ class _Boards:
         self._decisions: dict[int, AssistanceDecided] = {}
         self._remarks: dict[int, BoardRemark] = {}
         self._open_since = 0
+        self._device: InputDevice | None = None
+        """What the last card was tapped with; a card is turned by the tap before."""
 
     def take(self, event: Event, stage: Stage, pauses: Iterable[Interval]) -> None:
+        if isinstance(event, CardSelected):
+            self._device = event.device
         match event:
             case BoardDealt():
                 self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
@@ -402,10 +423,8 @@ class _Boards:
                 self.dealt.append(
                     DealtBoard(number, stage, event, self._flips, self._hints, self._decisions, self._remarks)
                 )
-            case CardFlipped(number=number, at_ms=at_ms):
-                self._flips[number] = BoardFlip(event, elapsed_ms(self._open_since, at_ms, pauses))
-                if event.matched:
-                    self._cover(at_ms, pauses)
+            case CardFlipped():
+                self._flip(event, pauses)
             case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
                 self._cover(at_ms, pauses)
             case AssistanceDecided(flip=flip):
@@ -415,6 +434,12 @@ class _Boards:
         match event:
             case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
                 self._open_since = event.at_ms
+
+    def _flip(self, event: CardFlipped, pauses: Iterable[Interval]) -> None:
+        decision_ms = elapsed_ms(self._open_since, event.at_ms, pauses)
+        self._flips[event.number] = BoardFlip(event, decision_ms, device=self._device)
+        if event.matched:
+            self._cover(event.at_ms, pauses)
 
     def _cover(self, at_ms: int, pauses: Iterable[Interval]) -> None:
         """Note how long the cards of the last move lay open."""

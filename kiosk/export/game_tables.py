@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
-from kiosk.experiment.events import AssistanceDecided
+from kiosk.experiment.events import AssistanceDecided, InputDevice
 from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
     ACTION,
@@ -137,6 +137,15 @@ _FLIP_COLUMNS: tuple[Column[_Flip], ...] = make_columns(
             empty="the board ended before",
         ),
         lambda row: row.flip.exposure_ms,
+    ),
+    (
+        Variable(
+            "input_device",
+            "What the visitor tapped the card with.",
+            levels=enum_levels(InputDevice),
+            empty="it was not noted",
+        ),
+        lambda row: row.flip.device.value if row.flip.device else None,
     ),
     (
         Variable("hinted", "Whether a hint had been given for this flip.", ColumnKind.TRUTH),

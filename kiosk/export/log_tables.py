@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from kiosk.experiment.events import Stage
+from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
     AT,
@@ -16,6 +18,7 @@ from kiosk.export.columns import (
     SENTENCE,
     STAGE,
     UTTERANCE,
+    Cell,
     Column,
     ColumnKind,
     ExportOption,
@@ -25,8 +28,8 @@ from kiosk.export.columns import (
     enum_levels,
     make_columns,
 )
-from kiosk.export.records import StudyMaterials, safe_fields
-from kiosk.store.session_records import EventRecord, SessionRecord
+from kiosk.export.records import TELLS_THE_ORDER, StudyMaterials, safe_fields
+from kiosk.store.session_records import Deviation, EventRecord, SessionRecord
 
 FIELDS = "fields"
 
@@ -80,6 +83,8 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
 
     def fields(row: _Logged) -> dict[str, object]:
         given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
+        if study.shuffled and isinstance(given.get("setup"), dict):
+            given["setup"] = {name: told for name, told in given["setup"].items() if name not in TELLS_THE_ORDER}
         item, value = given.get("item"), given.get("value")
         if ages is not None and isinstance(item, str) and isinstance(value, int | str):
             given["value"] = ages.applied(item, value, row.kept)
@@ -265,3 +270,107 @@ SENTENCES = Table(
     _SENTENCE_COLUMNS,
     _attempts,
 )
+
+
+@dataclass(frozen=True)
+class _Deviated:
+    kept: SessionRecord
+    number: int
+    what: Deviation
+
+    @property
+    def stage(self) -> Stage | None:
+        """The stage that the session was in; None if it had not begun."""
+        if self.what.at_ms is None:
+            return None
+        before = [record.stage for record in self.kept.records if record.at_ms <= self.what.at_ms]
+        return before[-1] if before else Stage.ATTRACT
+
+    @property
+    def reason(self) -> str | None:
+        given = self.what.payload.get("reason")
+        return None if given is None else DeviationReason.without_words(str(given))
+
+
+_DETAILS = ("condition", "embodiment", "language", "volume", "muted", "level", "is_heard")
+"""What of a deviation is one of a few values; the rest may hold free text, or tell another session."""
+
+
+def deviations_table(extras: frozenset[ExportOption]) -> Table[SessionRecord, _Deviated]:
+    """Return the table of deviations; what an experimenter typed and messages only if texts are asked for."""
+    texts: tuple[tuple[Variable, Callable[[_Deviated], Cell]], ...] = ()
+    if ExportOption.TEXTS in extras:
+        told = ("reason", "why", "message")
+        texts = (
+            (
+                Variable(
+                    "words",
+                    "What the experimenter typed as a reason, or what a failure said.",
+                    empty="there were no words",
+                ),
+                lambda row: next((str(row.what.payload[name]) for name in told if name in row.what.payload), None),
+            ),
+        )
+    columns: tuple[Column[_Deviated], ...] = make_columns(
+        (PARTICIPANT, lambda row: row.kept.name),
+        (
+            Variable(
+                "deviation", "The number of the deviation in the session, in the order of time.", ColumnKind.WHOLE
+            ),
+            lambda row: row.number,
+        ),
+        (
+            Variable(
+                "what_deviated",
+                "What was done, or happened, at the booth.",
+                levels=enum_levels(sorted(DEVIATIONS, key=lambda each: each.value)),
+            ),
+            lambda row: row.what.kind.value,
+        ),
+        (
+            Variable(
+                "deviation_ms",
+                "When, from the session's first event.",
+                ColumnKind.WHOLE,
+                "ms",
+                empty="it was before the session and after the one before, and can concern this one",
+            ),
+            lambda row: row.what.at_ms,
+        ),
+        (
+            Variable(
+                "deviation_stage",
+                "The stage that the session was in.",
+                levels=enum_levels(Stage),
+                empty="it was before the session",
+            ),
+            lambda row: row.stage.value if row.stage else None,
+        ),
+        (
+            Variable(
+                "deviation_reason",
+                "The reason that the experimenter chose.",
+                levels=enum_levels(DeviationReason),
+                empty="none was asked for",
+            ),
+            lambda row: row.reason,
+        ),
+        (
+            Variable(
+                "deviation_detail",
+                "What was chosen or reported, such as a condition, as one JSON object.",
+                ColumnKind.JSON,
+                empty="there is nothing to tell",
+            ),
+            lambda row: {name: row.what.payload[name] for name in _DETAILS if name in row.what.payload} or None,
+        ),
+        *texts,
+    )
+    return Table(
+        "deviations",
+        "One row for every deviation at the booth, with the session that it concerns: the one that was under way, or "
+        "else the next. The clock of the kiosk tells which. There are none where data of several sites were merged.",
+        (PARTICIPANT.name, "deviation"),
+        columns,
+        lambda kept: [_Deviated(kept, number, what) for number, what in enumerate(kept.deviations, 1)],
+    )

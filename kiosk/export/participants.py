@@ -9,7 +9,17 @@ from dataclasses import dataclass, field, fields
 from enum import Enum
 from functools import cached_property, partial
 
-from kiosk.experiment.events import EmbodimentName, PracticeEnd, Stage, Status
+from kiosk.experiment.events import (
+    HOURS_IN_A_BAND,
+    EmbodimentKind,
+    EmbodimentName,
+    FallbackReason,
+    InputDevice,
+    PracticeEnd,
+    SessionSetup,
+    Stage,
+    Status,
+)
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.items import (
     Question,
@@ -44,7 +54,7 @@ from kiosk.export.columns import (
     make_columns,
     who_sat_there,
 )
-from kiosk.export.records import AgeBands, Asked, Scale, StudyMaterials
+from kiosk.export.records import TELLS_THE_ORDER, AgeBands, Asked, Scale, StudyMaterials
 from kiosk.export.responses import NOT_APPLICABLE, scores_table, session_questionnaires
 from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
 from kiosk.store.session_records import SessionRecord
@@ -361,7 +371,7 @@ def not_applicable_variable(name: str, of: str) -> Variable:
 
 
 def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption]) -> bool:
-    """Whether an item asks for an age that is told in bands."""
+    """Whether an item asks for an age that is exported in bands."""
     return ExportOption.AGES not in extras and item in study.age_bands.items
 
 
@@ -555,15 +565,15 @@ def renamed(study: StudyMaterials, elsewhere: frozenset[str]) -> dict[str, str]:
     return {item: answer.variable.name for item, (answer, *_) in columns_of.items() if item != answer.variable.name}
 
 
-TELLS_THE_ORDER = frozenset({"allocation_slot", "allocation_block", "visitors_before", "started_at"})
-"""The columns that are left out where nothing may tell the order in which people came."""
-
 _Columns = tuple[Column[Person], ...]
 
 
 def _own(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[_Columns, _Columns]:
     """Return the columns that every study has, before and after those that it declares itself."""
-    return (*_who(extras), *_language_and_condition(study), *_WHAT_CAME_OF_IT), (*MEASURES, *_what_it_followed(study))
+    return (*_who(extras), *_language_and_condition(study), *_WHAT_CAME_OF_IT, *_SETUP), (
+        *MEASURES,
+        *_what_it_followed(study),
+    )
 
 
 def _taken(own: _Columns, elsewhere: frozenset[str]) -> set[str]:
@@ -594,6 +604,93 @@ def _language_and_condition(study: StudyMaterials) -> tuple[Column[Person], ...]
         (Variable("language", "The language of the session, by its code."), lambda row: row.kept.row["language"]),
         (condition_variable(plan.settings for plan in study.plans), lambda row: row.kept.row["condition"]),
     )
+
+
+_NOT_NOTED = "it was not noted"
+
+
+def _of_setup(
+    variable: Variable, of: Callable[[SessionSetup], Cell]
+) -> tuple[tuple[Variable, Callable[[Person], Cell]], ...]:
+    """Return a column about what a session began with."""
+    return ((variable, lambda row: None if row.state.setup is None else of(row.state.setup)),)
+
+
+def _pixels(name: str, what: str) -> Variable:
+    return Variable(name, f"The {what} of the screen.", ColumnKind.WHOLE, "px", empty=_NOT_NOTED)
+
+
+def _hours(band: int) -> str:
+    first = band * HOURS_IN_A_BAND
+    return f"{first:02} to {first + HOURS_IN_A_BAND:02} o'clock"
+
+
+_SETUP: tuple[Column[Person], ...] = make_columns(
+    *_of_setup(
+        Variable(
+            "hour_band",
+            "The hour of the day at which the session began, local time, in bands of four hours.",
+            levels=tuple(Level(_hours(band)) for band in range(24 // HOURS_IN_A_BAND)),
+            empty="it was not noted, or a rehearsal had no time of day",
+        ),
+        lambda setup: None if setup.hour_band is None else _hours(setup.hour_band),
+    ),
+    *_of_setup(
+        Variable(
+            "visitors_before",
+            "How many stored sessions of the same kind and site had begun before on the same day, local time.",
+            ColumnKind.WHOLE,
+            empty="it was not noted, or a rehearsal had no time of day",
+        ),
+        lambda setup: setup.visitors_before,
+    ),
+    *_of_setup(_pixels("screen_width", "width"), lambda setup: setup.screen_width),
+    *_of_setup(_pixels("screen_height", "height"), lambda setup: setup.screen_height),
+    *_of_setup(
+        Variable(
+            "screen_scale",
+            "How many pixels of the screen the system counts as one.",
+            ColumnKind.NUMBER,
+            empty=_NOT_NOTED,
+        ),
+        lambda setup: setup.screen_scale,
+    ),
+    *(
+        each
+        for name, what, of in (
+            ("screen_width_mm", "width", lambda setup: setup.screen_width_mm or None),
+            ("screen_height_mm", "height", lambda setup: setup.screen_height_mm or None),
+        )
+        for each in _of_setup(
+            Variable(
+                name,
+                f"The {what} of the screen, as it tells the system; some screens tell something else.",
+                ColumnKind.WHOLE,
+                "mm",
+                empty="the screen does not tell it, or it was not noted",
+            ),
+            of,
+        )
+    ),
+    *_of_setup(
+        Variable("window_width", "The width of the kiosk's window.", ColumnKind.WHOLE, "px", empty=_NOT_NOTED),
+        lambda setup: setup.window_width,
+    ),
+    *_of_setup(
+        Variable("window_height", "The height of the kiosk's window.", ColumnKind.WHOLE, "px", empty=_NOT_NOTED),
+        lambda setup: setup.window_height,
+    ),
+    (
+        Variable(
+            "input_devices",
+            "What the visitor turned cards with, in the practice and in the game.",
+            ColumnKind.NAMES,
+            levels=enum_levels(InputDevice),
+            empty="no card was turned, or it was not noted",
+        ),
+        lambda row: tuple(sorted(device.value for device in row.state.input_devices)) or None,
+    ),
+)
 
 
 _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
@@ -648,6 +745,29 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
     ),
     (EMBODIMENT, lambda row: row.embodiment.kind.value),
     (ROBOT, lambda row: row.embodiment.driver or None),
+    *_of_setup(
+        Variable(
+            "intended_embodiment",
+            "What was meant to help with voice and face when the session began: the robot, if the kiosk had one.",
+            levels=enum_levels(EmbodimentKind),
+            empty=_NOT_NOTED,
+        ),
+        lambda setup: setup.intended.kind.value,
+    ),
+    *_of_setup(
+        Variable(
+            "embodiment_fallback",
+            "Why the avatar helped from the start where a robot was meant to.",
+            levels=enum_levels(
+                FallbackReason,
+                chosen="the experimenter chose the avatar",
+                sought="the robot was still being looked for",
+                failed="the robot was not found, or had failed",
+            ),
+            empty="what was meant to help did, or it was not noted",
+        ),
+        lambda setup: setup.fallback.value if setup.fallback else None,
+    ),
     (
         Variable(
             "embodiment_changes",

@@ -14,6 +14,7 @@ from kiosk.experiment.events import (
     EmbodimentChanged,
     ResponseGiven,
     RobotDisconnected,
+    SessionStarted,
     SpeechFailed,
     SpeechStarted,
 )
@@ -68,6 +69,10 @@ class Scale:
     def changed(self) -> bool:
         """Whether its sum does not mean the same in all of them."""
         return len({(form.questionnaire.needed(self.name), summed(items)) for form, items in self.forms}) > 1
+
+
+TELLS_THE_ORDER = frozenset({"allocation_slot", "allocation_block", "visitors_before", "started_at"})
+"""The columns, and fields of events, that are left out where nothing may tell the order in which people came."""
 
 
 @dataclass(frozen=True)
@@ -267,7 +272,11 @@ def safe_fields(record: EventRecord, kept: SessionRecord) -> dict[str, Any]:
     free = FREE.get(record.type, frozenset())
     if isinstance(record.event, ResponseGiven) and is_free_text(record.event, kept):
         free = frozenset({"value"})
-    return {name: value for name, value in record.fields.items() if name not in free}
+    told = {name: value for name, value in record.fields.items() if name not in free}
+    if isinstance(record.event, SessionStarted) and record.event.setup is not None:
+        # What a driver says of its robot may hold an address.
+        told["setup"] = {name: value for name, value in told["setup"].items() if name != "detail"}
+    return told
 
 
 def is_free_text(answer: ResponseGiven, kept: SessionRecord) -> bool:

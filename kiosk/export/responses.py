@@ -83,7 +83,7 @@ def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tab
     with_texts = ExportOption.TEXTS in extras
     typed = "" if with_texts else "; or it was typed, and such texts are left out"
     ages = None if ExportOption.AGES in extras else study.age_bands
-    aged = "" if ages is None else ", or it is an age, which is told in a band"
+    aged = "" if ages is None else ", or it is an age in a band"
 
     def value(row: _Answer) -> Cell:
         if isinstance(row.item, ShortText) and not with_texts:

@@ -7,7 +7,7 @@ from typing import Any
 
 from kiosk.export.columns import ExportOption, Table, TableShape
 from kiosk.export.game_tables import CARDS, DECISIONS, FLIPS, HINTS
-from kiosk.export.log_tables import SENTENCES, events_table
+from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
 from kiosk.export.participants import ParticipantFlow, flow_table, participants_table, renamed
 from kiosk.export.records import StudyMaterials
 from kiosk.export.responses import SCORES, answers_table
@@ -46,7 +46,17 @@ def renamed_items(study: StudyMaterials) -> dict[str, str]:
 
 
 def _others(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any], ...]:
-    return FLIPS, HINTS, DECISIONS, CARDS, answers_table(study, extras), SCORES, SENTENCES, events_table(study, extras)
+    return (
+        FLIPS,
+        HINTS,
+        DECISIONS,
+        CARDS,
+        answers_table(study, extras),
+        SCORES,
+        SENTENCES,
+        deviations_table(extras),
+        events_table(study, extras),
+    )
 
 
 def _elsewhere(study: StudyMaterials, extras: frozenset[ExportOption]) -> frozenset[str]:

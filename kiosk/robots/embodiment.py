@@ -17,7 +17,7 @@ from typing import ClassVar, Protocol
 from kiosk.config import ConfigModel
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.events import EmbodimentName, FallbackReason
 from kiosk.experiment.items import can_be_kept
 from kiosk.language_codes import distance
 
@@ -706,6 +706,20 @@ class EmbodimentSelector:
     def health(self) -> Mapping[EmbodimentName, Health]:
         """How every body is, in words for the experimenter."""
         return {body.name: body.health for body in (self._robot, self._avatar) if body is not None}
+
+    @property
+    def intended(self) -> EmbodimentName:
+        """The body that is meant to help: the robot, if the kiosk has one."""
+        return self._robot.name if self._robot is not None else EmbodimentName.AVATAR
+
+    @property
+    def fallback(self) -> tuple[FallbackReason, str] | None:
+        """Why the robot does not help now, with what its driver says; None if it does, or there is none."""
+        if self._robot is None or self._current is self._robot:
+            return None
+        if self._prefers_avatar:
+            return FallbackReason.CHOSEN, ""
+        return (FallbackReason.SOUGHT if self._unsettled else FallbackReason.FAILED), self._robot.health.message
 
     @property
     def robot_spoken_by(self) -> Mapping[str, str]:

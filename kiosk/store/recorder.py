@@ -207,6 +207,16 @@ class Recorder:
         with self._transaction("DEFERRED"):
             return self._lists(kind=kind).next_slot()
 
+    def count_sessions_since(self, moment: datetime, *, kind: SessionKind) -> int:
+        """Count the site's stored sessions of a kind that began at this moment, which has a zone, or later."""
+        since = moment.astimezone(UTC).isoformat(timespec="milliseconds")
+        with self._transaction("DEFERRED"):
+            number: int = self._connection.execute(
+                "SELECT count(*) FROM session WHERE site = ? AND kind = ? AND started_at >= ?",
+                (self.site, int(kind), since),
+            ).fetchone()[0]
+        return number
+
     # Sessions
 
     def begin(self, provenance: Provenance, events: Sequence[Event]) -> Participant:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import json
 import secrets
 import sqlite3
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -21,6 +22,7 @@ import sqlite_utils
 
 from kiosk import UserInputError
 from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_record
+from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
@@ -49,6 +51,18 @@ class EventRecord:
 
 
 @dataclass(frozen=True)
+class Deviation:
+    """Something out of the ordinary that was done or happened at the booth, and the session that it concerns.
+
+    ``at_ms`` is when, from the session's first event; None if it was before the session and after the last one.
+    """
+
+    kind: AuditEvent
+    payload: Mapping[str, Any]
+    at_ms: int | None
+
+
+@dataclass(frozen=True)
 class SessionRecord:
     """One stored session; ``status`` is None while it is under way, ``plan`` if it cannot be read any more."""
 
@@ -58,6 +72,7 @@ class SessionRecord:
     records: tuple[EventRecord, ...]
     secret: bytes | None = None
     """What participants' names are shuffled with; None if they count in the order in which people came."""
+    deviations: tuple[Deviation, ...] = ()
 
     @property
     def id(self) -> int:
@@ -98,6 +113,14 @@ class SessionRecord:
         return offered is not None and PUBLISHING not in {purpose.id for purpose in offered}
 
 
+def _concerned(spans: Sequence[tuple[int, int, int]], wall_ms: int) -> tuple[int | None, int | None]:
+    """Return the session that was under way at a moment, and how long; else the next one, and None."""
+    during = next((span for span in reversed(spans) if span[1] <= wall_ms <= span[2]), None)
+    if during is not None:
+        return during[0], wall_ms - during[1]
+    return next((session for session, began, _ in spans if began > wall_ms), None), None
+
+
 def _name(row: Mapping[str, Any], secret: bytes | None) -> str:
     if row["number"] is None and secret is None:
         return f"session-{row['id']:0{PADDED}}"
@@ -119,8 +142,8 @@ _SHUFFLED = 12
 def shuffling_secret(folder: Path) -> bytes:
     """Return the secret of a data folder that participants' names are shuffled with; make it if there is none.
 
-    It stays in the folder, readable by its owner, so that every export has the same names and nobody else can work out
-    who is who. Raises UserInputError if it cannot be read or written.
+    It stays in the folder, readable by its owner, so that every export has the same names, which cannot be
+    traced back without it. Raises UserInputError if it cannot be read or written.
     """
     file = folder / SHUFFLING_FILE
     try:
@@ -175,7 +198,42 @@ class RecordSource:
     def _record(self, number: int) -> SessionRecord:
         (row,) = self._rows(f"AND session.id = {number}")
         records = tuple(_told(self.archive.records(row["id"])))
-        return SessionRecord(row, self._status(records), self._plan(row), records, self.secret)
+        deviations = self._deviations.get(number, ())
+        return SessionRecord(row, self._status(records), self._plan(row), records, self.secret, deviations)
+
+    @cached_property
+    def _deviations(self) -> dict[int, tuple[Deviation, ...]]:
+        """What happened at the booth, by the session that it concerns.
+
+        The wall's clock tells which that is. Where the data of several sites were merged it does not, so there is
+        nothing then.
+        """
+        kinds = {each.value: each for each in DEVIATIONS}
+        found = self.connection.execute(
+            f"SELECT wall_ms, type, payload FROM audit_event WHERE type IN ({', '.join('?' * len(kinds))}) ORDER BY id",  # noqa: S608 - marks
+            tuple(kinds),
+        ).fetchall()
+        (sites,) = self.connection.execute("SELECT count(DISTINCT site) FROM session").fetchone()
+        if not found or sites > 1:
+            return {}
+        spans = self._spans()
+        by_session: dict[int, list[Deviation]] = {}
+        for wall_ms, kind, payload in found:
+            session, at_ms = _concerned(spans, wall_ms)
+            if session is not None:
+                by_session.setdefault(session, []).append(Deviation(kinds[kind], json.loads(payload), at_ms))
+        return {session: tuple(them) for session, them in by_session.items()}
+
+    def _spans(self) -> list[tuple[int, int, int]]:
+        """Return every session with when it began and ended, by the wall's clock.
+
+        What came before the visitor agreed is written when they did, so the beginning is worked out from there.
+        """
+        rows = self.connection.execute(
+            "SELECT session, min(wall_ms - at_ms), max(wall_ms) FROM event WHERE wall_ms IS NOT NULL"
+            " AND origin <> 'recovery' GROUP BY session ORDER BY session"
+        )
+        return [(session, began, ended) for session, began, ended in rows]
 
     def _in_order(self) -> list[int]:
         cursor = self.connection.execute(

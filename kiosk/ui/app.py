@@ -5,16 +5,18 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
+from datetime import datetime
 from functools import partial
 from random import Random
 from types import TracebackType
 from typing import Any, Self
 
 from PySide6.QtCore import QObject
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import Settings
-from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.events import EmbodimentName, SessionSetup
 from kiosk.experiment.session_config import SessionKind
 from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, RobotDriver
 from kiosk.robots.registry import create_robot
@@ -85,12 +87,16 @@ class App:
         self.runner = SessionRunner(self.screens, recorder, self.clock, assigner)
         self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
         self.runner.last_activity_ms = self._activity.last_ms
+        self.runner.last_device = lambda: self._activity.device
         self.voice = _voice(settings, mode, self.clock, owner)
         undo.callback(self.voice.close)
         self.embodiments = EmbodimentSelector(self.runner, self.clock.after, settings.robot)
         board = settings.screen.board_side
         self.embodiments.set_avatar(AvatarBody(self.screens.avatar, self.voice, self.embodiments, board, owner))
         self.runner.set_embodiments(self.embodiments)
+        self.runner.describe_setup = self._setup
+        if mode.pace is ClockMode.WALL:
+            self.runner.local_time = lambda: datetime.now().astimezone()
         self._landing = MainThreadExecutor()
         self._take_robot(robot or create_robot(settings.robot, assigner.study.languages[0]), settings)
         self.runner.spoken_by = self._spoken_by
@@ -186,6 +192,28 @@ class App:
             read_cut_off=read_for(self._work, recorder.folder),
             window_health=lambda: self.booth.health if self.booth else (),
             leave=self.quit,
+        )
+
+    def _setup(self) -> SessionSetup:
+        """Return what a session begins with now, but for the time."""
+        window = self.window
+        # Not the window's own screen: Qt for Python would delete it together with the window.
+        middle, primary = window.geometry().center(), QGuiApplication.primaryScreen()
+        screens = (each for each in QGuiApplication.screens() if each.geometry().contains(middle))
+        screen = next(screens, primary)
+        scale = screen.devicePixelRatio()
+        fallback, detail = self.embodiments.fallback or (None, "")
+        return SessionSetup(
+            intended=self.embodiments.intended,
+            fallback=fallback,
+            detail=detail,
+            screen_width=round(screen.size().width() * scale),
+            screen_height=round(screen.size().height() * scale),
+            screen_scale=scale,
+            screen_width_mm=round(screen.physicalSize().width()),
+            screen_height_mm=round(screen.physicalSize().height()),
+            window_width=round(window.width() * scale),
+            window_height=round(window.height() * scale),
         )
 
     def _spoken_by(self) -> Mapping[str, Any]:

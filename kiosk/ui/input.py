@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTextBoundaryFinder
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QInputDevice, QKeyEvent, QMouseEvent, QPointerEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 
+from kiosk.experiment.events import InputDevice
 from kiosk.ui.event_loop import Clock
 from kiosk.ui.screens.shell import KioskScreen
 
@@ -105,6 +106,8 @@ class Activity(QObject):
         self._kiosk = kiosk
         self._clock = clock
         self._last_ms: int | None = None
+        self.device: InputDevice | None = None
+        """What was used last to press something; None if nothing was."""
         self._pointed: tuple[QPointF, float, int] | None = None
         """Where the pointer was last, how far it has come in one go, and when."""
         window.installEventFilter(self)
@@ -115,6 +118,7 @@ class Activity(QObject):
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         """Notice what a visitor does; return whether it was taken as an answer."""
+        self.device = _device(event) or self.device
         key = _is_key(event)
         if not key and event.type() not in _HAND and not _drags(event):
             if self._points(event) and not self._kiosk.covered:
@@ -147,6 +151,30 @@ def _is_key(event: QEvent) -> bool:
     if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
         return False
     return not event.isAutoRepeat() and event.key() not in _MODIFIERS
+
+
+_DEVICES = {
+    QInputDevice.DeviceType.Mouse: InputDevice.MOUSE,
+    QInputDevice.DeviceType.TouchPad: InputDevice.MOUSE,
+    QInputDevice.DeviceType.TouchScreen: InputDevice.TOUCH,
+    QInputDevice.DeviceType.Stylus: InputDevice.PEN,
+    QInputDevice.DeviceType.Airbrush: InputDevice.PEN,
+}
+
+
+def _device(event: QEvent) -> InputDevice | None:
+    """Return what presses something by this event; None if nothing is pressed."""
+    if _is_key(event):
+        return InputDevice.KEYBOARD
+    if event.type() == QEvent.Type.TabletPress:
+        return InputDevice.PEN
+    if event.type() in _PRESSES and isinstance(event, QPointerEvent):
+        # A system may make a mouse's event of a touch; the device behind it is the glass all the same.
+        return _DEVICES.get(event.device().type())
+    return None
+
+
+_PRESSES = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick, QEvent.Type.TouchBegin)
 
 
 def _drags(event: QEvent) -> bool:

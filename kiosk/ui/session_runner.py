@@ -6,6 +6,7 @@ import logging
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from datetime import datetime
 from functools import partial
 from typing import Any, Self
 
@@ -14,7 +15,15 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import EmbodimentName, Event, Stage, Timer, WorldEvent
+from kiosk.experiment.events import (
+    EmbodimentName,
+    Event,
+    InputDevice,
+    SessionSetup,
+    Stage,
+    Timer,
+    WorldEvent,
+)
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
 from kiosk.experiment.session import RecordingState, Session
@@ -263,6 +272,12 @@ class SessionRunner:
         """Called when no session is under way any more."""
         self.last_activity_ms: Callable[[], int | None] = lambda: None
         """When the visitor last did anything to the screen, on the clock; None if they never did."""
+        self.last_device: Callable[[], InputDevice | None] = lambda: None
+        """What the visitor used last; None if that is not known."""
+        self.describe_setup: Callable[[], SessionSetup | None] = lambda: None
+        """Tells with what a session begins; ``local_time`` adds when."""
+        self.local_time: Callable[[], datetime | None] = lambda: None
+        """What the clock on the wall shows, with its zone; None if time is not that of a clock."""
         self._idle_since = 0
         self._shut = False
         self._error_screen_wait: TimerWait | None = None
@@ -313,6 +328,7 @@ class SessionRunner:
     def _start(self, language: str, tapped_at: int) -> None:
         try:
             provenance = self._with_body(self._assigner.next_session(language))
+            setup = self._setup()
         except StoreBusy as busy:
             self._try_again(partial(self._start, language, tapped_at), busy)
             return
@@ -323,10 +339,19 @@ class SessionRunner:
         record = SessionRecording(self._recorder, provenance, partial(self._assigner.confirm_recorded, provenance))
         self._begin(provenance, record, tapped_at)
         chosen = tuple(self._renderer.screens.kiosk.choices(at_ms=0))
-        self.dispatch(happened.SessionStarted(at_ms=0))
+        self.dispatch(happened.SessionStarted(at_ms=0, setup=setup))
         for choice in chosen:
             self.dispatch(choice)
         self._tell_begun()
+
+    def _setup(self) -> SessionSetup | None:
+        """Return what a session begins with, and when in the day; raises StorageError."""
+        setup, now = self.describe_setup(), self.local_time()
+        if setup is None or now is None:
+            return setup
+        midnight = now.replace(hour=0, minute=0, second=0, microsecond=0)
+        before = self._recorder.count_sessions_since(midnight, kind=self._assigner.kind)
+        return replace(setup, hour_band=now.hour // happened.HOURS_IN_A_BAND, visitors_before=before)
 
     def resume(
         self,
@@ -353,6 +378,10 @@ class SessionRunner:
         self._begin(provenance, record, self._clock.now_ms() - past[-1].at_ms, session)
         self.dispatch(replace(resumed, at_ms=self.now_ms()))
         self._tell_begun()
+
+    def input_device(self) -> InputDevice | None:
+        """Return what the visitor used last; None if that is not known."""
+        return self.last_device()
 
     def now_ms(self) -> int:
         """Return the time of an event that happens now, in ms since the session began."""

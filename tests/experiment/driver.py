@@ -16,7 +16,7 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Effect, Outcome
-from kiosk.experiment.events import EmbodimentName, Event, SessionEvent, Stage, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionEvent, Stage, Timer, WorldEvent
 from kiosk.experiment.items import (
     Answer,
     Integer,
@@ -133,9 +133,9 @@ class Driver:
         self.spend(ONE_TAP)
         return self.send(happened.ContinuePressed(at_ms=self.now))
 
-    def tap(self, position: Position) -> Outcome:
+    def tap(self, position: Position, device: InputDevice | None = None) -> Outcome:
         """Tap a card at once."""
-        return self.send(happened.CardSelected(at_ms=self.now, position=position))
+        return self.send(happened.CardSelected(at_ms=self.now, position=position, device=device))
 
     def tick(self, *purposes: str, ticked: bool = True) -> None:
         """Set, or take away, the ticks of these purposes of the consent."""

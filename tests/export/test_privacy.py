@@ -21,8 +21,7 @@ from kiosk.experiment.items import ShortText
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, Layout, PsychDs
-from kiosk.export.participants import TELLS_THE_ORDER
-from kiosk.export.records import AgeBands, StudyMaterials
+from kiosk.export.records import TELLS_THE_ORDER, AgeBands, StudyMaterials
 from kiosk.store.database import FILE
 from kiosk.store.session_records import SHUFFLING_FILE
 from tests.experiment.driver import Driver

@@ -27,7 +27,7 @@ def test_the_description_lists_every_column_of_every_table_once(exported: Path) 
     described = json.loads((exported / "dataset_description.json").read_text("utf-8"))
     names = [variable["name"] for variable in described["variableMeasured"]]
     heads = [path.read_text("utf-8").splitlines()[0].split(",") for path in exported.glob("data/*.csv")]
-    assert len(heads) == 10
+    assert len(heads) == 11
     assert sorted(set(names)) == sorted(names)
     assert set(names) == {name for head in heads for name in head}
 

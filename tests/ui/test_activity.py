@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime
 
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
@@ -11,7 +12,8 @@ from PySide6.QtTest import QTest
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import WorldEvent
+from kiosk.experiment.events import EmbodimentName, InputDevice, WorldEvent
+from kiosk.store.queries import open_repository
 from kiosk.ui.event_loop import VirtualClock
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
@@ -221,3 +223,43 @@ def test_a_typed_answer_of_few_letters_is_a_sign_too(make_booth: MakeBooth) -> N
         key(Qt.Key.Key_Backspace)(booth)
     assert not asked(booth)
     assert booth.screen == "form"
+
+
+def test_what_a_card_was_tapped_with_is_recorded(booth: Booth) -> None:
+    booth.start_game()
+    booth.click("card-0")
+    booth.app.window.requestActivate()
+    assert _devices(booth)[-1] is InputDevice.MOUSE
+    booth.press(Qt.Key.Key_Return)
+    assert _devices(booth)[-1] is InputDevice.KEYBOARD
+
+
+def _devices(booth: Booth) -> list[InputDevice | None]:
+    with open_repository(booth.data) as stored:
+        return [event.device for event in stored.events(1) if isinstance(event, happened.CardSelected)]
+
+
+def test_a_session_begins_with_the_screen_it_is_on_and_no_time_of_day_in_a_rehearsal(booth: Booth) -> None:
+    booth.start_game()
+    with open_repository(booth.data) as stored:
+        first = stored.events(1)[0]
+    assert isinstance(first, happened.SessionStarted)
+    assert first.setup is not None
+    assert (first.setup.intended, first.setup.fallback) == (EmbodimentName.AVATAR, None)
+    assert (first.setup.window_width, first.setup.window_height) == (
+        booth.app.window.width(),
+        booth.app.window.height(),
+    )
+    assert min(first.setup.screen_width, first.setup.screen_height) > 0
+    assert (first.setup.hour_band, first.setup.visitors_before) == (None, None)
+
+
+def test_on_a_clock_on_the_wall_the_hour_and_the_visitors_before_are_noted(booth: Booth) -> None:
+    booth.app.runner.local_time = lambda: datetime.now(UTC).replace(hour=13)
+    for _ in range(2):
+        booth.start_game()
+        booth.app.runner.dispatch(happened.AbortRequested(at_ms=booth.app.runner.now_ms(), reason="test run"))
+    with open_repository(booth.data) as stored:
+        firsts = [stored.events(number)[0] for number in (1, 2)]
+    setups = [first.setup for first in firsts if isinstance(first, happened.SessionStarted)]
+    assert [(setup.hour_band, setup.visitors_before) for setup in setups if setup] == [(3, 0), (3, 1)]

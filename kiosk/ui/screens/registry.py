@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import WorldEvent
+from kiosk.experiment.events import InputDevice, WorldEvent
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.ui.cards import CardPictures
 from kiosk.ui.experimenter.view_model import ExperimenterScreen
@@ -28,6 +28,10 @@ class InputHandler(Protocol):
 
     def now_ms(self) -> int:
         """Return the time of an event that happens now, in ms since the session began."""
+        ...
+
+    def input_device(self) -> InputDevice | None:
+        """Return what the visitor used last; None if that is not known."""
         ...
 
     def start(self, language: str) -> None:
@@ -142,7 +146,11 @@ class ScreenSet:
         self.form.answered.connect(
             lambda item, value: dispatch(happened.ResponseGiven(at_ms=now_ms(), item=item, value=value))
         )
-        self.board.tapped.connect(lambda position: dispatch(happened.CardSelected(at_ms=now_ms(), position=position)))
+        self.board.tapped.connect(
+            lambda position: dispatch(
+                happened.CardSelected(at_ms=now_ms(), position=position, device=to.input_device())
+            )
+        )
         self.board.skipped.connect(lambda: dispatch(happened.PracticeSkipped(at_ms=now_ms())))
         for screen in (self.about, self.form, self.introduction, self.result, self.debrief, self.thanks):
             screen.continued.connect(lambda: dispatch(happened.ContinuePressed(at_ms=now_ms())))
