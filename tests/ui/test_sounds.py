@@ -83,9 +83,11 @@ def test_a_game_is_heard_unless_sounds_are_off(make_booth: MakeBooth, monkeypatc
 def test_a_touch_in_vain_and_a_click_are_heard(make_booth: MakeBooth, monkeypatch: pytest.MonkeyPatch) -> None:
     heard: list[str] = []
     monkeypatch.setattr("kiosk.ui.voice.SilentVoice.play", lambda _, file: heard.append(file.stem))
-    booth = make_booth()
-    booth.app.screens.board.refuse()
-    booth.app.screens.kiosk.press()
+    booth = make_booth(settings=short())
+    booth.start_game()
+    booth.wait_until(lambda: bool(booth.app.screens.board.property("open")))
+    booth.click("card-0")
+    booth.click("card-0")
     booth.app.embodiments.mute()
     booth.app.screens.kiosk.press()
-    assert heard == ["nudge", "button"]
+    assert heard == ["button", "button", "flip", "nudge"]
