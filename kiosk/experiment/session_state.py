@@ -315,12 +315,22 @@ class SessionState:
 
 _OF_THE_COURSE: frozenset[type[Event]] = frozenset(
     {
-        *(StageEntered, ConsentGiven, PracticeFinished, GameFinished, EmbodimentChanged),
+        *(SessionStarted, StageEntered, ConsentGiven, PracticeFinished, GameFinished, EmbodimentChanged),
         *(SessionResumed, PauseRequested, PauseEnded, SessionEnded),
     }
 )
 _OF_BOARDS: frozenset[type[Event]] = frozenset(
-    {BoardDealt, CardFlipped, TimerExpired, AssistanceDecided, HintGiven, RemarkGiven, HintHighlighted, BoardUnlocked}
+    {
+        CardSelected,
+        BoardDealt,
+        CardFlipped,
+        TimerExpired,
+        AssistanceDecided,
+        HintGiven,
+        RemarkGiven,
+        HintHighlighted,
+        BoardUnlocked,
+    }
 )
 _OF_RESPONSES: frozenset[type[Event]] = frozenset({StageEntered, QuestionnairePageShown, ResponseGiven, BackPressed})
 _OF_SPEECH: frozenset[type[Event]] = frozenset(
