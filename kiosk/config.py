@@ -50,12 +50,13 @@ class ConfigModel(BaseModel):
     def read(cls, path: Path) -> Self:
         """Read a file; raise UserInputError with a sentence for each fault, naming the file and the key."""
         name = f"the {cls.file_kind} {path}"
-        given = _toml(name, path)
+        text = read_text(name, path)
+        given = _toml(name, text)
         try:
             return cls.model_validate(given)
         except ValidationError as error:
             raise UserInputError(
-                *(f"{name}: {sentence}" for sentence in validation_messages(error, given, cls))
+                *(f"{name}: {sentence}" for sentence in validation_messages(error, given, cls, text))
             ) from error
 
 
@@ -84,8 +85,7 @@ def read_text(name: str, path: Path) -> str:
         raise UserInputError(f"{name} is not UTF-8; save it with that encoding") from error
 
 
-def _toml(name: str, path: Path) -> dict[str, Any]:
-    text = read_text(name, path)
+def _toml(name: str, text: str) -> dict[str, Any]:
     dotted = next((n for n, line in enumerate(text.splitlines(), 1) if line.count(".") > _MOST_DOTS), None)
     if dotted is not None:
         raise UserInputError(f"{name} is not for reading: line {dotted} has more than {_MOST_DOTS} dots")
@@ -770,11 +770,6 @@ class Settings(ConfigModel):
         if self._package:
             return f"the packed study {self._package.path}"
         return f"the {self.file_kind} {self._file}" if self._file else "the study"
-
-    def at(self, *key: str | int) -> str:
-        """Return what to call the place of a key in a refusal: the file and its line."""
-        line = self.line_of(*key)
-        return self.name if line is None else f"{self.name}, line {line}"
 
     def line_of(self, *key: str | int) -> int | None:
         """Return the line of a key in the study file, counted from 1; None for what is not there."""

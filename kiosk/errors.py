@@ -7,6 +7,7 @@ import reprlib
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
@@ -67,49 +68,101 @@ def toml_error_message(error: Exception) -> str:
     return f"{meant}{bracket}{place}" if meant else said
 
 
-def toml_line(text: str, key: Sequence[str | int]) -> int | None:
-    """Return the line of a TOML text in which a key begins, counted from 1.
+Steps = tuple[int | str, ...]
+"""The way to a value: names of tables and keys, and for an entry of a list its number from 0."""
 
-    It is None for a key that is not there. ``key`` is the way to it: names of tables and keys, and for an entry of a
-    list its number from 0.
+_LONGEST_VALUE = 300
+_LONGEST_TEXT = 100_000
+"""Lines of a value and characters of a file; where there are more, the sentences name the key and no line."""
+
+
+def toml_line(text: str, key: Sequence[int | str]) -> int | None:
+    """Return the line of a TOML text in which a key or, if it is not there, its table begins, counted from 1.
+
+    It is None if not even its first table is there. Steps that the text does not have, such as pydantic's names of
+    kinds, are passed over.
     """
-    lines = text.splitlines(keepends=True)
-    if not _has(_parsed(lines), key):
-        return None
-    without, having = 0, len(lines)
-    while having - without > 1:
-        middle = (without + having) // 2
-        # A value may go over several lines, and a text that ends in the midst of one is no TOML.
-        end = next((n for n in range(middle, without, -1) if _parsed(lines[:n]) is not None), without)
-        if end == without:
-            end = next(n for n in range(middle + 1, having + 1) if _parsed(lines[:n]) is not None)
-            if end == having:
-                break
-        without, having = (without, end) if _has(_parsed(lines[:end]), key) else (end, having)
-    blank = (n for n in range(without, having) if lines[n].strip() and not lines[n].lstrip().startswith("#"))
-    return next(blank, without) + 1
+    lines = toml_lines(text)
+    here: Steps = ()
+    for step in key:
+        here = (*here, step) if (*here, step) in lines else here
+    return lines.get(here)
+
+
+@lru_cache(maxsize=4)
+def toml_lines(text: str) -> Mapping[Steps, int]:
+    """Map every key of a TOML text to the line in which it begins; values on several lines count as one."""
+    found: dict[Steps, int] = {}
+    tables: dict[Steps, int] = {}
+    here: Steps = ()
+    lines, at = text.splitlines(keepends=True) if len(text) <= _LONGEST_TEXT else [], 0
+    while at < len(lines):
+        ends = range(at + 1, min(at + _LONGEST_VALUE, len(lines)) + 1)
+        end, given = next(((end, got) for end in ends if (got := _parsed(lines[at:end])) is not None), (at, None))
+        if given is None:
+            return found
+        if lines[at].lstrip().startswith("["):
+            here = _table(given, tables)
+            _note(found, here, at + 1)
+        elif given:
+            _note_all(found, here, given, at + 1)
+        at = end
+    return found
+
+
+def _table(header: Mapping[str, Any], tables: dict[Steps, int]) -> Steps:
+    """Return the way to the table that a line such as [a.b] or [[a]] begins; ``tables`` counts those of lists."""
+    steps: Steps = ()
+    inside: Any = header
+    while inside:
+        (name, inside), *_ = inside.items()
+        steps = (*steps, name)
+        if isinstance(inside, list):
+            tables[steps] = tables.get(steps, -1) + 1
+            inside = inside[0]
+        if steps in tables:
+            steps = (*steps, tables[steps])
+    return steps
+
+
+def _note(found: dict[Steps, int], steps: Steps, line: int) -> None:
+    for length in range(1, len(steps) + 1):
+        found.setdefault(steps[:length], line)
+
+
+def _note_all(found: dict[Steps, int], here: Steps, value: Any, line: int) -> None:
+    _note(found, here, line)
+    if isinstance(value, dict | list):
+        inside = value.items() if isinstance(value, dict) else enumerate(value)
+        for step, each in inside:
+            _note_all(found, (*here, step), each, line)
 
 
 def _parsed(lines: Sequence[str]) -> dict[str, Any] | None:
     try:
         return tomllib.loads("".join(lines))
-    except (tomllib.TOMLDecodeError, ValueError, RecursionError):
+    except (ValueError, RecursionError):
         return None
 
 
-def _has(here: Any, key: Sequence[str | int]) -> bool:
-    for step in key:
-        try:
-            here = here[step]
-        except (KeyError, IndexError, TypeError):
-            return False
-    return here is not None
+def at_line(text: str, key: Sequence[int | str]) -> str:
+    """Return the words for the line in which a key begins in a TOML text; empty if it is not there."""
+    line = toml_line(text, key) if text else None
+    return "" if line is None else f" (line {line})"
 
 
-def validation_messages(error: ValidationError, given: Any, model: type[BaseModel]) -> tuple[str, ...]:
-    """Return a sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order."""
+def validation_messages(error: ValidationError, given: Any, model: type[BaseModel], text: str = "") -> tuple[str, ...]:
+    """Return a sentence for each fault that was found when ``given`` was to become a ``model``, in the file's order.
+
+    With the TOML text of the file, each ends with the line.
+    """
     found = validation_errors(error)
-    said = dict.fromkeys(_sentence(fault, given, model) for fault in found[:_MOST_SENTENCES])
+    said: dict[str, None] = {}
+    for fault in found[:_MOST_SENTENCES]:
+        sentence = _sentence(fault, given, model)
+        # What is wrong between sections has no place of its own, but its sentence begins with a key.
+        key = fault["loc"] or tuple(sentence.partition(":")[0].split("."))
+        said[f"{sentence}{at_line(text, key)}"] = None
     more = len(found) - _MOST_SENTENCES
     return (*said, *((f"{more} more things are wrong",) if more > 0 else ()))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from random import Random
 from typing import Any
@@ -31,6 +32,11 @@ WITH_PIN = f'[experimenter]\npin_hash = "scrypt:{"0" * 32}:{"0" * 64}"\n'
 
 CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}
 ENGLISH, ITALIAN = CATALOGUES["en"], CATALOGUES["it"]
+
+
+def without_line(sentence: str) -> str:
+    """Return a sentence of a refusal without the line that it names at its end."""
+    return re.sub(r" \(line \d+\)$", "", sentence)
 
 
 def _deck(name: str) -> tuple[str, ...]:

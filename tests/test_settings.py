@@ -70,16 +70,16 @@ def test_what_cannot_be_set_is_refused_by_name_and_all_of_it(tmp_path: Path) -> 
     with pytest.raises(UserInputError) as refused:
         Settings.read(file)
     assert [sentence.removeprefix(f"the study file {file}: ") for sentence in refused.value.sentences] == [
-        "game.rows must be from 1 to 12, but it is 0",
-        "timing.highlight_delay_ms must be from 0 to 60000 ms, but it is -1",
-        f"there is no key 'colour'; there are {', '.join(Settings.model_fields)}",
+        "game.rows must be from 1 to 12, but it is 0 (line 3)",
+        "timing.highlight_delay_ms must be from 0 to 60000 ms, but it is -1 (line 5)",
+        f"there is no key 'colour'; there are {', '.join(Settings.model_fields)} (line 1)",
     ]
 
 
 @pytest.mark.parametrize(("content", "given"), [("'4'", "'4'"), ("true", "true"), ("4.0", "4.0"), ("[4]", "[4]")])
 def test_a_number_is_written_as_a_number(tmp_path: Path, content: str, given: str) -> None:
     said = refusal(written(tmp_path, f"[game]\nrows = {content}"))
-    assert said.endswith(f"game.rows must be a whole number, but it is {given}")
+    assert said.endswith(f"game.rows must be a whole number, but it is {given} (line 2)")
 
 
 def test_what_a_file_names_by_a_path_lies_beside_it(tmp_path: Path) -> None:

@@ -248,7 +248,9 @@ class _Look:
             return None
 
     def _blame(self, key: str, *sentences: str) -> None:
-        self.faults += (f"{self._settings.name}: {key}: {each.removeprefix(f'{key}: ')}" for each in sentences)
+        line = self._settings.line_of(*key.split("."))
+        where = "" if line is None else f" (line {line})"
+        self.faults += (f"{self._settings.name}: {key}: {each.removeprefix(f'{key}: ')}{where}" for each in sentences)
 
     def _came(self, key: str, name: str, place: Located, sha256: str, version: str | None = None) -> None:
         """Keep in mind where something came from."""
