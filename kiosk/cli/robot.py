@@ -67,6 +67,10 @@ def robot_command(
     device = create_robot(asked, language)
     if device is None:
         raise UserInputError("the study file names no robot; name one with --host or --kind")
+    if asked.pack:
+        from kiosk.robots.voice_packs import PackClips  # noqa: PLC0415 - for few studies, and it loads the sound
+
+        device.clips = PackClips(settings.voice_from_here)
     steps = []
     for step in _tried(device, language, sentence):
         steps.append(step)
@@ -95,7 +99,7 @@ def _tried(robot: RobotDriver, language: str, sentence: str | None) -> Iterator[
         if mood is not Mood.IDLE and Capability.GESTURES in robot.capabilities:
             yield _try(f"looks {mood.value}", partial(robot.express, mood))
     if sentence is not None:
-        yield _try("says the sentence", partial(robot.say, Utterance(sentence, lambda: None, robot.longest_text)))
+        yield _try("says the sentence", partial(_say, robot, sentence))
         yield _try("can be silenced", robot.stop_speech)
     robot.close()
 
@@ -109,6 +113,18 @@ def _inspected(robot: InspectableRobot, language: str) -> Iterator[RobotTrial]:
         yield _try(f"a voice for {language}", lambda: _voice(robot, language))
         yield _try("its gestures", lambda: ", ".join(robot.gestures()))
         yield _try("people it sees", lambda: str(robot.users()))
+
+
+def _say(robot: RobotDriver, sentence: str) -> str:
+    """Have a sentence said; returns whose voice it was, where a clip was to be played."""
+    reasons: list[str] = []
+    robot.on_own_voice = reasons.append
+    robot.say(Utterance(sentence, lambda: None, robot.longest_text))
+    if robot.clips is None:
+        return "done"
+    if robot.spoken_by:
+        return f"it played the clip of {robot.spoken_by['voice']}"
+    return f"with its own voice: {reasons[0] if reasons else 'no pack can say it'}"
 
 
 def _ready(robot: RobotDriver) -> str:

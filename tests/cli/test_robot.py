@@ -12,6 +12,8 @@ import pytest
 from click.testing import CliRunner
 
 from kiosk.cli.main import recollect
+from kiosk.robots.embodiment import SpokenClip
+from kiosk.robots.voice_packs import PackClips
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 
@@ -40,6 +42,28 @@ def test_a_robot_that_is_well_does_every_step() -> None:
     assert fake.refusals == []
     said = next(step for step in found["steps"] if step["step"] == "says the sentence")
     assert said["ms"] >= 30
+
+
+@pytest.mark.parametrize(
+    ("fetches", "sentence", "words"),
+    [
+        (True, "Hello", "it played the clip of en-US"),
+        (True, "Nothing", "with its own voice: no pack can say it"),
+        (False, "Hello", "with its own voice: it did not fetch the clip, though it said that it played it"),
+    ],
+)
+def test_a_clip_of_the_voice_pack_is_tried_as_well(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, fetches: bool, sentence: str, words: str
+) -> None:
+    clip = SpokenClip(b"RIFF", 10, {"engine": "pico", "voice": "en-US", "pack": "f00d"})
+    monkeypatch.setattr(PackClips, "__call__", lambda _, __, text: clip if text == "Hello" else None)
+    study = tmp_path / "study.toml"
+    with FurhatFake() as fake:
+        fake.fetches = fetches
+        study.write_text(f'[robot]\nkind = "furhat"\nhost = "127.0.0.1"\nport = {fake.port}\npack = true\n')
+        code, found = tried("--study", study, "--say", sentence)
+    assert (code, steps(found)["says the sentence"]) == (0, words)
+    assert fake.played == ([b"RIFF"] if words.startswith("it played") else [])
 
 
 def test_it_is_told_for_people_as_well() -> None:
