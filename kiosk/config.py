@@ -461,6 +461,14 @@ class Look(ConfigModel):
     logo: Annotated[
         str, Field(max_length=MOST_CHARACTERS, description="The path of the lab's logo, an SVG file; empty: none.")
     ] = ""
+    fonts: Annotated[
+        tuple[str, ...],
+        Field(
+            strict=False,
+            max_length=MOST_ENTRIES,
+            description="The paths of fonts (.ttf, .otf or .ttc) for letters that the shipped one lacks.",
+        ),
+    ] = ()
     accent: Annotated[
         str, Field(description="The colour of buttons and titles; at 4.5:1 against light boxes and the background.")
     ] = "#1F5F6B"
@@ -858,6 +866,11 @@ class Settings(ConfigModel):
     def sha256(self) -> str:
         """The hash of every setting, given or default, so that a session's settings can be told apart later."""
         return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
+    @property
+    def own_fonts(self) -> tuple[Path, ...]:
+        """The files of the study's own fonts."""
+        return tuple(map(self.beside, self.look.fonts))
 
     @property
     def voice_from_here(self) -> VoiceConfig:

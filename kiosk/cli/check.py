@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import queue
+import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -51,6 +52,7 @@ from kiosk.store.participants import checked_site
 from kiosk.study import loader
 from kiosk.study.loader import read_study
 from kiosk.ui.checks import DRAWN_S, READY_S, CannotDraw, found_in_pictures, run_check_process
+from kiosk.ui.fonts import WITHIN_S, missing_characters
 from kiosk.units import MIB
 
 MACHINE, PROGRAM, LOGGED = "machine", "program", "log"
@@ -197,6 +199,7 @@ _LOADERS: Mapping[ExtensionGroup, Callable[[Extension], object]] = {
 
 _DISPLAY_S, _MARGIN_S = 14.0, 1.0
 PICTURES = "pictures"
+FONTS = "fonts"
 SENTENCE = "introduction-help"
 """What every language has a sentence for."""
 
@@ -243,6 +246,8 @@ def _shown(booth: CheckTargets) -> Iterator[Check]:
     remedy = "see that the session has a screen, and run this in it"
     screens = partial(run_check_process, "screen", program("_display", "screens", number), _DISPLAY_S, remedy)
     yield Check("screen", screens, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
+    if booth.study is not None:
+        yield Check(FONTS, partial(found_fonts, booth.study), WITHIN_S, Severity.WARNING)
     if booth.study is not None and booth.study.own_pictures:
         drawn = partial(found_pictures, booth.study)
         yield Check(PICTURES, drawn, READY_S + DRAWN_S * len(booth.study.own_pictures), Severity.ERROR)
@@ -250,6 +255,18 @@ def _shown(booth: CheckTargets) -> Iterator[Check]:
     study = () if booth.study is None or booth.file is None else ("--study", str(booth.file))
     frame = partial(run_check_process, "drawing", program("_display", "frame", *study), _DISPLAY_S, remedy)
     yield Check("drawing", frame, _DISPLAY_S + _MARGIN_S, Severity.ERROR)
+
+
+def found_fonts(study: StudyConfig) -> Iterator[CheckResult]:
+    """Look for a glyph of every character of every text."""
+    try:
+        missing = missing_characters(program("_display", "fonts"), study)
+    except (OSError, ValueError, subprocess.SubprocessError) as error:
+        yield CheckResult.warning(FONTS, f"they were not tried: {error}", "see what the other lines say of the screen")
+        return
+    yield from (CheckResult.warning(FONTS, str(each), each.remedy) for each in missing)
+    if not missing:
+        yield CheckResult.ok(FONTS, "every character of every text can be drawn")
 
 
 def found_pictures(study: StudyConfig) -> Iterator[CheckResult]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,7 +13,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from kiosk import UserInputError
+from kiosk import UserInputError, program
 from kiosk.assistance.wording import CARD, Catalogue
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
@@ -36,6 +37,7 @@ from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_templa
 from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file
 from kiosk.ui.checks import CannotDraw, found_in_pictures
+from kiosk.ui.fonts import missing_characters
 
 MOST_PER_PAGE = 8
 SHORT_SHA = 12
@@ -69,7 +71,7 @@ def study_check(context: click.Context, file: Path, allowed_signers: Path | None
         read = read_study(open_study(file))
         check_robot(read.settings)
         signature, unverified = signature_of(file, allowed_signers)
-        untried = [*unverified, *check_pictures(read)]
+        untried = [*unverified, *check_pictures(read), *check_fonts(read)]
     except UserInputError as refusal:
         if not as_json:
             raise
@@ -107,6 +109,14 @@ def check_pictures(read: StudyConfig) -> list[str]:
     if faults:
         raise UserInputError(*faults)
     return list(cautions)
+
+
+def check_fonts(read: StudyConfig) -> list[str]:
+    """Return a caution for every language with characters that no font here can draw."""
+    try:
+        return [f"{each}; {each.remedy}" for each in missing_characters(program("_display", "fonts"), read)]
+    except (OSError, ValueError, subprocess.SubprocessError) as error:
+        return [f"the fonts were not tried: {error}"]
 
 
 def summarised(read: StudyConfig) -> dict[str, Any]:

@@ -58,6 +58,14 @@ def cards() -> None:
 
 
 @display_command.command()
+def fonts() -> None:
+    """Find the characters on standard input that no font can draw."""
+    from kiosk.ui.fonts import try_fonts
+
+    try_fonts(sys.stdin, sys.stdout)
+
+
+@display_command.command()
 @study_option
 def frame_command(study: Path | None) -> None:
     """Draw the kiosk off screen."""

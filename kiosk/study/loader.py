@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable
-from kiosk.assistance.wording import CARD, REPLACING, Catalogue, card_message, sources_in
+from kiosk.assistance.wording import CARD, REPLACING, Catalogue, Written, card_message, sources_in
 from kiosk.config import (
     ASSETS,
     ExperimenterConfig,
@@ -162,6 +162,8 @@ def _of_options(item: Item) -> Iterator[str]:
             yield f"the option {option!r} is taken for {misread} by programs that read tables; choose another id"
 
 
+_FONTS = (".ttf", ".otf", ".ttc")
+
 MODEL_LANGUAGE = "en"
 """The language that all others are held against."""
 
@@ -185,6 +187,7 @@ def read_study(settings: Settings) -> StudyConfig:
     decks = {key: look.deck(key, board) for key, board in _boards(settings)}
     look.check_practice()
     look.check_logo()
+    look.check_fonts()
     if look.faults or condition is None or policy is None:
         raise UserInputError(*look.faults)
     for language, catalogue in catalogues.items():
@@ -272,6 +275,14 @@ class _Look:
         elif name:
             self._drawn("look.logo", name, Located(file), (file,))
             self.faults += picture_faults(file)
+
+    def check_fonts(self) -> None:
+        """See that the study's own fonts are there."""
+        for name, file in zip(self._settings.look.fonts, self._settings.own_fonts, strict=True):
+            if file.is_file() and file.suffix.lower() in _FONTS:
+                self.sources.append(Source("look.fonts", name, file, is_shipped=False, sha256=_digest(file)))
+            else:
+                self._blame("look.fonts", f"there is no font {file} that ends in {', '.join(_FONTS)}")
 
     # What there is
 
@@ -594,7 +605,9 @@ def _of_translations(study: StudyConfig) -> Iterator[str]:
         model = Catalogue(ASSETS / "sentences" / MODEL_LANGUAGE).written
         own = {} if english else plan.catalogue.written
         same = [
-            name for name, written in own.items() if name in model and is_untranslated(written.text, model[name].text)
+            name
+            for name, written in own.items()
+            if name in model and is_untranslated(_said(written), _said(model[name]))
         ]
         if same:
             yield f"the sentences in {plan.language!r} are still English in {_counted(same)}"
@@ -606,6 +619,11 @@ def _of_translations(study: StudyConfig) -> Iterator[str]:
         pages = [[text for page in _pages(each.information) for text in page.paragraphs] for each in (first, plan)]
         if set(pages[0]) & set(pages[1]):
             yield f"the information sheet in {plan.language!r} has paragraphs that are still in {first.language!r}"
+
+
+def _said(written: Written) -> str:
+    """Return a message without its name."""
+    return written.text.partition("=")[2]
 
 
 def _counted(names: Sequence[str]) -> str:

@@ -70,7 +70,12 @@ class Unit:
 
 def is_untranslated(source: str, target: str) -> bool:
     """Whether a text is the same in both languages, and too long for that to be chance."""
-    return source.strip() == target.strip() and len(re.findall(r"[^\W\d_]{2,}", source)) >= LONG
+    return source.strip() == target.strip() and len(_words(source)) >= LONG
+
+
+def _words(text: str) -> list[str]:
+    """Return the words of a text; what stands in braces is filled in."""
+    return re.findall(r"[^\W\d_]{2,}", re.sub(r"\{[^{}]*\}", " ", text))
 
 
 def _same_variables(source: str, target: str) -> bool:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
-from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication, QIcon
+from PySide6.QtGui import QGuiApplication, QIcon
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.ui.fonts import use_fonts
 from kiosk.ui.input import HeldKeys
 from kiosk.ui.qt_platform import obstacle
 from kiosk.ui.replay_controls import ReplayControls
@@ -24,7 +26,6 @@ from kiosk.ui.screens.registry import ScreenSet
 
 
 QML = Path(__file__).parent / "qml" / "Main.qml"
-FONTS = ("NotoSans-Regular.ttf", "NotoSans-Bold.ttf")
 MOTION_MS = 220
 """How long a card takes to turn and a screen to fade; 0 without motion."""
 
@@ -61,7 +62,7 @@ class Window:
 
     def __init__(self, study: StudyConfig, mode: RunMode) -> None:
         """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
-        self.application = application(mode.display)
+        self.application = application(mode.display, study.settings.own_fonts)
         self._engine = QQmlApplicationEngine()
         # A child of the engine goes after the windows, which look at the screens up to their own end.
         self.owner = QObject(self._engine)
@@ -124,8 +125,11 @@ def check_screen(display: WindowMode) -> None:
         raise UserInputError(str(found))
 
 
-def application(display: WindowMode) -> QGuiApplication:
-    """Return the application object: drawn in software, in the basic loop, which no missing GPU can disturb."""
+def application(display: WindowMode, fonts: Sequence[Path] = ()) -> QGuiApplication:
+    """Return the application object: drawn in software, in the basic loop, which no missing GPU can disturb.
+
+    ``fonts`` are files of fonts for letters that the shipped one lacks.
+    """
     os.environ.setdefault("QT_QUICK_BACKEND", "software")
     os.environ.setdefault("QSG_RENDER_LOOP", "basic")
     if display is WindowMode.NOWHERE:
@@ -133,8 +137,6 @@ def application(display: WindowMode) -> QGuiApplication:
     existing = QGuiApplication.instance()
     application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
     application.setQuitOnLastWindowClosed(False)
-    for font in FONTS:
-        QFontDatabase.addApplicationFont(str(ASSETS / "fonts" / font))
-    application.setFont(QFont("Noto Sans"))
+    use_fonts(fonts)
     application.setWindowIcon(QIcon(str(ASSETS / "icon.svg")))
     return application
