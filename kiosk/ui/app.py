@@ -99,6 +99,9 @@ class App:
             self.runner.local_time = lambda: datetime.now().astimezone()
         self._landing = MainThreadExecutor()
         self._take_robot(robot or create_robot(settings.robot, assigner.study.languages[0]), settings)
+        if not self.embodiments.has_robot:
+            self._heard(not isinstance(self.voice, NoVoice))
+            self.voice.health_changed.connect(self._heard)
         self.runner.spoken_by = self._spoken_by
         if settings.voice.sounds:
             self.runner.play_sound = self._play
@@ -215,6 +218,10 @@ class App:
             window_width=round(window.width() * scale),
             window_height=round(window.height() * scale),
         )
+
+    def _heard(self, is_heard: bool, _: str = "") -> None:  # noqa: FBT001 - Qt's way to tell
+        """Offer visitors the sound, or no longer."""
+        self.screens.kiosk.set_audible(audible=is_heard)
 
     def _spoken_by(self) -> Mapping[str, Any]:
         """Return what speaks the sentence under way; of a robot's own voice nothing is known."""

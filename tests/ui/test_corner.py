@@ -184,3 +184,10 @@ def test_back_shows_the_page_before_and_what_was_ticked(reading: Booth) -> None:
     while reading.screen != "consent":
         reading.click("age-yes" if reading.screen == "age" else "continue")
     assert first in reading.app.screens.consent.property("ticks")
+
+
+def test_without_a_voice_or_a_sound_card_no_button_promises_sound(resting: Booth) -> None:
+    for is_heard in (False, True):
+        resting.app.voice.health_changed.emit(is_heard, "")
+        resting.settle()
+        assert resting.sees("control-sound") is is_heard

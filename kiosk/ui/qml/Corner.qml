@@ -61,6 +61,7 @@ Grid {
     }
     CornerButton {
         objectName: "control-sound"
+        visible: corner.kiosk.audible
         words: corner.words[corner.kiosk.sound ? "control-sound-off" : "control-sound-on"]
         drawing: "M3.5 9.5 H7 L12 5 V19 L7 14.5 H3.5 Z " + (corner.kiosk.sound
             ? "M15.5 9 C17 10.7 17 13.3 15.5 15 M18 6.5 C21 9.6 21 14.4 18 17.5" : "M16 9.5 L21 14.5 M21 9.5 L16 14.5")

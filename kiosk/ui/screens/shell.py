@@ -56,7 +56,7 @@ class KioskScreen(QObject):
         self._consent: ConsentConfig | None = None
         self._code = ""
         self._text_size = TextSize.NORMAL
-        self._sound = True
+        self._sound = self._audible = True
         self._goes_back = False
         self._asks: str = ""
 
@@ -84,6 +84,11 @@ class KioskScreen(QObject):
     def set_sound(self, *, on: bool) -> None:
         """Show whether the visitor hears voice and sounds."""
         self._sound = on
+        self.controls.emit()
+
+    def set_audible(self, *, audible: bool) -> None:
+        """Offer the sound as a choice only where there is any, so that no button promises what is not heard."""
+        self._audible = audible
         self.controls.emit()
 
     def set_language(self, catalogue: Catalogue) -> None:
@@ -240,6 +245,11 @@ class KioskScreen(QObject):
     def sound(self) -> bool:
         """Whether the visitor hears voice and sounds."""
         return self._sound
+
+    @Property(bool, notify=controls)
+    def audible(self) -> bool:
+        """Whether there is anything to be heard."""
+        return self._audible
 
     @Property(str, notify=controls)
     def language(self) -> str:
