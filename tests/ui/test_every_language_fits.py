@@ -378,7 +378,10 @@ def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layou
             assert shown.contentItem().width() == layout.width
             assert_all_can_be_read(shown, told)
             assert_no_needless_scrolling(shown, told)
-            may_scroll = size is not TextSize.NORMAL or "missing" in moment
+            # The shipped questionnaires have four ratings on a page.
+            may_scroll = (
+                size is not TextSize.NORMAL or "missing" in moment or (layout.robot and moment == "six ratings")
+            )
             assert may_scroll or find_item(shown.contentItem(), "more") is None, told
         screens.avatar.leave(away=False)
 

@@ -48,16 +48,22 @@ FocusScope {
                         table.y + (Math.floor(location / board.columns) + 0.5) * cell)
     }
 
-    // Loads the pictures when the cards are dealt, not when the first one is turned.
+    // Loads the pictures when the cards are dealt, in the sizes of the cards and of the tray, and not in the frame in
+    // which the first one is turned or found.
     Repeater {
-        model: view.board.pictures
-        Image {
-            required property string modelData
-            visible: false
-            width: Math.floor(view.cell * 0.86)
-            height: width
-            source: modelData
-            sourceSize: Qt.size(width, height)
+        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * 0.86), Math.round(tray.slot * 0.74)]
+        Item {
+            id: loaded
+            required property int modelData
+            Repeater {
+                model: view.board.pictures
+                Image {
+                    required property string modelData
+                    visible: false
+                    source: modelData
+                    sourceSize: Qt.size(loaded.modelData, loaded.modelData)
+                }
+            }
         }
     }
 
@@ -389,7 +395,7 @@ FocusScope {
             function onPairFound(first, second, picture) {
                 const goal = tray.middle(view.board.tray.length - 1)
                 joy.celebrate([view.centre(first), view.centre(second)], Qt.point(tray.x + goal.x, tray.y + goal.y),
-                              view.cell * 0.86, tray.slot, picture)
+                              Math.floor(view.cell * 0.86), tray.slot, picture)
             }
         }
     }

@@ -49,7 +49,8 @@ Item {
                     required property int index
                     readonly property real away: place.width * (index === 0 ? -0.05 : 0.05)
                     anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
-                    width: place.width * 0.74
+                    // A whole number, as the board loads them beforehand.
+                    width: Math.round(place.width * 0.74)
                     height: width
                     source: Qt.resolvedUrl(tray.pictures[place.index] ?? "")
                     sourceSize: Qt.size(width, height)
