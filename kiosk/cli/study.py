@@ -36,6 +36,7 @@ from kiosk.study.loader import expected_minutes, located, read_study, study_warn
 from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file
+from kiosk.study.survey_import import is_survey, read_survey
 from kiosk.ui.checks import CannotDraw, found_in_pictures
 from kiosk.ui.fonts import missing_characters
 
@@ -311,22 +312,29 @@ def study_reference(*, toml: bool) -> None:
 
 
 @study.command(name="import")
-@click.argument("csv", type=click.Path(path_type=Path))
+@click.argument("file", type=click.Path(path_type=Path))
 @click.option("--id", "name", required=True, help="What the questionnaire is called, in records and columns.")
 @click.option("--version", required=True, help="Its version; it changes whenever an item does.")
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="The TOML file to write; it must be new.")
 @click.option("--note", help="Where its wording is from.")
 @click.option("--per-page", type=click.IntRange(1, MOST_PER_PAGE), default=1, show_default=True, help="Items a page.")
 @click.option("--shuffled", is_flag=True, help="Shuffle its items anew for every visitor.")
+@click.option("--language", default="en", show_default=True, help="The language of a file that does not name one.")
 def study_import(
-    csv: Path, name: str, version: str, out: Path, note: str | None, per_page: int, *, shuffled: bool
+    file: Path, name: str, version: str, out: Path, note: str | None, per_page: int, language: str, *, shuffled: bool
 ) -> None:
-    """Make a questionnaire of a CSV table, one row per item; docs/extend.md names the columns."""
+    """Make a questionnaire of a FILE: a CSV table with one row per item, or the file of a survey program.
+
+    XLSForm (.xlsx), REDCap data dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be
+    asked here is named line by line. docs/import.md says what is taken.
+    """
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(
-        id=name, version=version, note=note or f"Brought in from {csv.name}.", per_page=per_page, order=order
+        id=name, version=version, note=note or f"Brought in from {file.name}.", per_page=per_page, order=order
     )
-    read = read_items(csv, heading)
+    read, left = read_survey(file, heading, language) if is_survey(file) else (read_items(file, heading), [])
     write_questionnaire(read, out)
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
     click.echo(f"{items} written to {out}")
+    for sentence in left:
+        click.echo(f"not taken: {sentence}")

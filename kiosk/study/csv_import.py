@@ -134,7 +134,7 @@ class CsvTable:
 
 def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
     """Return the lines of a table from its column names on, and their spreadsheet line number."""
-    text = _text(name, file)
+    text = text_of_table(name, file)
     header, *_ = text.splitlines() or [""]
     told = _SEPARATOR.fullmatch(header.strip())
     try:
@@ -152,16 +152,21 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
     return (lines[1:] if told else lines), 2
 
 
-def _text(name: str, file: Path) -> str:
+def text_of_table(name: str, file: Path) -> str:
     """Return the text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
     try:
         content = file.read_bytes()
-        wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-        return content.decode("utf-16" if wide else "utf-8-sig")
+        if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            return content.decode("utf-16")
+        try:
+            return content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            # What spreadsheet programs on Windows write in the West when they are not asked for UTF-8.
+            return content.decode("cp1252")
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise UserInputError(f"{name} is not UTF-8; save it as CSV UTF-8") from error
+        raise UserInputError(f"{name} is neither UTF-8 nor Windows-1252; save it as CSV UTF-8") from error
 
 
 def _without_tail(header: Sequence[str]) -> tuple[str, ...]:

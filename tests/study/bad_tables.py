@@ -40,8 +40,8 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         ("{table}: its first line must name the columns, with commas or semicolons between them",),
     ),
     "another encoding": (
-        rows(LIKERT.replace("How?", "Perché?")).encode("cp1252"),
-        ("{table} is not UTF-8; save it as CSV UTF-8",),
+        rows(LIKERT).encode().replace(b"How?", b"\x81?"),
+        ("{table} is neither UTF-8 nor Windows-1252; save it as CSV UTF-8",),
     ),
     "open quotes": (rows(LIKERT.replace("How?", '"How?')), ("{table} is not CSV: unexpected end of data",)),
     "no rows": (rows(), ("{table} has no items under its columns",)),

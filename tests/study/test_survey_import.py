@@ -1,0 +1,235 @@
+"""Questionnaires come in from survey programs; what cannot be asked here is named, and nothing is lost in silence."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from xml.sax.saxutils import escape
+
+import pytest
+from click.testing import CliRunner
+
+from kiosk import UserInputError
+from kiosk.cli.main import recollect
+from kiosk.experiment.items import Integer, Likert, Multiple, Single, Slider
+from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.study.csv_import import Heading, read_items
+from kiosk.study.survey_import import is_survey, read_survey
+
+HEADING = Heading(id="asked", version="1", note="n")
+MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+RELATIONS = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+
+
+def workbook(file: Path, sheets: dict[str, list[list[str]]], extra: str = "") -> Path:
+    """Write the least that a spreadsheet program would write."""
+    listed = "".join(f'<sheet name="{name}" sheetId="{n}" r:id="r{n}"/>' for n, name in enumerate(sheets, 1))
+    related = "".join(f'<Relationship Id="r{n}" Target="worksheets/s{n}.xml"/>' for n, _ in enumerate(sheets, 1))
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(
+            "xl/workbook.xml", f'<workbook xmlns="{MAIN}" xmlns:r="{RELATIONS}"><sheets>{listed}</sheets></workbook>'
+        )
+        archive.writestr("xl/_rels/workbook.xml.rels", f"<Relationships>{related}</Relationships>")
+        texts: list[str] = []
+        for number, rows in enumerate(sheets.values(), 1):
+            lines = ""
+            for at, row in enumerate(rows, 1):
+                cells = ""
+                for column, text in zip("ABCDEFGH", row, strict=False):
+                    if text:
+                        cells += f'<c r="{column}{at}" t="s"><v>{len(texts)}</v></c>'
+                        texts.append(text)
+                lines += f'<row r="{at}">{cells}</row>'
+            archive.writestr(
+                f"xl/worksheets/s{number}.xml",
+                f'{extra}<worksheet xmlns="{MAIN}"><sheetData>{lines}</sheetData></worksheet>',
+            )
+        shared = "".join(f"<si><t>{escape(text)}</t></si>" for text in texts)
+        archive.writestr("xl/sharedStrings.xml", f'<sst xmlns="{MAIN}">{shared}</sst>')
+    return file
+
+
+SURVEY = [
+    ["type", "name", "label::English (en)", "label::Deutsch (de)", "required", "relevant", "constraint"],
+    ["note", "hello", "Hello.", "Hallo."],
+    ["select_one yn", "liked", "Did you like it?", "Hat es gefallen?", "yes", "${age} > 3"],
+    ["select_multiple yn", "both", "Which?", "Welche?"],
+    ["integer", "age", "How old?", "Wie alt?", "", "", ". >= 1 and . < 100"],
+    ["begin group", "g"],
+    ["text", "why not", "Why?", "Warum?"],
+    ["end group"],
+    ["geopoint", "where", "Where?", "Wo?"],
+]
+CHOICES = [
+    ["list_name", "name", "label::English (en)", "label::Deutsch (de)"],
+    ["yn", "1", "Yes", "Ja"],
+    ["yn", "0", "No", "Nein"],
+]
+
+
+def test_an_xlsform_is_taken_and_what_is_not_is_named_by_its_row(tmp_path: Path) -> None:
+    file = workbook(tmp_path / "form.xlsx", {"survey": SURVEY, "choices": CHOICES})
+    read, left = read_survey(file, HEADING)
+    assert [(item.id, item.kind) for item in read.items] == [
+        ("hello", "page"), ("liked", "single"), ("both", "multiple"), ("age", "integer"), ("why_not", "text"),
+    ]  # fmt: skip
+    liked, age = read.items[1], read.items[3]
+    assert isinstance(liked, Single)
+    assert liked.text == {"en": "Did you like it?", "de": "Hat es gefallen?"}
+    assert liked.ids == ("1", "0")
+    assert liked.required is True
+    assert isinstance(age, Integer)
+    assert (age.lowest, age.highest) == (1, 99)
+    assert "survey, row 3: its condition (${age} > 3) is not taken: it is always asked" in left
+    assert "survey, row 9: the type 'geopoint' is not taken" in left
+    assert any("the name 'why not' is 'why_not' here" in each for each in left)
+    assert any("begin group" in each for each in left)
+
+
+REDCAP = """\
+"Variable / Field Name","Form Name","Section Header","Field Type","Field Label","Choices, Calculations, OR Slider Labels","Field Note","Text Validation Type OR Show Slider Number","Text Validation Min","Text Validation Max",Identifier?,"Branching Logic (Show field only if...)","Required Field?"
+sex,f,,radio,"<b>Sex</b>","1, Male | 2, Female",,,,,,,y
+age,f,,text,Age,,,integer,18,99,,"[sex] = '1'",
+mood,f,,slider,Mood,"bad | so so | good",,,,,,,
+ok,f,,yesno,OK?,,,,,,,,
+sum,f,,calc,Sum,"[a]+[b]",,,,,,,
+"""  # noqa: E501 - as REDCap writes it
+
+
+def test_a_redcap_dictionary_is_taken(tmp_path: Path) -> None:
+    file = tmp_path / "dictionary.csv"
+    file.write_text(REDCAP, "utf-8-sig")
+    assert is_survey(file)
+    read, left = read_survey(file, HEADING)
+    assert [(item.id, item.kind) for item in read.items] == [
+        ("sex", "single"), ("age", "integer"), ("mood", "slider"), ("ok", "single"),
+    ]  # fmt: skip
+    sex, age, mood, _ = read.items
+    assert isinstance(sex, Single)
+    assert (sex.text, sex.ids, sex.required) == ({"en": "Sex"}, ("1", "2"), True)
+    assert isinstance(age, Integer)
+    assert (age.lowest, age.highest) == (18, 99)
+    assert isinstance(mood, Slider)
+    assert (mood.left, mood.right) == ({"en": "bad"}, {"en": "good"})
+    assert "row 6, sum: the field type 'calc' is not taken" in left
+    assert "row 2, sex: its markup is not taken; the words are" in left
+    assert any(each.startswith("row 3, age: its branching logic") for each in left)
+
+
+LIME = [
+    ["class", "type/scale", "name", "relevance", "text", "language", "mandatory"],
+    ["S", "", "sid", "", "1", "", ""],
+    ["G", "", "group", "1", "", "de", ""],
+    ["Q", "F", "trust", "1", "Wie sehr?", "de", "Y"],
+    ["SQ", "", "a", "", "Dem Roboter", "de", ""],
+    ["SQ", "", "b", "", "Dem Spiel", "de", ""],
+    ["A", "", "A1", "", "wenig", "de", ""],
+    ["A", "", "A2", "", "sehr", "de", ""],
+    ["Q", "M", "which", "trust > 1", "Welche?", "de", "N"],
+    ["SQ", "", "x", "", "Eins", "de", ""],
+    ["SQ", "", "y", "", "Zwei", "de", ""],
+    ["Q", "5", "stars", "1", "Sterne?", "de", "N"],
+    ["Q", "*", "equation", "1", "{a+b}", "de", "N"],
+]
+
+
+def test_a_limesurvey_file_is_taken(tmp_path: Path) -> None:
+    file = tmp_path / "survey.txt"
+    file.write_text("\n".join("\t".join(row) for row in LIME), "utf-8-sig")
+    assert is_survey(file)
+    read, left = read_survey(file, HEADING)
+    assert [item.id for item in read.items] == ["trust_a", "trust_b", "which", "stars"]
+    first, _, which, stars = read.items
+    assert isinstance(first, Single)
+    assert first.text == {"de": "Wie sehr?\nDem Roboter"}
+    assert isinstance(which, Multiple)
+    assert isinstance(stars, Likert)
+    assert stars.points == 5
+    assert any("its relevance (trust > 1) is not taken" in each for each in left)
+    assert any("the type '*' is not taken" in each for each in left)
+
+
+def question(name: str, kind: str, selector: str, **more: object) -> dict[str, object]:
+    payload = {"QuestionText": f"{name}?", "DataExportTag": name, "QuestionType": kind, "Selector": selector, **more}
+    return {"Element": "SQ", "Payload": payload}
+
+
+def test_a_qualtrics_file_is_taken(tmp_path: Path) -> None:
+    choices = {"1": {"Display": "Yes"}, "2": {"Display": "No"}}
+    elements = [
+        {"Element": "BL", "Payload": []},
+        question("Q1", "MC", "SAVR", Choices=choices, ChoiceOrder=["2", "1"]),
+        question(
+            "Q2", "Matrix", "Likert", Choices=choices, Answers={"1": {"Display": "low"}, "2": {"Display": "high"}}
+        ),
+        question("Q3", "TE", "SL", Validation={"Settings": {"ForceResponse": "ON"}}, DisplayLogic={"0": {}}),
+        question("Q4", "Captcha", "V2"),
+    ]
+    file = tmp_path / "survey.qsf"
+    file.write_text(json.dumps({"SurveyElements": elements}), "utf-8")
+    read, left = read_survey(file, HEADING)
+    assert [item.id for item in read.items] == ["Q1", "Q2_1", "Q2_2", "Q3"]
+    first = read.items[0]
+    assert isinstance(first, Single)
+    assert first.ids == ("2", "1")
+    assert "the question Q4: the question type 'Captcha' V2 is not taken" in left
+    assert "the question Q3: its display logic is not taken: it is always asked" in left
+
+
+def bad_workbook(folder: Path, kind: str) -> Path:
+    """Write a file that is no form, of one kind or another."""
+    file = folder / "form.xlsx"
+    match kind:
+        case "no workbook":
+            file.write_bytes(b"PK, but not really")
+        case "entities":
+            workbook(file, {"survey": SURVEY}, '<!DOCTYPE x [<!ENTITY a "aaaa">]>')
+        case "no sheet":
+            workbook(file, {"other": SURVEY})
+        case "a bomb":
+            with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+                archive.writestr("xl/workbook.xml", bytes(20_000_000))
+        case "nothing to ask":
+            workbook(file, {"survey": [SURVEY[0], SURVEY[-1]]})
+    return file
+
+
+@pytest.mark.parametrize(
+    ("kind", "why"),
+    [
+        ("no workbook", r"is not an \.xlsx workbook"),
+        ("entities", "document type"),
+        ("no sheet", "has no sheet 'survey'"),
+        ("a bomb", "is too large"),
+        ("nothing to ask", "has nothing that can be asked here"),
+        ("missing", "cannot be read"),
+    ],
+)
+def test_a_workbook_that_is_no_form_is_refused(kind: str, why: str, tmp_path: Path) -> None:
+    with pytest.raises(UserInputError, match=why):
+        read_survey(bad_workbook(tmp_path, kind), HEADING)
+
+
+@pytest.mark.parametrize("content", ["[]", "{}", "not JSON", '{"SurveyElements": [{"Element": "SQ", "Payload": 1}]}'])
+def test_a_qsf_file_that_is_none_is_refused(content: str, tmp_path: Path) -> None:
+    (tmp_path / "s.qsf").write_text(content, "utf-8")
+    with pytest.raises(UserInputError):
+        read_survey(tmp_path / "s.qsf", HEADING)
+
+
+def test_the_command_writes_what_is_taken_and_names_the_rest(tmp_path: Path) -> None:
+    file = workbook(tmp_path / "form.xlsx", {"survey": SURVEY, "choices": CHOICES})
+    out = tmp_path / "asked.toml"
+    command = ["study", "import", str(file), "--id", "asked", "--version", "1", "--out", str(out), "--per-page", "3"]
+    said = CliRunner().invoke(recollect, command)
+    assert said.exit_code == 0, said.output
+    assert "5 items written to" in said.output
+    assert "not taken: survey, row 9: the type 'geopoint' is not taken" in said.output
+    assert Questionnaire.read(out).per_page == 3
+
+
+def test_a_table_in_windows_1252_is_read_with_its_accents(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_bytes("id;kind;text_it\nfine;page;Perché è così\n".encode("cp1252"))
+    assert read_items(file, HEADING).items[0].text == {"it": "Perché è così"}
