@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, replace
-from itertools import count, repeat
+from functools import partial
+from itertools import count, product, repeat
 from math import isfinite
 from pathlib import Path
 from random import Random
@@ -28,7 +29,7 @@ from kiosk.cli.options import (
     robot_port_option,
     study_option,
 )
-from kiosk.config import NO_ROBOT, STAGES
+from kiosk.config import NO_ROBOT, STAGES, RobotConfig
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
 from kiosk.experiment.session_config import SessionKind, StudyConfig
@@ -53,7 +54,7 @@ from kiosk.ui.rehearsal import (
     resize,
 )
 from kiosk.ui.session_runner import ConditionAssigner, RunContext
-from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, UiTimeout
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTraits, ReadingDriver, UiTimeout
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 LARGEST_SEED = 2**63 - 1
@@ -218,6 +219,65 @@ def _shoot_sheet(
         if app.stop_requested:
             raise click.Abort
     pictures.sheet.save(shots / f"contact-{character.language}-{layout}.png")
+
+
+SIZES = ((1280, 720), (1920, 1080), (1080, 1920))
+"""The windows that every page is tried in, in pixels: the smallest, the usual one, and one that stands upright."""
+
+
+def walk_pages(study: StudyConfig) -> Iterator[tuple[bool, str]]:
+    """Go through a session in every language and window; yields whether something is a fault, and a sentence about it.
+
+    Nothing is kept, and no robot is looked for.
+    """
+    settings = study.settings
+    alone = settings.model_copy(update={"robot": RobotConfig()}).with_base_dir(settings)
+    study = read_study(alone)
+    fixed = study.condition(alone.assistance.condition)
+    origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: 1, condition=fixed)
+    mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
+    for language, (width, height) in product(study.languages, SIZES):
+        place = f"in {language!r}, on a window of {width} x {height}"
+        cut: dict[str, None] = {}
+        stuck = _walk(study, mode, origin, language, (width, height), cut)
+        if stuck is not None:
+            yield True, f"{place}, a session cannot go on: {stuck}"
+        for text in cut:
+            shown = text if len(text) <= _SHOWN_CHARACTERS else f"{text[:_SHOWN_CHARACTERS]}..."
+            yield False, f"{place}, a text is cut off: {shown!r}; make it shorter"
+
+
+_SHOWN_CHARACTERS = 60
+
+
+def _walk(
+    study: StudyConfig,
+    mode: RunMode,
+    origin: RunContext,
+    language: str,
+    size: tuple[int, int],
+    cut: dict[str, None],
+) -> UiTimeout | None:
+    """Go through one session; returns why it came to no end, and adds the texts that are cut off to ``cut``."""
+    with (
+        TemporaryDirectory() as unkept,
+        guarded() as beat,
+        _recorder(Path(unkept), mode) as recorder,
+        App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
+    ):
+        app.window.resize(*size)
+        screens = app.screens
+        hand = partial(
+            ReadingDriver,
+            page=lambda: (screens.kiosk.shown, tuple(item.id for item in screens.form.shown)),
+            tell=lambda text: cut.update({text: None}),
+        )
+        visitor = BehaviourProfile(BehaviourKind.COMPLETES, Stage.GAME, language, MemoryTraits())
+        try:
+            Rehearsal(app, 1, None, visitor, hand).run()
+        except UiTimeout as stuck:
+            return stuck
+    return None
 
 
 def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:

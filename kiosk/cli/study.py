@@ -64,15 +64,20 @@ study.add_command(translations_command)
     type=click.Path(path_type=Path),
     help="Who may have signed a packed study: a file as ssh-keygen(1) describes it.",
 )
+@click.option(
+    "--pages", is_flag=True, help="Also go through a session in every language and on three sizes of the window."
+)
 @json_option
 @click.pass_context
-def study_check(context: click.Context, file: Path, allowed_signers: Path | None, *, as_json: bool) -> None:
+def study_check(
+    context: click.Context, file: Path, allowed_signers: Path | None, *, pages: bool, as_json: bool
+) -> None:
     """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
     try:
         read = read_study(open_study(file))
         check_robot(read.settings)
         signature, unverified = signature_of(file, allowed_signers)
-        untried = [*unverified, *check_pictures(read), *check_fonts(read)]
+        untried = [*unverified, *check_pictures(read), *check_fonts(read), *(check_pages(read) if pages else ())]
     except UserInputError as refusal:
         if not as_json:
             raise
@@ -118,6 +123,17 @@ def check_fonts(read: StudyConfig) -> list[str]:
         return [f"{each}; {each.remedy}" for each in missing_characters(program("_display", "fonts"), read)]
     except (OSError, ValueError, subprocess.SubprocessError) as error:
         return [f"the fonts were not tried: {error}"]
+
+
+def check_pages(read: StudyConfig) -> list[str]:
+    """Raise UserInputError if a session does not come to its end; returns the texts that are cut off."""
+    from kiosk.cli.rehearse import walk_pages  # noqa: PLC0415 - the whole interface, for this option alone
+
+    found = list(walk_pages(read))
+    faults = [sentence for is_fault, sentence in found if is_fault]
+    if faults:
+        raise UserInputError(*faults)
+    return [sentence for _, sentence in found]
 
 
 def summarised(read: StudyConfig) -> dict[str, Any]:

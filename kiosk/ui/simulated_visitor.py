@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from enum import Enum
@@ -116,6 +116,53 @@ class UiDriver:
         if outside and _scroller(item) is None:
             raise UiTimeout(f"{name!r} lies outside the window")
         return item
+
+
+class ReadingDriver(UiDriver):
+    """Clicks as well, and first looks at every new page for texts that are cut off."""
+
+    def __init__(
+        self, window: QQuickWindow, aside: Aside, page: Callable[[], Hashable], tell: Callable[[str], None]
+    ) -> None:
+        """``page`` says which page is shown; ``tell`` is called with every text that is cut off, once."""
+        super().__init__(window, aside)
+        self._page = page
+        self._tell = tell
+        self._read: set[Hashable] = set()
+
+    def click(self, name: str, across: float = 0.5) -> None:
+        """Read the page, if it is new, and then click."""
+        page = (self._page(), name.startswith("key-"))
+        if page not in self._read:
+            self._read.add(page)
+            lay_out(self._window)
+            for text in cut_texts(self._window):
+                self._tell(text)
+        super().click(name, across)
+
+
+_ROUNDED = 2.0
+"""Pixels that a text may be wider than its place; sizes are rounded."""
+
+
+def cut_texts(window: QQuickWindow) -> Iterator[str]:
+    """Yield the texts that do not fit: wider than their place, or beyond the window and not to be scrolled to."""
+    whole = QRectF(-1, -1, window.width() + 2, window.height() + 2)
+    for text in _texts(window.contentItem()):
+        letters = text.mapRectToScene(text.boundingRect())
+        scrolls = _scroller(text) is not None
+        fits = float(text.property("contentWidth")) <= text.width() + _ROUNDED
+        inside = whole.left() <= letters.left() and letters.right() <= whole.right()
+        if text.property("truncated") or not fits or not inside or not (scrolls or whole.contains(letters)):
+            yield str(text.property("text"))
+
+
+def _texts(item: QQuickItem) -> Iterator[QQuickItem]:
+    if item.isVisible() and item.opacity() > 0:
+        if item.inherits("QQuickText") and str(item.property("text")).strip():
+            yield item
+        for child in item.childItems():
+            yield from _texts(child)
 
 
 @cache

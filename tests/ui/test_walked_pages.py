@@ -1,0 +1,48 @@
+"""The check of a study goes through its pages, and tells texts that are cut off and sessions that do not end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from kiosk.cli import rehearse
+from kiosk.config import Settings
+from kiosk.study.loader import read_study
+
+STUDY = """\
+languages = ["en"]
+stages = ["introduction", "game", "result"]
+[game]
+rows = 2
+columns = 2
+[robot]
+kind = "furhat"
+"""
+
+
+@pytest.fixture
+def _one_size(monkeypatch: pytest.MonkeyPatch, qapp: object) -> None:
+    """Try one window."""
+    del qapp
+    monkeypatch.setattr(rehearse, "SIZES", ((1280, 720),))
+
+
+def walked(folder: Path, more: str = "") -> list[tuple[bool, str]]:
+    """Return what was found in a study."""
+    (folder / "study.toml").write_text(STUDY + more, "utf-8")
+    return list(rehearse.walk_pages(read_study(Settings.read(folder / "study.toml"))))
+
+
+@pytest.mark.usefixtures("_one_size")
+def test_pages_that_fit_are_passed_over_in_silence_and_no_robot_is_looked_for(tmp_path: Path) -> None:
+    assert walked(tmp_path) == []
+
+
+@pytest.mark.usefixtures("_one_size")
+def test_a_page_that_does_not_fit_and_cannot_be_left_is_told_with_language_and_window(tmp_path: Path) -> None:
+    found = walked(tmp_path, f'[texts.en]\nintroduction-title = "{"Unbreakable" * 30}"\n')
+    place = "in 'en', on a window of 1280 x 720"
+    (fault,) = [each for is_fault, each in found if is_fault]
+    assert fault == f"{place}, a session cannot go on: 'continue' lies outside the window, on the screen introduction"
+    assert any(f"{place}, a text is cut off: 'Unbreakable" in each for is_fault, each in found if not is_fault)
