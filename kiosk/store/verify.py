@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
@@ -13,7 +14,6 @@ from pathlib import Path
 
 from kiosk import UserInputError
 from kiosk.experiment.events import from_record
-from kiosk.experiment.randomisation import AllocationSlot
 from kiosk.store.connecting import reason
 from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
@@ -144,14 +144,26 @@ def _time(connection: sqlite3.Connection) -> _Found:
         yield f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"
 
 
+_REMEMBERED = 100_000
+"""So many different events are remembered as readable; most events of a study say the same as an earlier one."""
+
+
 def _readable(connection: sqlite3.Connection) -> _Found:
+    readable: set[tuple[str, str]] = set()
     for session, seq, at_ms, kind, payload in connection.execute(
         "SELECT session, seq, at_ms, type, payload FROM event"
     ):
+        # The schema holds the time to a whole number, so it makes no difference.
+        if (kind, payload) in readable:
+            continue
         try:
             from_record({"at_ms": at_ms, "type": kind, **json.loads(payload)})
         except (ValueError, TypeError) as error:
             yield f"session {session}, event {seq}", f"{kind} cannot be read: {error}"
+            continue
+        if len(readable) == _REMEMBERED:
+            readable.clear()
+        readable.add((kind, payload))
 
 
 def _participants(connection: sqlite3.Connection) -> _Found:
@@ -189,17 +201,16 @@ def _alike(connection: sqlite3.Connection) -> _Found:
 
 
 def _places(connection: sqlite3.Connection) -> _Found:
-    listed: dict[int, tuple[AllocationSlot, ...]] = {}
+    listed: dict[tuple[int, int], str] = {}
     for number, quotas, slots in connection.execute("SELECT id, quotas, slots FROM allocation_list"):
-        listed[number] = slots_from_json(slots)
-        conditions = [slot.condition for slot in listed[number]]
-        if {each: conditions.count(each) for each in conditions} != quotas_from_json(quotas):
+        there = slots_from_json(slots)
+        listed |= {(number, slot.number): slot.condition.name for slot in there}
+        if Counter(slot.condition for slot in there) != quotas_from_json(quotas):
             yield f"list {number}", "does not meet its quotas"
     for session, condition, number, slot in connection.execute(
         "SELECT id, condition, allocation_list, allocation_slot FROM session WHERE allocation_slot IS NOT NULL"
     ):
-        there = next((each for each in listed.get(number, ()) if each.number == slot), None)
-        if there is None or there.condition.name != condition:
+        if listed.get((number, slot)) != condition:
             yield f"session {session}", f"is {condition}, and slot {slot} of list {number} is not"
 
 

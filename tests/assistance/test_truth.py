@@ -26,7 +26,7 @@ from tests.samples import ANIMALS, CATALOGUES, always
 
 HELP = (ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD)
 LANGUAGES = ("en", "it", "es")
-GAMES = 2000
+GAMES = 900
 """Random games in the long test; in every one some hints are asked for."""
 
 
@@ -207,7 +207,7 @@ def test_every_hint_of_any_game_is_true(
         check(one, language)
 
 
-def test_thousands_of_random_games_get_true_hints_only() -> None:
+def test_hundreds_of_random_games_get_true_hints_only() -> None:
     hints = Counter[tuple[bool, str]]()
     combinations = list(product(TargetRule, HELP, LANGUAGES))
     for seed in range(GAMES):
@@ -217,7 +217,7 @@ def test_thousands_of_random_games_get_true_hints_only() -> None:
             check(one, language)
             hints[cell(one)] += 1
     assert set(hints) == set(CELLS)
-    assert min(hints.values()) >= 20, hints
+    assert min(hints.values()) >= 9, hints
     assert hints.total() >= 3 * GAMES
 
 
