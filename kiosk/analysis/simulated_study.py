@@ -33,7 +33,9 @@ PACE_SPREAD = 0.3
 """SD of the logarithm of that time over participants."""
 SCALES = {"SOC": (12.7, 3.7), "AC": (14.0, 3.0), "PC": (11.5, 3.0), "RC": (13.0, 3.5)}
 """Mean and SD of the sum of each scale (4 items from 1 to 5); about the pooled values of the paper."""
-LOWEST_SUM, HIGHEST_SUM = 4, 20
+ITEMS, POINTS = 4, 5
+"""Items of a scale, and points of an item."""
+LOWEST_SUM, HIGHEST_SUM = ITEMS, ITEMS * POINTS
 BOARD = 2
 """The game's board; the first is that of the practice."""
 
@@ -184,13 +186,27 @@ def _tables(people: Sequence[SimulatedRecord], policy: QTable) -> dict[str, list
                 tables["hints"].append(hint)
         for scale in SCALES:
             total = person.measures[f"{scale}_sum"]
-            tables["scores"].append(
-                {"participant_id": person.name, "questionnaire": "simulated", "scale": scale, "sum": total}
-                | {"mean": total / 4, "items": 4, "answered": 4}
-            )
+            asked = {"participant_id": person.name, "questionnaire": "simulated", "scale": scale}
+            tables["scores"].append(asked | {"sum": total, "mean": total / ITEMS, "items": ITEMS, "answered": ITEMS})
+            scored = item_scores(int(total), np.random.default_rng([*f"{person.name}/{scale}".encode()]))
+            for number, score in enumerate(scored, 1):
+                answer = {"item": f"{scale}{number}", "kind": "likert", "value": score, "number": score}
+                tables["answers"].append(asked | answer | {"scored": score, "reversed": False, "not_applicable": False})
     if people:
         tables["flow"].append({"quantity": "exported", "group": "", "count": len(people)})
     return tables
+
+
+def item_scores(total: int, rng: np.random.Generator) -> list[int]:
+    """Return scores of the items of a scale, from 1 to 5, whose sum is ``total``: about equal, and then moved apart."""
+    each, rest = divmod(total, ITEMS)
+    scores = [each + (at < rest) for at in range(ITEMS)]
+    rng.shuffle(scores)
+    for up, down in rng.integers(ITEMS, size=(ITEMS, 2)):
+        if up != down and scores[up] < POINTS and scores[down] > 1:
+            scores[up] += 1
+            scores[down] -= 1
+    return scores
 
 
 def _participant(person: SimulatedRecord, policy: QTable) -> dict[str, Any]:

@@ -18,11 +18,13 @@ from scipy import stats
 
 from kiosk import UserInputError
 from kiosk.analysis import power
+from kiosk.analysis.data import load_study, scale_items
 from kiosk.analysis.plan import TEMPLATE, StudyPlan
 from kiosk.analysis.sequential import bayes_factors, boundaries, nominal_levels
 from kiosk.analysis.statistics import student_error, welch_error
 from kiosk.assistance.policy import QTable
 from kiosk.cli.main import recollect
+from kiosk.export.layouts import file_of
 from kiosk.store.plans import frozen_plans
 from kiosk.store.verify import verify
 from kiosk.training.simulated_players import PopulationPlayer
@@ -211,3 +213,22 @@ def test_a_simulated_study_of_a_plan_is_a_data_set(plan: Path, tmp_path: Path) -
     assert told["participants"] == 12
     calibrated = json.loads(run("calibrate", str(tmp_path / "study"), "--json"))
     assert calibrated["sessions"] == 12
+
+
+def test_a_simulated_study_has_the_answers_that_its_scores_are_of(plan: Path, tmp_path: Path) -> None:
+    plan.write_text(TEMPLATE.replace("n_per_arm = 56", "n_per_arm = 15"))
+    for name in ("one", "two"):
+        run("plan", "simulate", str(plan), "--out", str(tmp_path / name), "--json")
+    study = load_study(tmp_path / "one")
+    who = study.participants.text("participant_id")
+    scales = {scale.name: scale for scale in scale_items(study, who)}
+    scores = study.tables["scores"]
+    assert set(scales) == {"SOC", "AC", "PC", "RC"}
+    for name, scale in scales.items():
+        assert scale.items == tuple(f"{name}{number}" for number in (1, 2, 3, 4))
+        assert ((scale.scored >= 1) & (scale.scored <= 5)).all()
+        sums = [float(total) for total, of in zip(scores.text("sum"), scores.text("scale"), strict=True) if of == name]
+        assert scale.scored.sum(axis=1).tolist() == sums
+        assert len({tuple(row) for row in scale.scored.tolist()}) > len(set(sums))
+    answers = file_of("answers")
+    assert (tmp_path / "one" / answers).read_bytes() == (tmp_path / "two" / answers).read_bytes()
