@@ -676,6 +676,13 @@ class Privacy(ConfigModel):
     age_bands: Annotated[
         int, Unit("years"), Field(ge=2, le=50, description="How many years a band of ages has in an export.")
     ] = 5
+    pointer_trace: Annotated[
+        bool,
+        Field(
+            description="Records the way of the pointer over the board, 30 places a second, of visitors who agreed to "
+            "the purpose 'pointer' of the consent, and of no others."
+        ),
+    ] = False
     shuffled_ids: Annotated[
         bool,
         Field(

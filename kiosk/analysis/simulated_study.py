@@ -198,7 +198,7 @@ def _tables(people: Sequence[SimulatedRecord], policy: QTable) -> dict[str, list
 
 
 def item_scores(total: int, rng: np.random.Generator) -> list[int]:
-    """Return scores of the items of a scale, from 1 to 5, whose sum is ``total``: about equal, and then moved apart."""
+    """Return scores from 1 to 5 of a scale's items, whose sum is ``total``: about equal, then moved apart."""
     each, rest = divmod(total, ITEMS)
     scores = [each + (at < rest) for at in range(ITEMS)]
     rng.shuffle(scores)

@@ -298,11 +298,16 @@ class PracticeSkipped(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class CardSelected(WorldEvent):
-    """The visitor tapped a card, whether or not it could be turned. ``device`` is what with, where that is known."""
+    """The visitor tapped a card, whether or not it could be turned. ``device`` is what with, where that is known.
+
+    ``trace`` is the way of the pointer since the tap before, where the visitor agreed to that: for each place how many
+    ms before this tap, and where on the board, from 0 at its left and top, in cards.
+    """
 
     by_visitor = True
     position: Position
     device: InputDevice | None = None
+    trace: tuple[tuple[int, float, float], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

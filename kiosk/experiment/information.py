@@ -19,6 +19,9 @@ from kiosk.experiment.items import Name, Text, refuse_twice
 PUBLISHING = "share"
 """The purpose of the consent that stands for publishing; where it is offered, it has to be ticked."""
 
+POINTER = "pointer"
+"""The purpose of the consent that stands for recording the way of the pointer."""
+
 Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
 
 

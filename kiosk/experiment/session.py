@@ -18,6 +18,7 @@ from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
 from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, TextSize, Timer, WorldEvent
 from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage, SampleHints
+from kiosk.experiment.information import POINTER
 from kiosk.experiment.page_stages import (
     AboutStage,
     AgeStage,
@@ -324,9 +325,18 @@ class Session:
                 return self._can_go_back
             case happened.LanguageSelected(language=language):
                 return language != self._scenery.language and self._plan.translation(language) is not None
+            case happened.CardSelected(trace=trace) if trace:
+                return self.traces_pointer
             case happened.SessionResumed():
                 return self.keeping is RecordingState.KEPT and self._cut_off_in not in (Stage.GAME, Stage.OVER)
         return True
+
+    @property
+    def traces_pointer(self) -> bool:
+        """Whether the way of the pointer may be recorded: the study asks for it, and the visitor agreed to it."""
+        return self._plan.settings.privacy.pointer_trace and any(
+            isinstance(event, happened.ConsentGiven) and POINTER in event.purposes for event in self._log
+        )
 
     def _react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Take note of the few events that concern the session as a whole."""

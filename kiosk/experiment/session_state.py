@@ -95,6 +95,8 @@ class BoardFlip:
     decision_ms: int
     exposure_ms: int | None = None
     device: InputDevice | None = None
+    trace: tuple[tuple[int, float, float], ...] = ()
+    """The way of the pointer since the tap before, as CardSelected has it."""
 
 
 @dataclass(frozen=True)
@@ -420,12 +422,12 @@ class _Boards:
         self._decisions: dict[int, AssistanceDecided] = {}
         self._remarks: dict[int, BoardRemark] = {}
         self._open_since = 0
-        self._device: InputDevice | None = None
-        """What the last card was tapped with; a card is turned by the tap before."""
+        self._tap: CardSelected | None = None
+        """The last tap; a card is turned by the tap before."""
 
     def take(self, event: Event, stage: Stage, pauses: Iterable[Interval]) -> None:
         if isinstance(event, CardSelected):
-            self._device = event.device
+            self._tap = event
         match event:
             case BoardDealt():
                 self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
@@ -447,7 +449,8 @@ class _Boards:
 
     def _flip(self, event: CardFlipped, pauses: Iterable[Interval]) -> None:
         decision_ms = elapsed_ms(self._open_since, event.at_ms, pauses)
-        self._flips[event.number] = BoardFlip(event, decision_ms, device=self._device)
+        device, trace = (self._tap.device, self._tap.trace) if self._tap else (None, ())
+        self._flips[event.number] = BoardFlip(event, decision_ms, device=device, trace=trace)
         if event.matched:
             self._cover(event.at_ms, pauses)
 

@@ -365,3 +365,54 @@ HINTS = Table(
     _HINT_COLUMNS,
     _hints,
 )
+
+
+@dataclass(frozen=True)
+class _Place:
+    kept: SessionRecord
+    dealt: DealtBoard
+    flip: BoardFlip
+    number: int
+
+    @property
+    def place(self) -> tuple[int, float, float]:
+        return self.flip.trace[self.number - 1]
+
+
+def _places(kept: SessionRecord) -> Iterator[_Place]:
+    for row in _flips(kept):
+        yield from (_Place(kept, row.dealt, row.flip, number) for number, _ in enumerate(row.flip.trace, 1))
+
+
+_POINTER_COLUMNS: tuple[Column[_Place], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (FLIP, lambda row: row.flip.event.number),
+    (
+        Variable("pointer_place", "The number of the place on the way to this flip, from 1.", ColumnKind.WHOLE),
+        lambda row: row.number,
+    ),
+    (
+        Variable("pointer_ms", "When the pointer was there, from the session's first event.", ColumnKind.WHOLE, "ms"),
+        lambda row: row.flip.event.at_ms - row.place[0],
+    ),
+    (
+        Variable(
+            "pointer_x", "Where it was, in cards from the left edge of the board (0).", ColumnKind.NUMBER, "cards"
+        ),
+        lambda row: row.place[1],
+    ),
+    (
+        Variable("pointer_y", "The same from its upper edge.", ColumnKind.NUMBER, "cards"),
+        lambda row: row.place[2],
+    ),
+)
+
+POINTER_TRACES = Table(
+    "pointer",
+    "One row for every place of the pointer on its way to a card, at most 30 a second while it moved and the last 900 "
+    "before each flip, of visitors who agreed to that.",
+    (PARTICIPANT.name, BOARD.name, FLIP.name, "pointer_place"),
+    _POINTER_COLUMNS,
+    _places,
+)

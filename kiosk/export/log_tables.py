@@ -83,6 +83,8 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
 
     def fields(row: _Logged) -> dict[str, object]:
         given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
+        # The way of the pointer has a table of its own.
+        given.pop("trace", None)
         if study.shuffled and isinstance(given.get("setup"), dict):
             given["setup"] = {name: told for name, told in given["setup"].items() if name not in TELLS_THE_ORDER}
         item, value = given.get("item"), given.get("value")

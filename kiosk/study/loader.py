@@ -30,7 +30,7 @@ from kiosk.config import (
 )
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.experimenter import shortcuts
-from kiosk.experiment.information import PUBLISHING, Information, Page, check_alike
+from kiosk.experiment.information import POINTER, PUBLISHING, Information, Page, check_alike
 from kiosk.experiment.items import (
     Choice,
     Pictures,
@@ -188,6 +188,7 @@ def read_study(settings: Settings) -> StudyConfig:
     look.check_practice()
     look.check_logo()
     look.check_fonts()
+    look.check_pointer(sheets)
     if look.faults or condition is None or policy is None:
         raise UserInputError(*look.faults)
     for language, catalogue in catalogues.items():
@@ -511,6 +512,14 @@ class _Look:
         settings = self._settings
         if "practice" in settings.stages and settings.practice.deck == settings.game.deck:
             self._blame("practice.deck", f"the game has the pictures {settings.game.deck!r} too; choose others")
+
+    def check_pointer(self, sheets: Mapping[str, Information]) -> None:
+        """Refuse to record the way of the pointer where no visitor can agree to it."""
+        offered = {purpose.id for sheet in sheets.values() for purpose in sheet.consent.purposes}
+        if self._settings.privacy.pointer_trace and sheets and POINTER not in offered:
+            self._blame(
+                "privacy.pointer_trace", f"the consent has no purpose {POINTER!r} that a visitor could agree to"
+            )
 
     def check_allocation(self) -> None:
         """Every quota is one of a condition, and every block holds them in ratio."""

@@ -33,7 +33,7 @@ from kiosk.ui.event_loop import (
 )
 from kiosk.ui.experimenter.actions import Services
 from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
-from kiosk.ui.input import Activity
+from kiosk.ui.input import Activity, PointerTrace
 from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
@@ -88,6 +88,11 @@ class App:
         self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
         self.runner.last_activity_ms = self._activity.last_ms
         self.runner.last_device = lambda: self._activity.device
+        if settings.privacy.pointer_trace:
+            self._trace = PointerTrace(self.window, self.clock, owner)
+            self.runner.take_trace = self._trace.take
+            # Whatever was moved before a session is none of it.
+            self.screens.kiosk.screen_changed.connect(self._forget_trace)
         self.voice = _voice(settings, mode, self.clock, owner)
         undo.callback(self.voice.close)
         self.embodiments = EmbodimentSelector(self.runner, self.clock.after, settings.robot)
@@ -196,6 +201,10 @@ class App:
             window_health=lambda: self.booth.health if self.booth else (),
             leave=self.quit,
         )
+
+    def _forget_trace(self) -> None:
+        if self.screens.kiosk.shown == "attract":
+            self._trace.begin()
 
     def _setup(self) -> SessionSetup:
         """Return what a session begins with now, but for the time."""

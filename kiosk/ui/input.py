@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import deque
+
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTextBoundaryFinder
 from PySide6.QtGui import QInputDevice, QKeyEvent, QMouseEvent, QPointerEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
@@ -184,3 +186,50 @@ def _drags(event: QEvent) -> bool:
         and isinstance(event, QMouseEvent)
         and event.buttons() != Qt.MouseButton.NoButton
     )
+
+
+class PointerTrace(QObject):
+    """Keeps the way of the pointer over the board until the tap that it leads to."""
+
+    def __init__(self, window: QQuickWindow, clock: Clock, parent: QObject) -> None:
+        """Look until ``parent`` goes."""
+        super().__init__(parent)
+        self._window = window
+        self._clock = clock
+        self._places: deque[tuple[int, float, float]] = deque(maxlen=MOST_PLACES)
+        self._left = MOST_PLACES_IN_ALL
+        window.installEventFilter(self)
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Notice where the pointer is; nothing is taken."""
+        if event.type() == QEvent.Type.MouseMove and isinstance(event, QMouseEvent):
+            now_ms = self._clock.now_ms()
+            if not self._places or now_ms - self._places[-1][0] >= TRACED_MS:
+                place = event.scenePosition()
+                self._places.append((now_ms, place.x(), place.y()))
+        return False
+
+    def begin(self) -> None:
+        """Forget everything: another session begins."""
+        self._places.clear()
+        self._left = MOST_PLACES_IN_ALL
+
+    def take(self) -> tuple[tuple[int, float, float], ...]:
+        """Return the way until now, and forget it: ms before now, and the place on the board in cards."""
+        board = self._window.findChild(QQuickItem, "board")
+        cell = float(board.property("cellWidth")) if board is not None else 0.0
+        places, now_ms = list(self._places)[: self._left], self._clock.now_ms()
+        self._places.clear()
+        if board is None or cell <= 0:
+            return ()
+        self._left -= len(places)
+        there = [(at_ms, board.mapFromScene(QPointF(x, y))) for at_ms, x, y in places]
+        return tuple((now_ms - at_ms, round(at.x() / cell, 3), round(at.y() / cell, 3)) for at_ms, at in there)
+
+
+TRACED_MS = 33
+"""Between two places of the pointer: 30 a second."""
+MOST_PLACES = 900
+"""Places before one tap: the last 30 seconds of a pointer that never rests."""
+MOST_PLACES_IN_ALL = 20_000
+"""Places in a session, about half a megabyte; what comes later is not recorded."""

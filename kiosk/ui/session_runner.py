@@ -274,6 +274,8 @@ class SessionRunner:
         """When the visitor last did anything to the screen, on the clock; None if they never did."""
         self.last_device: Callable[[], InputDevice | None] = lambda: None
         """What the visitor used last; None if that is not known."""
+        self.take_trace: Callable[[], tuple[tuple[int, float, float], ...]] = tuple
+        """Gives the way of the pointer since it was asked last."""
         self.describe_setup: Callable[[], SessionSetup | None] = lambda: None
         """Tells with what a session begins; ``local_time`` adds when."""
         self.local_time: Callable[[], datetime | None] = lambda: None
@@ -382,6 +384,10 @@ class SessionRunner:
     def input_device(self) -> InputDevice | None:
         """Return what the visitor used last; None if that is not known."""
         return self.last_device()
+
+    def pointer_trace(self) -> tuple[tuple[int, float, float], ...]:
+        """Return the way of the pointer since the last tap; nothing where it may not be recorded."""
+        return self.take_trace() if self._session is not None and self._session.traces_pointer else ()
 
     def now_ms(self) -> int:
         """Return the time of an event that happens now, in ms since the session began."""

@@ -351,6 +351,10 @@ STUDIES: dict[str, Bad] = {
         ("the information sheet {here}/sheets/en.toml: consent.purposes: the purpose 'store' stands twice",),
         told("en", '"share"', '"store"'),
     ),
+    "pointer without consent": Bad(
+        "[privacy]\npointer_trace = true",
+        ("{study}: privacy.pointer_trace: the consent has no purpose 'pointer' that a visitor could agree to",),
+    ),
     # Questionnaires
     "unknown questionnaire": Bad(
         "about_you = 'me'",

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import UTC, datetime
+from pathlib import Path
+from shutil import copytree
 
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QWheelEvent
 from PySide6.QtTest import QTest
 
-from kiosk.config import Settings
+from kiosk.config import ASSETS, Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName, InputDevice, WorldEvent
 from kiosk.store.queries import open_repository
@@ -263,3 +265,46 @@ def test_on_a_clock_on_the_wall_the_hour_and_the_visitors_before_are_noted(booth
         firsts = [stored.events(number)[0] for number in (1, 2)]
     setups = [first.setup for first in firsts if isinstance(first, happened.SessionStarted)]
     assert [(setup.hour_band, setup.visitors_before) for setup in setups if setup] == [(3, 0), (3, 1)]
+
+
+def with_a_purpose_for_the_pointer(folder: Path) -> Settings:
+    """Return a study of consent and game that records the way of the pointer, with sheets that ask for it."""
+    sheets = folder / "sheets"
+    copytree(ASSETS / "consent" / "study", sheets)
+    for file in sheets.glob("*.toml"):
+        offered = "[[consent.purposes]]\nid = 'pointer'\nrequired = false\ntext = 'The way of the pointer'\n\n[debrief]"
+        file.write_text(file.read_text("utf-8").replace("[debrief]", offered), "utf-8")
+    (folder / "study.toml").write_text(
+        'languages = ["en"]\nstages = ["consent", "game"]\n'
+        '[consent]\ntext = "./sheets"\n[privacy]\npointer_trace = true\n',
+        "utf-8",
+    )
+    return Settings.read(folder / "study.toml")
+
+
+@pytest.mark.parametrize("agrees", [True, False])
+def test_the_way_of_the_pointer_is_recorded_in_cards_of_those_who_agree(
+    make_booth: MakeBooth, tmp_path: Path, *, agrees: bool
+) -> None:
+    booth = make_booth(settings=with_a_purpose_for_the_pointer(tmp_path))
+    booth.click("start-en")
+    for purpose in ("take_part", "store"):
+        booth.click(f"purpose-{purpose}")
+    # This one lies further down the page.
+    booth.app.screens.consent.ticked.emit("pointer", agrees)
+    booth.click("agree")
+    board = booth.item("board")
+    cell = board.property("cellWidth")
+    pass_time(booth, 1_000)
+    for column in (0.5, 1.5, 2.5):
+        place = board.mapToScene(QPointF(column * cell, 0.25 * cell)).toPoint()
+        QTest.mouseMove(booth.app.window, place)
+        booth.settle()
+        pass_time(booth, 100)
+    booth.click("card-2")
+    with open_repository(booth.data) as stored:
+        taps = [event for event in stored.events(1) if isinstance(event, happened.CardSelected)]
+    way = [(x, y) for _, x, y in taps[0].trace]
+    expected = [(0.5, 0.25), (1.5, 0.25), (2.5, 0.25)] if agrees else []
+    assert [place for place in way if place[1] < 0.4] == [pytest.approx(place, abs=0.05) for place in expected]
+    assert bool(way) is agrees

@@ -34,6 +34,10 @@ class InputHandler(Protocol):
         """Return what the visitor used last; None if that is not known."""
         ...
 
+    def pointer_trace(self) -> tuple[tuple[int, float, float], ...]:
+        """Return the way of the pointer since the last tap; nothing where it may not be recorded."""
+        ...
+
     def start(self, language: str) -> None:
         """Begin a session in this language."""
         ...
@@ -148,7 +152,9 @@ class ScreenSet:
         )
         self.board.tapped.connect(
             lambda position: dispatch(
-                happened.CardSelected(at_ms=now_ms(), position=position, device=to.input_device())
+                happened.CardSelected(
+                    at_ms=now_ms(), position=position, device=to.input_device(), trace=to.pointer_trace()
+                )
             )
         )
         self.board.skipped.connect(lambda: dispatch(happened.PracticeSkipped(at_ms=now_ms())))
