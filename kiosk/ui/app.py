@@ -88,11 +88,7 @@ class App:
         self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
         self.runner.last_activity_ms = self._activity.last_ms
         self.runner.last_device = lambda: self._activity.device
-        if settings.privacy.pointer_trace:
-            self._trace = PointerTrace(self.window, self.clock, owner)
-            self.runner.take_trace = self._trace.take
-            # Whatever was moved before a session is none of it.
-            self.screens.kiosk.screen_changed.connect(self._forget_trace)
+        self._trace_pointer(settings, owner)
         self.voice = _voice(settings, mode, self.clock, owner)
         undo.callback(self.voice.close)
         self.embodiments = EmbodimentSelector(self.runner, self.clock.after, settings.robot)
@@ -201,6 +197,14 @@ class App:
             window_health=lambda: self.booth.health if self.booth else (),
             leave=self.quit,
         )
+
+    def _trace_pointer(self, settings: Settings, owner: QObject) -> None:
+        """Keep the way of the pointer, if the study records it."""
+        if settings.privacy.pointer_trace:
+            self._trace = PointerTrace(self.window, self.clock, owner)
+            self.runner.take_trace = self._trace.take
+            # Whatever was moved before a session is none of it.
+            self.screens.kiosk.screen_changed.connect(self._forget_trace)
 
     def _forget_trace(self) -> None:
         if self.screens.kiosk.shown == "attract":
