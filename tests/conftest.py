@@ -5,9 +5,20 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
+
+SLOW = (
+    *("ui", "packaging", "plugins", "analysis", "training", "bench", "supervisor", "export"),
+    *("cli/test_readme.py", "cli/test_supervise.py", "cli/test_explain_session.py", "cli/test_output.py"),
+    *("cli/test_robot.py", "cli/test_check.py", "assistance/test_truth.py", "experiment/test_any_session.py"),
+    *("experiment/test_replay.py", "experiment/test_stages.py", "experiment/test_two_conditions.py"),
+    *("experiment/test_events.py", "store/maintenance/test_withdraw_cut_off.py", "store/test_hard_times.py"),
+    *("study/test_forming.py", "study/test_imported.py", "robots/test_speech.py", "test_story.py"),
+)
+"""Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
 HOME = pytest.StashKey[TemporaryDirectory[str]]()
 
@@ -30,6 +41,15 @@ def _keep_bytecode() -> None:
     """
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the slow tests, so that ``pytest -m "not slow"`` runs the other ones."""
+    here = Path(__file__).parent
+    for item in items:
+        path = item.path.relative_to(here).as_posix()
+        if path in SLOW or path.partition("/")[0] in SLOW:
+            item.add_marker(pytest.mark.slow)
 
 
 def pytest_collection_finish() -> None:

@@ -167,7 +167,9 @@ def code_made() -> datetime:
     committed = "" if _BUILT_FROM.is_file() else _git("log", "-1", "--format=%cI")
     if committed:
         return datetime.fromisoformat(committed)
-    return datetime.fromtimestamp(Path(__file__).stat().st_mtime, UTC)
+    # In a build the modules are no files of their own.
+    made = _BUILT_FROM if _BUILT_FROM.is_file() else Path(__file__)
+    return datetime.fromtimestamp(made.stat().st_mtime, UTC)
 
 
 def _git(*arguments: str) -> str:

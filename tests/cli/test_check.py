@@ -7,12 +7,14 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
 from kiosk.cli import check as command
+from kiosk.cli import composition
 from kiosk.cli.check import BUSY, LEAST_MIB, Load, log_check, machine_check, program_check, run_checks
 from kiosk.cli.composition import LOG, LOG_BYTES, code_commit, code_made
 from kiosk.cli.main import main
@@ -259,6 +261,16 @@ def test_a_program_that_was_changed_since_its_commit_is_told_of() -> None:
 def test_a_program_was_made_before_it_runs_and_has_a_commit() -> None:
     assert code_made().year >= 2024
     assert code_commit()
+
+
+def test_a_build_tells_when_it_was_made_although_its_modules_are_no_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    built_from = tmp_path / "commit.txt"
+    built_from.write_text("abc123", "utf-8")
+    monkeypatch.setattr(composition, "_BUILT_FROM", built_from)
+    monkeypatch.setattr(composition, "__file__", str(tmp_path / "composition.py"))
+    assert code_made() == datetime.fromtimestamp(built_from.stat().st_mtime, UTC)
 
 
 def test_a_log_that_cannot_be_written_or_is_never_renewed_is_told_of(
