@@ -16,8 +16,8 @@ Flow {
     signal picked(string option)
 
     readonly property bool stacked: alone && options.length <= 6
-    // Where there is room for it, all are as wide, in rows that are as full.
-    readonly property bool tiled: !stacked && !dense
+    // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
+    readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
     readonly property real widest: {
         let most = 0
         for (let i = 0; i < buttons.count; i++)
