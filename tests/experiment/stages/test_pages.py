@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kiosk.config import Timing
+from kiosk.config import ConditionConfig, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import CONDITIONS, Condition
@@ -56,6 +56,12 @@ def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None
     assert do.ShowIntroduction(helped=helped) in driver.steps[-1].outcome.effects
     speech = "introduction-speech" if helped else "introduction-speech-alone"
     assert driver.view.bubble in ENGLISH.wordings(speech, cards=24, pairs=12)
+
+
+def test_no_mark_is_shown_where_hints_name_no_place() -> None:
+    reminding = whole(Condition("reminded"), conditions={"reminded": ConditionConfig(location=False)})
+    driver = driven_to(Stage.INTRODUCTION, reminding)
+    assert do.ShowIntroduction(helped=True, points=False) in driver.steps[-1].outcome.effects
 
 
 # Debrief and thanks
