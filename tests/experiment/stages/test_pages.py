@@ -53,7 +53,7 @@ def test_the_remark_goes_by_the_number_of_moves(moves: int, message: str) -> Non
 def test_nobody_is_promised_help_that_there_is_not(condition: Condition) -> None:
     driver = driven_to(Stage.INTRODUCTION, whole(condition))
     helped = condition != Condition.NO_ASSISTANCE
-    assert do.ShowIntroduction(helped=helped) in driver.steps[-1].outcome.effects
+    assert do.ShowIntroduction(helped=helped, points=helped) in driver.steps[-1].outcome.effects
     speech = "introduction-speech" if helped else "introduction-speech-alone"
     assert driver.view.bubble in ENGLISH.wordings(speech, cards=24, pairs=12)
 
