@@ -51,7 +51,11 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
 }
 """The tables of a report, and the columns that each must have."""
 
-OPTIONAL = {"participants": ("site", "simulated", "trial"), "flow": ("simulated", "trial")}
+OPTIONAL = {
+    "participants": ("site", "simulated", "trial"),
+    "flow": ("simulated", "trial"),
+    "scores": ("version", "items_not_applicable"),
+}
 """Columns that some data sets have."""
 
 
@@ -288,6 +292,34 @@ def scale_names(table: ExportTable) -> dict[tuple[str, str], str]:
     keys = dict.fromkeys(key for key in zip(table.text("questionnaire"), table.text("scale"), strict=True) if key[1])
     alone = Counter(scale for _, scale in keys)
     return {key: key[1] if alone[key[1]] == 1 else ".".join(key) for key in keys}
+
+
+def scale_remarks(study: ExportedStudy, participants: Sequence[str]) -> tuple[str, ...]:
+    """Return a sentence for each scale that was asked in several versions, or whose items did not all apply."""
+    table = study.tables["scores"]
+    named = scale_names(table)
+    wanted = set(participants)
+    versions: dict[str, set[str]] = {}
+    exempt: Counter[str] = Counter()
+    keys = zip(table.text("questionnaire"), table.text("scale"), strict=True)
+    told = zip(keys, table.text("participant_id"), table.text("version"), strict=True)
+    for (key, who, version), items in zip(told, table.numbers("items_not_applicable"), strict=True):
+        if who in wanted:
+            versions.setdefault(named[key], set()).add(version)
+            exempt[named[key]] += 0 if np.isnan(items) else int(items)
+    remarks = [
+        f"{name} was asked in {len(found)} versions of its questionnaire ({', '.join(sorted(found))}). The codebook of "
+        "the data set says what differs; sums of versions that differ are not to be compared."
+        for name, found in versions.items()
+        if len(found) > 1
+    ]
+    remarks += [
+        f"Of the responses to items of {name}, {count} said that the item does not apply. They are in no sum, so "
+        f"{name} has fewer people."
+        for name, count in exempt.items()
+        if count
+    ]
+    return tuple(remarks)
 
 
 def _natural(name: str) -> tuple[tuple[str, int], ...]:

@@ -11,6 +11,7 @@ import scipy
 
 from kiosk import __version__
 from kiosk.analysis.compare import Comparison, Line
+from kiosk.analysis.data import scale_remarks
 from kiosk.analysis.page import (
     NOTHING,
     Block,
@@ -436,6 +437,7 @@ def _reliability(report: Report) -> Iterator[Block]:
     head = ("scale", "items", "n", "alpha [95 %]", "omega", "item-rest correlations")
     note = "Alpha with Feldt's interval; omega of one factor by maximum likelihood. People with all items answered."
     yield ReportTable("reliability-table", "Reliability of the scales.", head, tuple(rows), note)
+    yield from scale_remarks(report.sample.study, report.sample.people.text("participant_id"))
 
 
 # The end
