@@ -1,4 +1,4 @@
-"""Commands on the texts of a study: translations."""
+"""Commands on what visitors read in a study: its translations, and all of it as a PDF."""
 
 from __future__ import annotations
 
@@ -13,8 +13,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from kiosk import UserInputError
+from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
 from kiosk.config import Settings, code_of
+from kiosk.robots.registry import check_robot
+from kiosk.study.loader import expected_minutes, read_study
 from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts
 
 SHOWN = 60
@@ -75,3 +78,17 @@ def _show(found: dict[str, Sequence[Unit]], *, list_them: bool, as_json: bool) -
     if list_them:
         for unit in (unit for units in found.values() for unit in units if unit.state is not State.DONE):
             click.echo(f"{unit.state.value}: {unit.key}: {unit.source[:SHOWN]!r}")
+
+
+@click.command("dossier")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The PDF file to write.")
+@json_option
+def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
+    """Write a study FILE as one PDF for an ethics board: its flow, every screen and text, what is stored, hashes."""
+    from kiosk.ui.dossier import write_dossier  # noqa: PLC0415 - the other commands do without a window
+
+    study = read_study(read_settings(file))
+    check_robot(study.settings)
+    pages = write_dossier(study, max(round(expected_minutes(plan)) for plan in study.plans), out)
+    click.echo(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{pages} pages are in {out}.")
