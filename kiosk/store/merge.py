@@ -24,6 +24,10 @@ from kiosk.store.recorder import insert
 Row = dict[str, Any]
 
 
+_CACHE_KIB = 65_536
+"""With the cache of a kiosk, which adds a few rows at a time, merging takes longer for each session than before."""
+
+
 def merge(
     folders: Sequence[Path],
     out: Path,
@@ -50,6 +54,7 @@ def merge(
         _check_apart(parts, asked)
         try:
             with atomic_directory(out) as unfinished, closing(open_for_writing(unfinished)) as target:
+                target.execute(f"PRAGMA cache_size = -{_CACHE_KIB}")
                 target.execute("BEGIN IMMEDIATE")
                 sessions = _copy(parts, target, tell)
                 target.execute("COMMIT")
@@ -286,10 +291,22 @@ def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Pro
         tell(done, len(ordered))
         old = row.pop("id")
         new = insert(target, "session", row | {"allocation_list": part.lists.get(row["allocation_list"])})
-        for table in ("event", "participant"):
-            for own in part.rows(table, "WHERE session = ?", old):
-                insert(target, table, own | {"session": new})
+        _copy_events(part, target, old, new)
+        for own in part.rows("participant", "WHERE session = ?", old):
+            insert(target, "participant", own | {"session": new})
     return len(ordered)
+
+
+def _copy_events(part: _Part, target: sqlite3.Connection, old: int, new: int) -> None:
+    """Copy the events of a session under its new number, all at once, as they are nearly everything there is."""
+    cursor = part.connection.execute("SELECT * FROM event WHERE session = ?", (old,))
+    names = [name for name, *_ in cursor.description]
+    at = names.index("session")
+    marks = ", ".join("?" * len(names))
+    target.executemany(
+        f"INSERT INTO event ({', '.join(names)}) VALUES ({marks})",  # noqa: S608 - the names are ours
+        ((*row[:at], new, *row[at + 1 :]) for row in cursor),
+    )
 
 
 def _ordered(parts: Sequence[_Part], table: str, *keys: str) -> list[tuple[_Part, Row]]:
