@@ -340,10 +340,10 @@ def study_reference(*, toml: bool) -> None:
 def study_import(
     file: Path, name: str, version: str, out: Path, note: str | None, per_page: int, language: str, *, shuffled: bool
 ) -> None:
-    """Make a questionnaire of a FILE: a CSV table with one row per item, or the file of a survey program.
+    """Make a questionnaire of a FILE: a CSV table, or the file of a survey program.
 
-    XLSForm (.xlsx), REDCap data dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be
-    asked here is named line by line. docs/import.md says what is taken.
+    A table has one row per item. XLSForm (.xlsx), REDCap data dictionaries (.csv), LimeSurvey (.txt) and Qualtrics
+    (.qsf) are known. What cannot be asked here is named line by line. docs/import.md says what is taken.
     """
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(

@@ -85,7 +85,10 @@ def _show(found: dict[str, Sequence[Unit]], *, list_them: bool, as_json: bool) -
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="The PDF file to write.")
 @json_option
 def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
-    """Write a study FILE as one PDF for an ethics board: its flow, every screen and text, what is stored, hashes."""
+    """Write a study FILE as one PDF for an ethics board.
+
+    It has the flow, every screen and text, what is stored and hashes.
+    """
     from kiosk.ui.dossier import write_dossier  # noqa: PLC0415 - the other commands do without a window
 
     study = read_study(read_settings(file))

@@ -1,4 +1,4 @@
-"""Write a study as a PDF for an ethics board: its flow, every screen, every text, what is stored, and hashes."""
+"""Write a study as a PDF for an ethics board: flow, screens, texts, what is stored, and hashes."""
 
 from __future__ import annotations
 
