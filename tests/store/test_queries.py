@@ -59,7 +59,7 @@ def test_the_events_of_a_session_as_the_command_line_prints_them(folder: Path, p
         recorder.append([happened.TimerExpired(at_ms=9, timer=happened.Timer.IDLE), happened.IdleTimedOut(at_ms=9)])
         with open_repository(folder) as stored:
             assert stored.records(number) == [
-                {"seq": 1, "at_ms": 0, "type": "SessionStarted", "origin": "world"},
+                {"seq": 1, "at_ms": 0, "type": "SessionStarted", "origin": "world", "setup": None},
                 {"seq": 2, "at_ms": 9, "type": "TimerExpired", "origin": "world", "timer": "idle"},
                 {"seq": 3, "at_ms": 9, "type": "IdleTimedOut", "origin": "session"},
             ]
