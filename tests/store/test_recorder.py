@@ -113,8 +113,8 @@ def test_an_event_s_row_can_be_read_without_the_program(folder: Path, provenance
         recorder.begin(provenance, [START])
         recorder.append([happened.CardSelected(at_ms=7, position=Position(1, 2)), ignored])
     assert rows(folder, "SELECT session, seq, at_ms, origin, type, payload FROM event ORDER BY seq") == [
-        (1, 1, 0, "world", "SessionStarted", "{}"),
-        (1, 2, 7, "world", "CardSelected", '{"position":{"row":1,"column":2}}'),
+        (1, 1, 0, "world", "SessionStarted", '{"setup":null}'),
+        (1, 2, 7, "world", "CardSelected", '{"position":{"row":1,"column":2},"device":null,"trace":[]}'),
         (1, 3, 7, "session", "CardSelectionRejected", '{"position":{"row":1,"column":2},"why":null}'),
     ]
 
