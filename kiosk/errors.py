@@ -7,13 +7,16 @@ import reprlib
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from enum import Enum
 from functools import lru_cache
-from typing import Annotated, Any, get_args, get_origin
+from numbers import Integral, Real
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+from kiosk import UserInputError
 from kiosk.units import Unit
 
 KIND = "kind"
@@ -363,3 +366,29 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:
         yield annotation
     for part in get_args(annotation):
         yield from _models(part)
+
+
+Member = TypeVar("Member", bound=Enum)
+
+
+def check_between(name: str, value: object, low: float, high: float) -> None:
+    """Refuse everything that is not a number from ``low`` to ``high``, such as NaN or a text."""
+    # Python takes booleans for the numbers 0 and 1; as an argument one is a mistake of the caller's.
+    number = isinstance(value, Real) and not isinstance(value, bool)
+    if not number or not low <= float(value) <= high:  # type: ignore[arg-type]  # a number has a float
+        shown = f"{value:g}" if number else repr(value)
+        raise UserInputError(f"{name} must be a number from {low:g} to {high:g}, not {shown}")
+
+
+def whole(name: str, value: object) -> int:
+    """Return a whole number of any type as Python's own; refuse everything else, such as 2.0 and True."""
+    if isinstance(value, Integral) and not isinstance(value, bool):
+        return int(value)
+    raise UserInputError(f"{name} must be a whole number, not {value!r}")
+
+
+def one_of(name: str, value: object, kind: type[Member]) -> Member:
+    """Return a member of ``kind``; refuse everything else, also the text that stands for a member in a file."""
+    if isinstance(value, kind):
+        return value
+    raise UserInputError(f"{name} must be one of {', '.join(map(str, kind))}, not {value!r}")

@@ -30,7 +30,6 @@ ROOMS: dict[str, set[str]] = {
     "units": set(),
     "sd_notify": set(),
     "supervisor": {"sd_notify"},
-    "autostart": set(),
     "game": set(),
     "assistance": {"game"},
     "experiment": {"game", "assistance"},
@@ -43,7 +42,7 @@ ROOMS: dict[str, set[str]] = {
     "analysis": {"game", "assistance", "experiment", "robots", "store", "export", "training"},
     "cli": {
         *("game", "assistance", "experiment", "study", "robots", "store", "export", "ui", "training", "analysis"),
-        *("supervisor", "sd_notify", "autostart"),
+        *("supervisor", "sd_notify"),
     },
     "__main__": {"cli"},
 }

@@ -25,9 +25,8 @@ from scipy import stats
 
 from kiosk import UserInputError
 from kiosk.analysis.compare import kept_values
-from kiosk.analysis.plan import Correction, Exclusion, StudyPlan
+from kiosk.analysis.plan import Correction, Exclusion, StudyPlan, bayes_factors
 from kiosk.analysis.policy_figures import STYLE
-from kiosk.analysis.sequential import bayes_factors
 from kiosk.analysis.simulated_study import HIGHEST_SUM, LOWEST_SUM, PACE_SPREAD, SCALES, SECONDS_PER_FLIP
 from kiosk.analysis.statistics import benjamini_hochberg, holm, student_error, two_sided, welch_error
 from kiosk.assistance.mentaliser import TargetRule

@@ -28,10 +28,10 @@ from kiosk.analysis.plan import (
     Hypothesis,
     StudyPlan,
     TestName,
+    bayes_factors,
     plan_sha256,
 )
 from kiosk.analysis.sample import Sample, choose_sample
-from kiosk.analysis.sequential import bayes_factors
 from kiosk.analysis.statistics import Estimate, NotEstimableError, fisher, hedges_g, sensitivity, student, wilson
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage

@@ -23,7 +23,6 @@ from rich.table import Table
 
 from kiosk import UserInputError, __version__, program
 from kiosk.assistance.policy import load_action
-from kiosk.autostart import WHAT, autostart_check
 from kiosk.cli.composition import LOG, LOG_BYTES, LOGS_KEPT, code_commit, code_made, read_settings
 from kiosk.cli.options import (
     ProgressCallback,
@@ -40,8 +39,8 @@ from kiosk.experiment.booth_status import FILE, BoothStatus
 from kiosk.experiment.questionnaire import load_item
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
-from kiosk.preflight import Check, CheckResult, Severity
-from kiosk.robots import checks as robots_checks
+from kiosk.preflight import WHAT, Check, CheckResult, Severity, autostart_check
+from kiosk.robots import registry as robots_checks
 from kiosk.robots import voice_program
 from kiosk.robots.embodiment import Health
 from kiosk.robots.registry import check_robot, load_driver

@@ -38,11 +38,11 @@ _COMMANDS = {
         "Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN.",
     ),
     "robot": (
-        "kiosk.cli.robot:robot_command",
+        "kiosk.cli.devices:robot_command",
         "Try a robot step by step, and say what it has and what it does.",
     ),
     "voice": (
-        "kiosk.cli.voice:voice_group",
+        "kiosk.cli.devices:voice_group",
         "Make voice packs from an engine or from a person's recordings, and look at them.",
     ),
     "status": (
@@ -94,15 +94,15 @@ _COMMANDS = {
         "Write a data set for publishing: every table with a codebook, as Psych-DS asks for.",
     ),
     "report": (
-        "kiosk.cli.report:report_command",
+        "kiosk.cli.analysis:report_command",
         "Analyse an exported data set: who took part, every test, figures, and tables for a paper.",
     ),
     "calibrate": (
-        "kiosk.cli.calibrate:calibrate_command",
+        "kiosk.cli.analysis:calibrate_command",
         "Estimate forgetting, following and lapses of the people in an exported DATASET.",
     ),
     "plan": (
-        "kiosk.cli.plan:plan_group",
+        "kiosk.cli.analysis:plan_group",
         "Plan a study before its first participant; see docs/plan.md.",
     ),
     "train": (

@@ -1,13 +1,12 @@
-"""The conditions of a study, by their names, and what their declarations come to.
-
-This is the one place that turns a condition into a mentaliser and a set of sentences; no other line of code asks for
-the condition.
-"""
+"""The conditions of a study, what they come to, and which participant gets which."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from enum import Enum
+from math import gcd
 from random import Random
 from typing import ClassVar, Protocol
 
@@ -113,3 +112,99 @@ def target_rule(condition: ConditionConfig, rule: TargetRule) -> TargetRule | No
     if not condition.helps:
         return None
     return rule if condition.target_rule == "mentalised" else TargetRule(condition.target_rule)
+
+
+class AllocationSource(Enum):
+    """How a session came to its condition."""
+
+    LIST = "list"
+    """It took the first free slot of the list."""
+    OVERRIDE = "override"
+    """The experimenter chose; it takes no slot."""
+    BEYOND = "beyond"
+    """The list is used up."""
+
+
+@dataclass(frozen=True)
+class AllocationSlot:
+    """One slot of the list; ``number`` and ``block`` count from 1."""
+
+    number: int
+    block: int
+    condition: Condition
+
+
+def allocation_slots(
+    quotas: Mapping[Condition, int], block: int, seed: int, kept: tuple[AllocationSlot, ...] = ()
+) -> tuple[AllocationSlot, ...]:
+    """Return the list with every condition as often as its quota says, block by block.
+
+    ``block`` is how many slots a block has; the last one may be shorter, still in ratio. ``kept`` is an earlier list
+    that this one goes on from, for quotas that were raised in the same ratio. A list that ends with a whole block is
+    kept by drawing anew with the same seed; one that ends with a shorter block only if it is handed in, as slots
+    that were given out do not change. Raises UserInputError for quotas or a block that cannot be kept to.
+    """
+    ratio = _ratio(quotas)
+    _check_block(block, ratio)
+    rounds = _rounds_left(quotas, ratio, kept)
+    drawn = list(kept)
+    number = kept[-1].block if kept else 0
+    while rounds:
+        number += 1
+        taken = min(rounds, block // ratio.total())
+        drawn += _block(number, ratio, taken, seed, first=len(drawn) + 1)
+        rounds -= taken
+    return tuple(drawn)
+
+
+def next_slot(listed: tuple[AllocationSlot, ...], consumed: Collection[int]) -> AllocationSlot | None:
+    """Return the first slot that is not consumed; None when the list is used up."""
+    return next((slot for slot in listed if slot.number not in consumed), None)
+
+
+def ratio_in_words(quotas: Mapping[Condition, int]) -> str:
+    """Quotas for a person: ``28 tom, 28 notom``."""
+    return ", ".join(f"{quotas[condition]} {condition.name}" for condition in in_design_order(quotas))
+
+
+def _ratio(quotas: Mapping[Condition, int]) -> Counter[Condition]:
+    """How often each condition comes up in the shortest stretch in ratio, in the conditions' own order."""
+    if not quotas:
+        raise UserInputError("a allocation list needs a quota for at least one condition")
+    for condition, quota in quotas.items():
+        if quota < 1:
+            raise UserInputError(f"the quota of {condition.name} must be at least 1, not {quota}")
+    divisor = gcd(*quotas.values())
+    return Counter({condition: quotas[condition] // divisor for condition in in_design_order(quotas)})
+
+
+def _check_block(block: int, ratio: Counter[Condition]) -> None:
+    shortest = ratio.total()
+    if block < 1 or block % shortest:
+        fits = f"{shortest}, {2 * shortest}, {3 * shortest} and so on"
+        raise UserInputError(f"a block of {block} slots cannot hold {ratio_in_words(ratio)} in ratio; {fits} fit")
+
+
+def _rounds_left(quotas: Mapping[Condition, int], ratio: Counter[Condition], kept: tuple[AllocationSlot, ...]) -> int:
+    """How many times the ratio is still to be drawn after the slots that are kept."""
+    condition = next(iter(ratio))
+    taken = Counter(slot.condition for slot in kept)
+    rounds = taken[condition] // ratio[condition]
+    if taken != Counter({each: share * rounds for each, share in ratio.items()}):
+        raise UserInputError(
+            f"the slots that are already listed ({ratio_in_words(taken)}) are not in the quotas' ratio"
+        )
+    left = quotas[condition] // ratio[condition] - rounds
+    if left < 0:
+        raise UserInputError(f"more slots are already listed ({ratio_in_words(taken)}) than the quotas allow")
+    return left
+
+
+def _block(number: int, ratio: Counter[Condition], rounds: int, seed: int, first: int) -> list[AllocationSlot]:
+    """Return one block in chance order.
+
+    Each has a stream of its own, so that it does not depend on how many there are.
+    """
+    conditions = [condition for condition, share in ratio.items() for _ in range(share * rounds)]
+    Random(f"{seed}/block {number}").shuffle(conditions)
+    return [AllocationSlot(at, number, condition) for at, condition in enumerate(conditions, first)]

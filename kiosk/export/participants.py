@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, fields
 from enum import Enum
 from functools import cached_property, partial
 
+from kiosk.experiment.condition import AllocationSlot, AllocationSource
 from kiosk.experiment.events import (
     HOURS_IN_A_BAND,
     EmbodimentKind,
@@ -21,20 +22,10 @@ from kiosk.experiment.events import (
     Status,
 )
 from kiosk.experiment.information import PUBLISHING
-from kiosk.experiment.items import (
-    Question,
-    Rating,
-    ShortText,
-    TextPage,
-    in_language,
-)
+from kiosk.experiment.items import Question, Rating, ShortText, TextPage, in_language
 from kiosk.experiment.labels import fold_name
 from kiosk.experiment.projections import Measures, ScaleScore, item_responses, measure_game
-from kiosk.experiment.questionnaire import (
-    Item,
-    facts,
-)
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.questionnaire import Item, facts
 from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from kiosk.export.columns import (

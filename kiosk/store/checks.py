@@ -17,9 +17,8 @@ from pathlib import Path
 
 from kiosk import DISK_FULL, UserInputError
 from kiosk.config import Allocation
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, ratio_in_words
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire, differences
-from kiosk.experiment.randomisation import ratio_in_words
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.preflight import CheckResult
 from kiosk.store.connecting import primary_code, reason

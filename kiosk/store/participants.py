@@ -14,10 +14,17 @@ from itertools import groupby
 from random import Random, SystemRandom
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import Condition, in_design_order
+from kiosk.experiment.condition import (
+    AllocationSlot,
+    AllocationSource,
+    Condition,
+    allocation_slots,
+    in_design_order,
+    next_slot,
+    ratio_in_words,
+)
 from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.labels import read_as
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource, allocation_slots, next_slot, ratio_in_words
 from kiosk.experiment.session_config import SessionKind
 
 ALPHABET = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"

@@ -17,19 +17,11 @@ from kiosk.assistance.assistant import Explanation
 from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
-from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import (
-    Event,
-    LanguageSelected,
-    SessionEnded,
-    Stage,
-    Status,
-    from_record,
-)
+from kiosk.experiment.condition import AllocationSource, Condition
+from kiosk.experiment.events import Event, LanguageSelected, SessionEnded, Stage, Status, from_record
 from kiosk.experiment.information import Information
 from kiosk.experiment.projections import Measures, measure_game
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
-from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.replay import DecisionContext, agrees_with_record
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.experiment.session_state import SessionState, language_before_flip

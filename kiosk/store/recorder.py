@@ -16,10 +16,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from kiosk import StorageError, UserInputError, __version__
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.store.connecting import failure, primary_code, reason
 from kiosk.store.database import BUSY, lock_folder, open_for_writing

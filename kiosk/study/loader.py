@@ -28,19 +28,12 @@ from kiosk.config import (
     read_text,
     shipped_names,
 )
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, allocation_slots
 from kiosk.experiment.experimenter import shortcuts
 from kiosk.experiment.information import POINTER, PUBLISHING, Information, Page, check_alike
-from kiosk.experiment.items import (
-    Choice,
-    Pictures,
-    ShortText,
-    TextPage,
-    in_language,
-)
+from kiosk.experiment.items import Choice, Pictures, ShortText, TextPage, in_language
 from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
 from kiosk.experiment.questionnaire import Item, Questionnaire
-from kiosk.experiment.randomisation import allocation_slots
 from kiosk.experiment.session_config import SessionConfig, Source, StudyConfig
 from kiosk.experiment.transitions import StageOrder
 from kiosk.game import CARDS_IN_A_PAIR

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import Gate
-from kiosk.training.arguments import one_of
+from kiosk.errors import one_of
 from kiosk.training.learning import THE_GATE
 from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
 from kiosk.training.simulated_players import MemoryPlayer, SimulatedPlayer

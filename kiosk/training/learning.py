@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from kiosk import UserInputError, __version__
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, QTable, states_with
-from kiosk.training.arguments import check_between, one_of, whole
+from kiosk.errors import check_between, one_of, whole
 from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
 from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, SimulatedPlayer
 from kiosk.training.simulation import (

@@ -15,7 +15,7 @@ from statistics import NormalDist
 from typing import Any, ClassVar, Protocol, Self
 
 from kiosk import UserInputError
-from kiosk.training.arguments import check_between, one_of
+from kiosk.errors import check_between, one_of
 from kiosk.training.vectorised_game import (
     CARDS,
     COLUMNS,

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec, QTable
-from kiosk.training.arguments import one_of, whole
+from kiosk.errors import one_of, whole
 from kiosk.training.simulated_players import KEPT, SimulatedPlayer, choose, prepare
 from kiosk.training.vectorised_game import (
     ACTION_COUNT,

@@ -13,19 +13,10 @@ from typing import Any, Self
 from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import (
-    EmbodimentName,
-    Event,
-    InputDevice,
-    SessionSetup,
-    Stage,
-    Timer,
-    WorldEvent,
-)
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Stage, Timer, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionKind, StudyConfig
 from kiosk.experiment.transitions import InvalidTransition

@@ -19,8 +19,7 @@ from scipy import stats
 from kiosk import UserInputError
 from kiosk.analysis import power
 from kiosk.analysis.data import load_study, scale_items
-from kiosk.analysis.plan import TEMPLATE, StudyPlan
-from kiosk.analysis.sequential import bayes_factors, boundaries, nominal_levels
+from kiosk.analysis.plan import TEMPLATE, StudyPlan, bayes_factors, boundaries, nominal_levels
 from kiosk.analysis.statistics import student_error, welch_error
 from kiosk.assistance.policy import QTable
 from kiosk.cli.main import recollect

@@ -12,11 +12,10 @@ from scipy import stats
 
 from kiosk import UserInputError
 from kiosk.analysis.data import ExportedStudy, load_study
-from kiosk.analysis.plan import TEMPLATE, StudyPlan
+from kiosk.analysis.plan import TEMPLATE, StudyPlan, nominal_levels
 from kiosk.analysis.report import CONFIRMATORY, EXPLORATORY, check_hypotheses, make_report, reached_looks
 from kiosk.analysis.report_page import report_page
 from kiosk.analysis.sample import Sample, choose_sample
-from kiosk.analysis.sequential import nominal_levels
 from kiosk.cli.main import recollect
 from kiosk.experiment.condition import Condition
 from kiosk.export.columns import ExportOption

@@ -16,7 +16,7 @@ import pytest
 from numpy.typing import NDArray
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.voice import spoken_texts
+from kiosk.cli.devices import spoken_texts
 from kiosk.config import Settings, VoiceConfig
 from kiosk.robots import audio
 from kiosk.robots.audio import Clip

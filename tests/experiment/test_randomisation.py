@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.randomisation import AllocationSlot, allocation_slots, next_slot
+from kiosk.experiment.condition import CONDITIONS, AllocationSlot, Condition, allocation_slots, next_slot
 
 STUDY = {Condition.TOM: 28, Condition.NOTOM: 28}
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSource, Condition
 from kiosk.experiment.events import (
     NotRecordedReason,
     RobotDisconnected,
@@ -21,7 +21,6 @@ from kiosk.experiment.events import (
     SpeechStarted,
     Stage,
 )
-from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset

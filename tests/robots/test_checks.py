@@ -12,9 +12,9 @@ import pytest
 from kiosk.config import RobotConfig, VoiceConfig
 from kiosk.preflight import CheckResult, Severity
 from kiosk.robots import audio, voice_program
-from kiosk.robots import checks as robots_checks
-from kiosk.robots.checks import SLOW_MS, pack_check, robot_check, say_check, sound_check, voice_check, within_s
+from kiosk.robots import registry as robots_checks
 from kiosk.robots.embodiment import Health
+from kiosk.robots.registry import SLOW_MS, pack_check, robot_check, say_check, sound_check, voice_check, within_s
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake
 

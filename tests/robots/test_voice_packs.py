@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kiosk import UserInputError
-from kiosk.cli.voice import spoken_texts
+from kiosk.cli.devices import spoken_texts
 from kiosk.config import ASSETS, Settings, VoiceConfig
 from kiosk.robots import tts_worker
 from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, mouth_shapes, trimmed

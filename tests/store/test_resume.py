@@ -11,9 +11,8 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSource, Condition
 from kiosk.experiment.events import Status
-from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.events import Event, NotRecordedReason, Status
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.participants import Participant

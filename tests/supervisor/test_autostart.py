@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import autostart as looked
-from kiosk.autostart import autostart_check, enabled, is_supervisor
-from kiosk.preflight import Severity
+from kiosk import preflight as looked
+from kiosk.preflight import Severity, autostart_check, enabled, is_supervisor
 
 
 @pytest.fixture

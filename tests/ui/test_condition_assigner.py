@@ -9,8 +9,7 @@ import pytest
 
 from kiosk import StorageError
 from kiosk.config import Settings
-from kiosk.experiment.condition import Condition
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study

@@ -35,8 +35,10 @@ from kiosk.ui.experimenter.authorisation import AuthorisationFlow, PinVerifier
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler, MaintenanceTasks
 from kiosk.ui.experimenter.status import (
     Clocks,
+    Day,
     HealthInputs,
     HealthLine,
+    StatusFile,
     condition_name,
     health_lines,
     health_parts,
@@ -44,7 +46,6 @@ from kiosk.ui.experimenter.status import (
     is_pack_changed,
     session_rows,
 )
-from kiosk.ui.experimenter.status_file import Day, StatusFile
 from kiosk.ui.experimenter.view_model import PanelScreen, Row
 from kiosk.units import MS_PER_SECOND
 

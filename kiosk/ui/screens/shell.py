@@ -1,4 +1,4 @@
-"""The window as a whole. It does not know what comes next."""
+"""The window as a whole, and the fixed texts of its screens. It does not know what comes next."""
 
 from __future__ import annotations
 
@@ -10,7 +10,83 @@ from PySide6.QtQml import QmlElement
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConsentConfig
 from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
-from kiosk.ui.screens.texts import fixed_texts
+
+FIXED = (
+    "about-continue",
+    "consent-required",
+    "consent-optional",
+    "consent-missing",
+    "consent-agree",
+    "consent-decline",
+    "age-line",
+    "age-yes",
+    "age-no",
+    "introduction-title",
+    "introduction-turn",
+    "introduction-match",
+    "introduction-help",
+    "introduction-continue",
+    "practice-title",
+    "practice-skip",
+    "result-title",
+    "result-pairs-label",
+    "result-moves-label",
+    "result-time-label",
+    "result-hints-label",
+    "result-line",
+    "result-continue",
+    "form-next",
+    "form-not-applicable",
+    "form-skip",
+    "form-missing",
+    "form-skipped",
+    "form-refused",
+    "form-none",
+    "form-type",
+    "form-less",
+    "form-more",
+    "keyboard-shift",
+    "keyboard-delete",
+    "keyboard-space",
+    "keyboard-done",
+    "keyboard-letters",
+    "keyboard-accents",
+    "keyboard-signs",
+    "debrief-take-home",
+    "debrief-code",
+    "debrief-continue",
+    "thanks-title",
+    "thanks-line",
+    "thanks-continue",
+    "control-stop",
+    "control-language",
+    "control-text-size",
+    "control-sound-on",
+    "control-sound-off",
+    "control-say-again",
+    "control-back",
+    "stop-title",
+    "stop-yes",
+    "stop-no",
+    "scroll-more",
+    "still-there-title",
+    "still-there-line",
+    "still-there-yes",
+    "pause-title",
+    "pause-line",
+    "pause-help",
+    "wait-title",
+    "wait-line",
+    "replay-line",
+    "replay-differs",
+)
+"""Every message that QML shows as it stands; those with variables are filled in by the screens' objects."""
+
+
+def fixed_texts(catalogue: Catalogue) -> dict[str, str]:
+    """Return the fixed texts, by the names of their messages."""
+    return {message: catalogue.text(message) for message in FIXED}
+
 
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1

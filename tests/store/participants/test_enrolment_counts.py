@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSource, Condition
 from kiosk.experiment.events import NotRecordedReason
-from kiosk.experiment.randomisation import AllocationSource
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
 from kiosk.store.queries import open_repository

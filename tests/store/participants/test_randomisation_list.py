@@ -12,9 +12,8 @@ from pathlib import Path
 import pytest
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition, allocation_slots
 from kiosk.experiment.events import Event
-from kiosk.experiment.randomisation import AllocationSlot, AllocationSource, allocation_slots
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder

@@ -14,7 +14,7 @@ from kiosk.experiment.events import Stage
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.snapshot import read_day
 from kiosk.ui.event_loop import InlineExecutor, VirtualClock
-from kiosk.ui.experimenter.status_file import StatusFile, write_status
+from kiosk.ui.experimenter.status import StatusFile, write_status
 from tests.ui.experimenter.conftest import Desk
 
 STATUS = BoothStatus(

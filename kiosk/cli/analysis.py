@@ -1,10 +1,11 @@
-"""The commands of planning: write, check, preregister and freeze a plan, simulate its data, and its power."""
+"""The commands of a study's analysis: calibrate players, plan, simulate, and report."""
 
 from __future__ import annotations
 
 import json
 import os
 from dataclasses import asdict
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,79 @@ import click
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import QTable
-from kiosk.cli.calibrate import analysis
 from kiosk.cli.options import data_option, json_option, progress_bar
 from kiosk.experiment.condition import Condition
+from kiosk.export.layouts import new_folder, write_text
 from kiosk.files import check_writable, write_file
 from kiosk.store.plans import freeze_plan, frozen_plans, games_per_condition, record_look
 from kiosk.training.simulated_players import PopulationPlayer
+
+
+def analysis(module: str) -> Any:
+    """Import a module of ``kiosk.analysis``; raises UserInputError where its libraries are not installed."""
+    try:
+        return import_module(f"kiosk.analysis.{module}")
+    except ImportError as error:
+        if (error.name or "").startswith("kiosk"):
+            raise
+        raise UserInputError(f'this needs {error.name}: pip install "recollect[analysis]"') from error
+
+
+@click.command()
+@click.argument("dataset", type=click.Path(path_type=Path))
+@click.option("--player", type=click.Choice(["memory"]), default="memory", show_default=True, help="The model.")
+@click.option(
+    "--out", type=click.Path(path_type=Path, dir_okay=False), help="Write the people here, as JSON for --people."
+)
+@click.option(
+    "--page", type=click.Path(path_type=Path, dir_okay=False), help="Write the checks here, as one HTML page."
+)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Fixes what the checks simulate.")
+@json_option
+def calibrate_command(
+    dataset: Path, player: str, out: Path | None, page: Path | None, seed: int, *, as_json: bool
+) -> None:
+    """Estimate forgetting, following and lapses of the people in an exported DATASET.
+
+    Mean and spread of forgetting, with intervals; see docs/calibrate.md.
+    """
+    calibrate, checks = analysis("calibrate"), analysis("calibration_checks")
+    for file in (out, page):
+        if file is not None:
+            check_writable(file)
+    study = calibrate.read_games(dataset)
+    found = calibrate.calibrate(study)
+    with progress_bar("checking", hidden=as_json) as progress:
+        checked = checks.check_calibration(study, found, seed, progress)
+    document = {"model": player} | found.to_json() | {"left_out": study.left_out}
+    if out is not None:
+        write_file(out, json.dumps(document, indent=2) + "\n")
+    if page is not None:
+        write_file(page, checks.calibration_page(dataset.resolve().name, found, checked))
+    if as_json:
+        click.echo(json.dumps(document | checked.to_json()))
+        return
+    click.echo(_estimates_in_words(found, checked, study))
+    for file in (out, page):
+        if file is not None:
+            click.echo(f"Written: {file}")
+
+
+def _estimates_in_words(found: Any, checked: Any, study: Any) -> str:
+    rows = {"forgetting, mean of the logit": found.mean, "forgetting, spread of the logit": found.spread}
+    rows |= {"following": found.following, "lapse": found.lapse}
+    lines = [f"{len(found.people)} games; left out, without a game: {study.left_out}."]
+    for name, each in rows.items():
+        if each is not None:
+            lines.append(f"{name:<34}{each.value:>7.3f}   95 % interval {each.low:.3f} to {each.high:.3f}")
+    lines += [
+        f"{row.name:<48}data {row.observed:.3f}, simulated {row.low:.3f} to {row.high:.3f}" for row in checked.predicted
+    ]
+    if checked.ranks is not None:
+        lines.append(f"rank histogram {' '.join(map(str, checked.ranks.counts))}, p = {checked.ranks.p:.2f}")
+    lines += [f"warning: {warning}" for warning in found.warnings]
+    return "\n".join(lines)
+
 
 LARGEST_SIZE = 10_000
 
@@ -222,14 +290,14 @@ def plan_power(
         document["sequential"] = {name: {"rejected": r, "mean_n": n} for name, (r, n) in found.items()}
     if curve is not None:
         write_file(curve, power.curve(rows))
-    click.echo(json.dumps(document) if as_json else _in_words(document))
+    click.echo(json.dumps(document) if as_json else _plan_in_words(document))
 
 
 def _people(file: Path | None) -> PopulationPlayer:
     return PopulationPlayer() if file is None else PopulationPlayer.load(file)
 
 
-def _in_words(document: dict[str, Any]) -> str:
+def _plan_in_words(document: dict[str, Any]) -> str:
     what = "type I error" if document["null"] else "power"
     lines = [
         f"{document['studies']} studies; {what} raw and corrected",
@@ -242,4 +310,94 @@ def _in_words(document: dict[str, Any]) -> str:
     for name, found in document.get("sequential", {}).items():
         lines.append(f"with looks, {name}: {found['rejected']:.3f}, stopped at {found['mean_n']:.1f} an arm on average")
     lines.append(f"Finished blocks are in {document['store']}.")
+    return "\n".join(lines)
+
+
+PAGE = Path("report.html")
+
+
+@click.command()
+@click.argument("export", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--plan",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="The plan; by default the one that was frozen with the data, or else the template.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    help=f"An HTML file, or a new folder for everything; by default {PAGE} unless --json is given.",
+)
+@click.option(
+    "--exclude",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Declared exclusions: a CSV file with the columns participant_id and reason.",
+)
+@click.option("--paper", is_flag=True, help="Work the paper's own numbers out again; needs no EXPORT.")
+@json_option
+def report_command(
+    export: Path | None, plan: Path | None, out: Path | None, exclude: Path | None, *, paper: bool, as_json: bool
+) -> None:
+    """Analyse an exported data set: who took part, every test, figures, and tables for a paper.
+
+    See docs/report.md.
+    """
+    if export is None and not paper:
+        raise UserInputError("a report needs the folder of an exported data set, or --paper")
+    if export is None and (plan is not None or exclude is not None):
+        raise UserInputError("--plan and --exclude are about a data set; name its folder")
+    if out is None and not as_json:
+        out = PAGE
+    if out is not None and _is_page(out):
+        check_writable(out)
+    found = _analysed(export, plan, exclude) if export is not None else None
+    document: dict[str, Any] = analysis("report").report_json(found) if found is not None else {}
+    if paper:
+        document["paper"] = analysis("paper").paper_json()
+    if out is not None:
+        pages = analysis("report_page")
+        page = pages.report_page(found, with_paper=paper) if found is not None else pages.paper_page()
+        _write(out, page, document)
+    if as_json:
+        click.echo(json.dumps(document))
+        return
+    click.echo(_report_in_words(document))
+    click.echo(f"Written: {out}")
+
+
+def _analysed(export: Path, plan: Path | None, exclude: Path | None) -> Any:
+    declared = analysis("sample").read_exclusions(exclude) if exclude is not None else {}
+    return analysis("report").make_report(analysis("data").load_study(export), plan, declared)
+
+
+def _is_page(out: Path) -> bool:
+    return out.suffix.lower() in {".html", ".htm"}
+
+
+def _write(out: Path, page: Any, document: dict[str, Any]) -> None:
+    """Write the page into its file, or the page, its parts and all numbers into a new folder."""
+    module = analysis("page")
+    if _is_page(out):
+        write_file(out, module.to_html(page))
+        return
+    with new_folder(out) as folder:
+        write_text(folder / "report.html", module.to_html(page))
+        write_text(folder / "report.md", module.to_markdown(page))
+        write_text(folder / "results.json", json.dumps(document, indent=1) + "\n")
+        for table in module.tables(page):
+            write_text(folder / "tables" / f"{table.id}.csv", module.csv_table(table))
+            write_text(folder / "tables" / f"{table.id}.tex", module.latex_table(table) + "\n")
+        for picture in module.all_pictures(page):
+            write_text(folder / "figures" / f"{picture.id}.svg", picture.svg)
+
+
+def _report_in_words(document: dict[str, Any]) -> str:
+    if "status" not in document:
+        rows = document["paper"]
+        return "\n".join(f"{row['measure']:<28}t({row['df']}) = {row['t']:.2f}, p = {row['p']:.3f}" for row in rows)
+    lines = [f"{document['status']}: {document['reason']}."]
+    lines += [f"  {name}: {n} analysed" for name, n in document["analysed"].items()]
+    for each in document["hypotheses"]:
+        p = "" if each["corrected"] is None else f"corrected p = {each['corrected']:.4f}, "
+        lines.append(f"{each['id']:<20}{p}{each['verdict']}")
     return "\n".join(lines)
