@@ -80,10 +80,10 @@ _LONGEST_TEXT = 100_000
 
 
 def toml_line(text: str, key: Sequence[int | str]) -> int | None:
-    """Return the line of a TOML text in which a key or, if it is not there, its table begins, counted from 1.
+    """Return the line of a TOML text, counted from 1, in which a key begins.
 
-    It is None if not even its first table is there. Steps that the text does not have, such as pydantic's names of
-    kinds, are passed over.
+    If the key is not there, it is the line of its table. It is None if not even its first table is there. Steps
+    that the text does not have, such as pydantic's names of kinds, are passed over.
     """
     lines = toml_lines(text)
     here: Steps = ()
@@ -94,7 +94,7 @@ def toml_line(text: str, key: Sequence[int | str]) -> int | None:
 
 @lru_cache(maxsize=4)
 def toml_lines(text: str) -> Mapping[Steps, int]:
-    """Map every key of a TOML text to the line in which it begins; values on several lines count as one."""
+    """Map every key of a TOML text to the line in which it begins."""
     found: dict[Steps, int] = {}
     tables: dict[Steps, int] = {}
     here: Steps = ()
@@ -149,7 +149,7 @@ def _parsed(lines: Sequence[str]) -> dict[str, Any] | None:
 
 
 def at_line(text: str, key: Sequence[int | str]) -> str:
-    """Return the words for the line in which a key begins in a TOML text; empty if it is not there."""
+    """Return words for the line of a TOML text in which a key begins; empty without it."""
     line = toml_line(text, key) if text else None
     return "" if line is None else f" (line {line})"
 

@@ -258,7 +258,7 @@ def _walk(
     size: tuple[int, int],
     cut: dict[str, None],
 ) -> UiTimeout | None:
-    """Go through one session; returns why it came to no end, and adds the texts that are cut off to ``cut``."""
+    """Go through one session, and add texts that are cut off to ``cut``; return why it stuck."""
     with (
         TemporaryDirectory() as unkept,
         guarded() as beat,

@@ -18,7 +18,6 @@ from kiosk.errors import validation_messages
 from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.preflight import CheckResult
 from kiosk.robots.embodiment import Capability, Health, InspectableRobot, RobotDriver, RobotError, chosen_voice
-from kiosk.robots.voice_packs import find_pack
 from kiosk.units import MS_PER_SECOND
 
 
@@ -225,6 +224,8 @@ def robot_check(settings: RobotSettings, languages: Sequence[str], *, busy: bool
 
 def pack_check(settings: VoiceConfig, languages: Sequence[str]) -> Iterator[CheckResult]:
     """Look for the pack of each language that a robot is to play clips of."""
+    from kiosk.robots.voice_packs import find_pack  # noqa: PLC0415 - it loads numpy, which opening the kiosk does not need
+
     for language in languages:
         what = f"{ROBOT}: clips: {language}"
         try:

@@ -1,4 +1,4 @@
-"""What a day at a booth came to: its sessions, their faults, and what is to be looked at before the next one."""
+"""What a day at a booth came to: its sessions, their faults, and what needs attention."""
 
 from __future__ import annotations
 

@@ -146,7 +146,7 @@ _ROUNDED = 2.0
 
 
 def cut_texts(window: QQuickWindow) -> Iterator[str]:
-    """Yield the texts that do not fit: wider than their place, or beyond the window and not to be scrolled to."""
+    """Yield the texts that do not fit: wider than their place, or beyond the window without scrolling."""
     whole = QRectF(-1, -1, window.width() + 2, window.height() + 2)
     for text in _texts(window.contentItem()):
         letters = text.mapRectToScene(text.boundingRect())
