@@ -1,6 +1,6 @@
 """Compare and spell language codes (BCP 47), such as ``pt-BR``; the facts about languages are CLDR's, from Babel.
 
-It stands below the rooms: voices, robots, texts and tables all have codes of languages.
+It stands below the packages: voices, robots, texts and tables all have codes of languages.
 """
 
 from __future__ import annotations

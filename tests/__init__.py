@@ -1,1 +1,1 @@
-"""The tests mirror the rooms and read as sentences."""
+"""The tests mirror the packages and read as sentences."""

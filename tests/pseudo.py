@@ -1,4 +1,4 @@
-"""A language that nobody speaks, made from the English one: a fourth language is one folder, and this one proves it.
+"""An invented language, made from the English one: a fourth language is one folder, and this one proves it.
 
 Every letter carries an accent, every text is about 40 % longer, and it runs from right to left. Variables, selectors
 and the names of messages are left alone, so whatever shows up unaccented on a screen did not come from a catalogue.

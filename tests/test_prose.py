@@ -10,6 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 CODE = [*sorted((ROOT / "kiosk").rglob("*.py")), *sorted((ROOT / "packaging").rglob("*.py"))]
+TESTS = sorted((ROOT / "tests").rglob("*.py"))
 SCREENS = sorted((ROOT / "kiosk").rglob("*.qml"))
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "packaging").rglob("*.md"))]
 
@@ -23,11 +24,15 @@ def avoided_words(text: str) -> list[str]:
     return [f"line {text.count(chr(10), 0, found.start()) + 1}: {found[0]}" for found in AVOIDED.finditer(text)]
 
 
-def long_first_lines(source: str) -> list[str]:
-    """Find the docstrings, of private things too, that begin with too long a line."""
+def docstrings(source: str) -> list[str]:
+    """Return all docstrings, of private things too."""
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    docs = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, kinds)]
-    first_lines = [doc.partition("\n")[0] for doc in docs]
+    return [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, kinds)]
+
+
+def long_first_lines(source: str) -> list[str]:
+    """Find the docstrings that begin with too long a line."""
+    first_lines = [doc.partition("\n")[0] for doc in docstrings(source)]
     return [line for line in first_lines if len(line.split()) > FIRST_LINE_WORDS]
 
 
@@ -43,6 +48,12 @@ def long_sentences(page: str) -> list[str]:
 def test_the_code_and_its_messages_use_plain_words() -> None:
     found = {path.relative_to(ROOT).as_posix(): avoided_words(path.read_text("utf-8")) for path in [*CODE, *SCREENS]}
     assert {path: words for path, words in found.items() if words} == {}
+
+
+def test_the_docstrings_of_tests_use_plain_words() -> None:
+    found = {path.relative_to(ROOT).as_posix(): docstrings(path.read_text("utf-8")) for path in TESTS}
+    said = {path: [word for doc in docs for word in avoided_words(doc)] for path, docs in found.items()}
+    assert {path: words for path, words in said.items() if words} == {}
 
 
 def test_the_docstrings_begin_with_a_short_line() -> None:

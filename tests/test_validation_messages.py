@@ -1,4 +1,4 @@
-"""What pydantic finds wrong is told as a person would say it, in the words of the file."""
+"""Faults that pydantic finds become plain sentences, in the words of the file."""
 
 from __future__ import annotations
 

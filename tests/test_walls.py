@@ -1,4 +1,4 @@
-"""The walls of the house: who may know whom, in one table; nothing else in the tests says so."""
+"""The direction of imports between packages, in one table."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BELOW_ALL = {"kiosk", "errors", "config", "extensions", "files", "language_codes
 """The package itself, user errors, the study file's types, extensions, whole files, language codes, check results and
 units: every package may import them, and they import no package."""
 
-ROOMS: dict[str, set[str]] = {
+PACKAGES: dict[str, set[str]] = {
     "kiosk": set(),
     "errors": set(),
     "config": set(),
@@ -84,7 +84,7 @@ database."""
 
 
 def modules(package: Path) -> Iterator[tuple[str, str, Path]]:
-    """Every module of the package: its full name, its room, and its file."""
+    """Every module of the package: its full name, its part, and its file."""
     for file in sorted(package.rglob("*.py")):
         parts = [package.name, *file.relative_to(package).with_suffix("").parts]
         name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
@@ -117,34 +117,34 @@ def _walk(package: str, tree: ast.Module) -> Iterator[tuple[int, str]]:
                 yield node.lineno, name
 
 
-def room_of(name: str, rooms: set[str]) -> str | None:
-    """Return the room of this house that a name belongs to; what belongs to no room is the package's own."""
+def package_of(name: str, parts: set[str]) -> str | None:
+    """Return the package that a name belongs to; what belongs to none is the top level's own."""
     first, _, rest = name.partition(".")
     if first != "kiosk":
         return None
-    return rest.split(".")[0] if rest.split(".")[0] in rooms else "kiosk"
+    return rest.split(".")[0] if rest.split(".")[0] in parts else "kiosk"
 
 
 def breaches(package: Path) -> list[str]:
-    """Every import that goes through a wall, in words."""
+    """Return every import that is not allowed, in words."""
     found = []
-    there = set(ROOMS) | {room for _, room, _ in modules(package)}
-    for module, room, file in modules(package):
-        if room not in ROOMS:
-            found.append(f"{module}: the house has no room {room}")
+    there = set(PACKAGES) | {part for _, part, _ in modules(package)}
+    for module, part, file in modules(package):
+        if part not in PACKAGES:
+            found.append(f"{module}: there is no package {part}")
             continue
         for line, name in imported(module, file):
-            other = room_of(name, there)
-            if other is not None and other not in {room, *ROOMS[room], *BELOW_ALL}:
-                found.append(f"{module}:{line}: {room} may not know {other} ({name})")
-            elif room not in OUTSIDE.get(name.split(".")[0], {room}):
-                found.append(f"{module}:{line}: {name.split('.')[0]} does not belong in {room}")
+            other = package_of(name, there)
+            if other is not None and other not in {part, *PACKAGES[part], *BELOW_ALL}:
+                found.append(f"{module}:{line}: {part} may not import {other} ({name})")
+            elif part not in OUTSIDE.get(name.split(".")[0], {part}):
+                found.append(f"{module}:{line}: {name.split('.')[0]} does not belong in {part}")
     return found
 
 
-def loaded_by(room: str) -> set[str]:
-    """Return what is in memory once every module of a room has been imported by a fresh interpreter."""
-    names = [name for name, of, _ in modules(PACKAGE) if of == room and not name.endswith("__main__")]
+def loaded_by(part: str) -> set[str]:
+    """Return what is in memory once every module of a part has been imported by a fresh interpreter."""
+    names = [name for name, of, _ in modules(PACKAGE) if of == part and not name.endswith("__main__")]
     program = (
         "import importlib, json, sys\n"
         f"for name in {names!r}: importlib.import_module(name)\n"
@@ -157,23 +157,23 @@ def loaded_by(room: str) -> set[str]:
     return set(json.loads(done.stdout.splitlines()[-1]))
 
 
-def test_no_import_goes_through_a_wall() -> None:
+def test_every_import_is_allowed() -> None:
     assert breaches(PACKAGE) == []
 
 
-@pytest.mark.parametrize("room", [room for room in ROOMS if room != "__main__"])
-def test_a_room_in_memory_has_brought_nobody_along_whom_it_may_not_know(room: str) -> None:
-    if room not in {of for _, of, _ in modules(PACKAGE)}:
-        pytest.skip(f"the room {room} is not built yet")
-    for library in NEEDED.get(room, ()):
+@pytest.mark.parametrize("part", [part for part in PACKAGES if part != "__main__"])
+def test_a_part_loads_no_library_that_it_may_not_import(part: str) -> None:
+    if part not in {of for _, of, _ in modules(PACKAGE)}:
+        pytest.skip(f"the part {part} is not built yet")
+    for library in NEEDED.get(part, ()):
         pytest.importorskip(library)
-    known = {room, *ROOMS[room]}
-    loaded = loaded_by(room)
-    rooms = {name.split(".")[1] for name in loaded if name.startswith("kiosk.")}
-    assert rooms <= known | BELOW_ALL
+    known = {part, *PACKAGES[part]}
+    loaded = loaded_by(part)
+    parts = {name.split(".")[1] for name in loaded if name.startswith("kiosk.")}
+    assert parts <= known | BELOW_ALL
     outsiders = {name.split(".")[0] for name in loaded} & set(OUTSIDE) - LOADED_ANYWAY
     strangers = {name for name in outsiders if not OUTSIDE[name] & known}
-    assert strangers <= BROUGHT_ALONG.get(room, set())
+    assert strangers <= BROUGHT_ALONG.get(part, set())
 
 
 def test_the_way_to_the_first_screen_loads_nothing_that_is_slow_and_not_needed_yet() -> None:
@@ -187,49 +187,49 @@ def test_the_way_to_the_first_screen_loads_nothing_that_is_slow_and_not_needed_y
     assert loaded & slow == set()
 
 
-def test_the_rooms_know_each_other_in_one_direction() -> None:
-    """Whoever a room may know, may never know it back, at first hand or at second."""
-    for room, known in ROOMS.items():
+def test_the_parts_import_each_other_in_one_direction() -> None:
+    """What a part may import may never import it back, directly or through others."""
+    for part, known in PACKAGES.items():
         for other in known:
-            assert room not in ROOMS[other]
-            assert ROOMS[other] <= known or room in {"__main__"}
+            assert part not in PACKAGES[other]
+            assert PACKAGES[other] <= known or part in {"__main__"}
     for one, another in (("robots", "store"), ("ui", "training"), ("ui", "analysis")):
-        assert another not in ROOMS[one]
-        assert one not in ROOMS[another]
-    assert "analysis" not in ROOMS["training"]
+        assert another not in PACKAGES[one]
+        assert one not in PACKAGES[another]
+    assert "analysis" not in PACKAGES["training"]
 
 
-def test_tests_of_quiet_rooms_open_no_window_either() -> None:
+def test_tests_of_packages_without_windows_import_no_qt() -> None:
     tests = Path(__file__).parent
-    for room in ("game", "assistance", "experiment", "study", "store", "export", "training"):
-        for file in (tests / room).glob("**/*.py"):
-            names = {name.split(".")[0] for _, name in imported(f"tests.{room}.{file.stem}", file)}
+    for part in ("game", "assistance", "experiment", "study", "store", "export", "training"):
+        for file in (tests / part).glob("**/*.py"):
+            names = {name.split(".")[0] for _, name in imported(f"tests.{part}.{file.stem}", file)}
             assert not names & {"PySide6", "pytestqt"}, file
 
 
-# The watchman is watched
+# The check itself is tested
 
 
 @pytest.mark.parametrize(
-    ("room", "planted", "cry"),
+    ("part", "planted", "cry"),
     [
-        ("game", "import kiosk.assistance.policy", "game may not know assistance"),
-        ("game", "from kiosk import experiment", "game may not know experiment"),
-        ("assistance", "from kiosk.experiment.condition import Condition", "assistance may not know experiment"),
-        ("assistance", "from ..experiment import condition", "assistance may not know experiment"),
-        ("experiment", "def f():\n    from kiosk.store import recorder", "experiment may not know store"),
+        ("game", "import kiosk.assistance.policy", "game may not import assistance"),
+        ("game", "from kiosk import experiment", "game may not import experiment"),
+        ("assistance", "from kiosk.experiment.condition import Condition", "assistance may not import experiment"),
+        ("assistance", "from ..experiment import condition", "assistance may not import experiment"),
+        ("experiment", "def f():\n    from kiosk.store import recorder", "experiment may not import store"),
         (
             "experiment",
             "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import kiosk.ui",
-            "experiment may not know ui",
+            "experiment may not import ui",
         ),
-        ("store", "from kiosk.robots.embodiment import Embodiment", "store may not know robots"),
-        ("robots", "import kiosk.store", "robots may not know store"),
-        ("ui", "import kiosk.training", "ui may not know training"),
-        ("training", "from kiosk.experiment import session", "training may not know experiment"),
-        ("analysis", "import kiosk.ui", "analysis may not know ui"),
-        ("analysis", "import kiosk.cli.main", "analysis may not know cli"),
-        ("experiment", "import kiosk.__main__", "experiment may not know __main__"),
+        ("store", "from kiosk.robots.embodiment import Embodiment", "store may not import robots"),
+        ("robots", "import kiosk.store", "robots may not import store"),
+        ("ui", "import kiosk.training", "ui may not import training"),
+        ("training", "from kiosk.experiment import session", "training may not import experiment"),
+        ("analysis", "import kiosk.ui", "analysis may not import ui"),
+        ("analysis", "import kiosk.cli.main", "analysis may not import cli"),
+        ("experiment", "import kiosk.__main__", "experiment may not import __main__"),
         ("game", "import sqlite3", "sqlite3 does not belong in game"),
         ("experiment", "import PySide6.QtCore", "PySide6 does not belong in experiment"),
         ("store", "from PySide6.QtCore import QObject", "PySide6 does not belong in store"),
@@ -239,18 +239,18 @@ def test_tests_of_quiet_rooms_open_no_window_either() -> None:
         ("training", "import scipy.stats", "scipy does not belong in training"),
         ("store", "import click", "click does not belong in store"),
         ("game", "from importlib import import_module\nimport_module('numpy')", "numpy does not belong in game"),
-        ("experiment", "import importlib\nimportlib.import_module('kiosk.ui.app')", "experiment may not know ui"),
-        ("game", "__import__('kiosk.store')", "game may not know store"),
-        ("attic", "", "the house has no room attic"),
+        ("experiment", "import importlib\nimportlib.import_module('kiosk.ui.app')", "experiment may not import ui"),
+        ("game", "__import__('kiosk.store')", "game may not import store"),
+        ("attic", "", "there is no package attic"),
     ],
 )
-def test_a_planted_import_is_found(tmp_path: Path, room: str, planted: str, cry: str) -> None:
+def test_a_planted_import_is_found(tmp_path: Path, part: str, planted: str, cry: str) -> None:
     package = tmp_path / "kiosk"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
-    (package / room).mkdir(exist_ok=True)
-    (package / room / "planted.py").write_text(planted)
+    (package / part).mkdir(exist_ok=True)
+    (package / part / "planted.py").write_text(planted)
     (found,) = set(breaches(package)) - set(breaches(PACKAGE))
-    assert f"kiosk.{room}.planted" in found
+    assert f"kiosk.{part}.planted" in found
     assert cry in found
 
 
@@ -261,6 +261,6 @@ def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
         with (package / name).open("a") as file:
             file.write("\nimport kiosk.game\n")
     assert [line.split(": ")[1] for line in breaches(package)] == [
-        "kiosk may not know game (kiosk.game)",
-        "config may not know game (kiosk.game)",
+        "kiosk may not import game (kiosk.game)",
+        "config may not import game (kiosk.game)",
     ]

@@ -1,4 +1,4 @@
-"""Puts the rooms together: from a study file to what a session follows."""
+"""Compose the packages: from a study file to what a session follows."""
 
 from __future__ import annotations
 

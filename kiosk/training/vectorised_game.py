@@ -2,7 +2,7 @@
 
 One text: numba compiles it when it is installed, and Python runs it as it is when not, with the same numbers for a
 seed. Only whole numbers, +, -, *, / and comparisons stand in it, because those give the same bits either way.
-A test plays these rules and the rooms they copy side by side and compares every step.
+A test plays these rules and the packages they copy side by side and compares every step.
 """
 
 from __future__ import annotations

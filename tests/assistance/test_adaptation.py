@@ -1,4 +1,4 @@
-"""A table that learns within a session: from the frozen one, by small steps, behind the gate, and for nobody else."""
+"""A table that learns within a session: from the frozen one, by small steps, behind the gate, for this player only."""
 
 from __future__ import annotations
 

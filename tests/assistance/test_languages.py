@@ -94,7 +94,7 @@ def faults(sources: dict[str, str]) -> list[str]:
     """Return what a language's files lack or have too much of, measured against English; each names the message."""
     english, own = messages(catalogue("en").sources), messages(sources)
     found = [f"{key} is missing" for key in english.keys() - own.keys()]
-    found += [f"{key} is used by nobody" for key in own.keys() - english.keys()]
+    found += [f"{key} is never used" for key in own.keys() - english.keys()]
     for key in english.keys() & own.keys():
         if extra := variables(own[key]) - variables(english[key]):
             found.append(f"{key} uses a variable that does not exist: {min(extra)}")
@@ -129,7 +129,7 @@ def test_every_language_has_the_messages_of_english_with_their_variables(languag
         (
             "attract-start = Inizia\n",
             "attract-start = Inizia\nattract-stop = Basta\n",
-            "attract-stop is used by nobody",
+            "attract-stop is never used",
         ),
         (" su { $all }", "", "game-pairs does not use all"),
         (" su { $all }", " su { $tot }", "game-pairs uses a variable that does not exist: tot"),
@@ -198,7 +198,7 @@ def test_a_place_can_be_told_without_a_reason_before_it(language: str) -> None:
     for hint in hints("owl"):
         for sentence in catalogue(language).wordings(pointing(hint), **place(hint)):
             assert re.search(r"\d", sentence)
-            assert not re.search(r"\bit\b", sentence), "without a reason nobody knows what 'it' is"
+            assert not re.search(r"\bit\b", sentence), "without a reason 'it' refers to nothing"
 
 
 ROW_AND_COLUMN = {"en": ("row", "column"), "it": ("riga", "colonna"), "es": ("fila", "columna")}

@@ -1,4 +1,4 @@
-"""The 48 states are told apart, named, and read off a game as the paper says."""
+"""The 48 states are distinct, have names, and are read off a game as in the paper."""
 
 from __future__ import annotations
 

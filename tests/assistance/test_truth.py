@@ -72,7 +72,7 @@ def asked(board: Board, taps: Iterable[int], rule: TargetRule, action: ActionSpe
 
 
 def restless(rng: Random, taps: int = 60) -> Iterator[int]:
-    """Taps of somebody who likes a few places better than the rest, so that some cards are seen often."""
+    """Taps of a visitor who likes a few places better than the rest, so that some cards are seen often."""
     favourites = rng.sample(range(24), 6)
     return (rng.choice(favourites) if rng.random() < 0.5 else rng.randrange(24) for _ in range(taps))
 

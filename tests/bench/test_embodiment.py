@@ -1,4 +1,4 @@
-"""How long anybody waits for a body: before a robot is asked, until the avatar takes over, until the board is open.
+"""How long visitors wait: before a robot is asked, until the avatar takes over, until the board is open.
 
 ``pytest -s tests/bench/test_embodiment.py`` prints medians and 99th percentiles. The fake robot runs in this process.
 """

@@ -51,7 +51,7 @@ def episodes(number: int) -> None:
 
 
 def reference_games() -> None:
-    """Play the same games one by one on the real rooms."""
+    """Play the same games one by one on the real modules."""
     table, rng = QTable.named("default"), Random(1)
     for _ in range(FEW):
         play(table, WithMemory(0.2, rng), TargetRule.MOST_FLIPPED, rng)

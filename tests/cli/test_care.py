@@ -44,7 +44,7 @@ def day(tmp_path: Path) -> Path:
 
 
 def code_of(folder: Path, number: int) -> str:
-    """Return the code of somebody by their number."""
+    """Return the code of a participant by number."""
     ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
     return str(code)
 

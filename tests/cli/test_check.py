@@ -66,7 +66,7 @@ def finding(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
 
 
 def untold(_: int, of: int | None = None, /) -> None:
-    """Nobody wants to know how far it is."""
+    """Ignore the progress."""
 
 
 # Everything at once

@@ -176,7 +176,7 @@ def test_a_person_reads_each_step_on_its_line(
 
 
 def test_nothing_the_case_does_not_say_is_made_up(explain: Explain) -> None:
-    """The same flips, counted here by hand on a game, give the counts that are told."""
+    """The same flips, counted here by hand on a game, give the counts in the explanation."""
     flips = [BEAR, BUTTERFLY, BEAR + 12, CAT, BEAR, DUCK, 20]
     game = Concentration(Board(4, 6, tuple(BOARD)))
     for location in flips:

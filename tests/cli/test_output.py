@@ -1,4 +1,4 @@
-"""What a terminal cannot print, or nobody reads, never ends a command with a traceback."""
+"""What a terminal cannot print, or a closed pipe, never ends a command with a traceback."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def leave(loop):
 EventLoop.run = leave
 main()
 """
-"""The program, with somebody who leaves every window as soon as it is there."""
+"""The program, with a person who leaves every window as soon as it opens."""
 
 
 def rows() -> list[str]:
@@ -74,7 +74,7 @@ def rows() -> list[str]:
 
 @dataclass
 class Newcomer:
-    """Somebody with a fresh checkout and no screen, who has typed the first command."""
+    """A person with a fresh checkout and no screen, who has typed the first command."""
 
     home: Path
 
@@ -192,7 +192,7 @@ def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
         listed = newcomer.run(["sessions", "--codes"]).stdout
         (code,) = re.findall(r"\b[2-9A-Z]{7}\b", listed)
         given["CODE"] = code
-        # Nobody can be asked here.
+        # There is no one to ask here.
         arguments = [*arguments, "--yes"]
     if "B" in arguments:
         with Recorder(Path(given["B"]), "B") as recorder:
@@ -222,7 +222,7 @@ def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path) -> None:
 
 
 def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
-    # A kiosk that was opened and left has a database, and nobody in it.
+    # A kiosk that was opened and left has a database without participants.
     assert newcomer.run([], ("-c", LEFT_AT_ONCE)).returncode == 0
     assert "about the rehearsals" in newcomer.run(["sessions"]).stderr
     assert newcomer.run(["verify"]).stderr == ""

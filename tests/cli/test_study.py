@@ -1,4 +1,4 @@
-"""A study is checked as a whole before anybody sits down, and what is wrong is said at once and in words."""
+"""A study is checked as a whole before the first session, and every fault gets a sentence."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ _Some = TypeVar("_Some", bound=SessionEvent)
 
 
 class Voice(Enum):
-    """How the body answers when it is told to speak."""
+    """How the embodiment answers when it has to speak."""
 
     SPEAKS = "says it to the end"
     FAILS = "says at once that it cannot"

@@ -82,7 +82,7 @@ COURSES = (STAGES, SHORT, ("about", "age", "consent", "questions", "practice", "
 
 
 class AnySession(RuleBasedStateMachine):
-    """A session, what is seen of it, and a twin that is told only what the session accepted."""
+    """A session, what is seen of it, and a twin that gets only what the session accepted."""
 
     def __init__(self) -> None:
         super().__init__()

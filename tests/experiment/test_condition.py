@@ -31,7 +31,7 @@ HELPED = [condition for condition in CONDITIONS if condition != Condition.NO_ASS
 
 
 def given_in(condition: Condition, rule: TargetRule = TargetRule.MOST_FLIPPED) -> Help:
-    """Return the help in a condition in which somebody helps."""
+    """Return the help of a condition with help."""
     given = help_in(condition.known, rule, Wording(ENGLISH, Random(1)), Random(2))
     assert given is not None
     return given

@@ -1,4 +1,4 @@
-"""An event is written as JSON that anybody can read, and comes back as it was."""
+"""An event is written as plain JSON, and comes back as it was."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ LONG_ENOUGH = {
 """How long every stage waits before it asks, in ms, if the study file does not say otherwise."""
 
 LASTING = whole(policy=always(ActionSpec.NO_HELP), timing=Timing(thanks_ms=10**6))
-"""A session whose thanks do not end by themselves before anybody can be asked."""
+"""A session whose thanks do not end by themselves before the visitor can be asked."""
 
 
 def test_there_is_a_time_for_every_stage() -> None:

@@ -1,4 +1,4 @@
-"""Who gets which condition is fixed before anybody comes, and stays in ratio whoever leaves."""
+"""Allocation is fixed before the first visitor, and stays in ratio when visitors leave."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ LEAVING: dict[Status, Callable[[Driver], object]] = {
 
 
 def ended(stage: Stage, how: Status) -> Status:
-    """How a session ends that is left in a stage; whoever walks away from the thanks has been through all of it."""
+    """How a session ends that is left in a stage; one that is left at the thanks is complete."""
     return Status.COMPLETED if (stage, how) == (Stage.THANKS, Status.ABANDONED) else how
 
 
@@ -169,7 +169,7 @@ def test_the_experimenter_can_end_a_session_anywhere(stage: Stage) -> None:
 
 
 def unstored_game(condition: Condition, seed: int) -> list[Outcome]:
-    """Return what somebody who declines sees of a game, flip by flip of the same cards."""
+    """Return what a visitor who declines sees of a game, flip by flip of the same cards."""
     quotas = {"target_n": {"tom": 1, "no_assistance": 1}, "block_size": 2}
     driver = Driver(plan(condition, always(ActionSpec.SUG_CARD), STAGES, randomisation=quotas), seed)
     driver.to(Stage.CONSENT)

@@ -1,4 +1,4 @@
-"""What is said can be said again, by the same body or by another; losing a robot costs nobody a sentence."""
+"""What is said can be said again, by the same body or by another; losing a robot loses no sentence."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ EXPECTED = {
     Stage.THANKS: {"ContinuePressed", "NextParticipantRequested", "BackPressed"} | ANYWHERE | KEPT,
     Stage.OVER: set[str](),
 }
-"""What each stage takes as it begins: nobody was asked whether they are still there, and nothing is paused."""
+"""What each stage takes as it begins: no one was asked whether they are still there, and nothing is paused."""
 
 
 def finished(driver: Driver) -> list[Step]:

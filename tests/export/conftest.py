@@ -21,7 +21,7 @@ Read = Callable[[str], list[dict[str, str]]]
 
 
 def rows_of(folder: Path, table: str) -> list[dict[str, str]]:
-    """Return the rows of a table, read as anybody would."""
+    """Return the rows of a table, read without the codebook."""
     path = folder / "data" / f"task-concentration_description-{table}_data.csv"
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))

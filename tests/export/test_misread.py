@@ -161,7 +161,7 @@ def typed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def tables_of(out: Path) -> list[list[list[str]]]:
-    """Every cell of every table, read as anybody would."""
+    """Every cell of every table, read without the codebook."""
     commas = [path.open(encoding="utf-8", newline="") for path in sorted(out.rglob("*.csv"))]
     found = [list(csv.reader(file)) for file in commas]
     for file in commas:

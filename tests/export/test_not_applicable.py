@@ -1,4 +1,4 @@
-"""An item that does not apply is told from one that was not answered, and is in no sum and no mean."""
+"""An item that does not apply differs from one that was not answered, and is in no sum and no mean."""
 
 from __future__ import annotations
 

@@ -218,7 +218,7 @@ class FurhatFake:
             daemon_threads = True
 
             def handle_error(self, *_: Any) -> None:
-                """Whoever asked has gone; that is what is being tested."""
+                """Say nothing: the client has gone, as the test wants."""
 
         self._server = Server(("127.0.0.1", self.port), Handler)
         self.port = self._server.server_port

@@ -1,4 +1,4 @@
-"""A sound server of a test's own with a loudspeaker that nobody hears, and a microphone before it."""
+"""A sound server of a test's own with a virtual loudspeaker, and a microphone before it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stands in for the rooms around a body in tests: a listener that writes down, and an interface without Qt."""
+"""Stand-ins for the packages around an embodiment: a listener that writes down, and an interface without Qt."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Interface:
 
 @dataclass
 class BodyFake:
-    """A body that does what it is told and writes it down."""
+    """An embodiment that does what it is asked to and writes it down."""
 
     name: EmbodimentName = EmbodimentName.AVATAR
     health: Health = Health(is_ok=True, message="it is a fake")  # noqa: RUF009 - it is frozen
@@ -108,7 +108,7 @@ class BodyFake:
 
 @dataclass
 class RobotFake(RobotDriver):
-    """A robot that does at once what it is told, or raises what it was given to raise."""
+    """A robot that does at once what it is asked to, or raises what it was given to raise."""
 
     name: ClassVar[str] = "furhat"
     capabilities: ClassVar[frozenset[Capability]] = frozenset(Capability)

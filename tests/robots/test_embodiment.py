@@ -1,4 +1,4 @@
-"""The robot helps while it can and the avatar when it cannot; nobody ever waits for a robot."""
+"""The robot helps while it can and the avatar when it cannot; no visitor waits for a robot."""
 
 from __future__ import annotations
 

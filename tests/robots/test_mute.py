@@ -35,7 +35,7 @@ class Place:
         return self.embodiments.current.name
 
     def say(self, utterance: int, sentence: str) -> None:
-        """Have a sentence said by whoever helps."""
+        """Have a sentence said by the embodiment that helps."""
         assert self.embodiments.current is not None
         self.embodiments.current.say(utterance, sentence)
 

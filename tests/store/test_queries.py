@@ -1,4 +1,4 @@
-"""Whoever looks at what is stored changes nothing, and may look at any time."""
+"""Reading what is stored changes nothing, and is possible at any time."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_looking_changes_nothing(folder: Path, provenance: Provenance, played: D
 def test_looking_at_what_a_crash_left_changes_nothing_either(
     folder: Path, tmp_path: Path, provenance: Provenance
 ) -> None:
-    """A copy made while somebody writes is what a power cut leaves: a database and its log."""
+    """A copy made during a write is what a power cut leaves: a database and its log."""
     crashed = tmp_path / "crashed"
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])

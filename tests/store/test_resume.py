@@ -30,7 +30,7 @@ def kinds(folder: Path, number: int) -> list[tuple[int, str]]:
 
 
 def status(folder: Path, number: int = 1) -> Status | None:
-    """How a session ended, as whoever looks is told."""
+    """How a session ended, as a reader sees it."""
     with open_repository(folder) as stored:
         return stored.session(number).status
 

@@ -1,4 +1,4 @@
-"""What the experimenter sees at a glance is what is stored, also while somebody writes."""
+"""What the experimenter sees at a glance is what is stored, also during a write."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def seated(
     allocation_source: AllocationSource = AllocationSource.LIST,
     kind: SessionKind = SessionKind.SIMULATED,
 ) -> AllocationSlot | None:
-    """Have somebody play in the next place, or without one, and say which place it was."""
+    """Have a visitor play in the next place, or without one, and return the place."""
     place = recorder.next_slot(kind=kind) if allocation_source is AllocationSource.LIST else None
     plan = replace(provenance.plan, condition=place.condition) if place else provenance.plan
     recorder.begin(replace(provenance, plan=plan, slot=place, allocation_source=allocation_source, kind=kind), events)

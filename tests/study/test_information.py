@@ -1,4 +1,4 @@
-"""What visitors are told says the same in every language, or is refused."""
+"""Information for visitors says the same in every language, or is refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys on the screen: a study that has something typed is told which letters of its languages have no key."""
+"""The keys on the screen: the check names letters of a study's languages that have no key."""
 
 from __future__ import annotations
 

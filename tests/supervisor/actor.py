@@ -1,4 +1,4 @@
-"""A program that does as it is told, in the kiosk's place: ``python -m tests.supervisor.actor FOLDER ACT...``.
+"""A program that acts in the kiosk's place: ``python -m tests.supervisor.actor FOLDER ACT...``.
 
 Its first start does the first act, its second start the second, and every later one the last. It notes its starts in
 the folder, by the names of its processes.
@@ -70,7 +70,7 @@ def swell(notifier: Notifier) -> None:
 
 
 def stay(notifier: Notifier, *, deaf: bool = False) -> None:
-    """Beat until nobody listens any more; a deaf one cannot be asked to end."""
+    """Beat until no one listens any more; a deaf one cannot be asked to end."""
     if deaf:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
     while notifier.tell(WATCHDOG=1):

@@ -1,4 +1,4 @@
-"""A guarded process that acts as it is told: ``python -m tests.supervisor.guarded ACT MEMORY_MIB``."""
+"""A guarded process that acts as its arguments say: ``python -m tests.supervisor.guarded ACT MEMORY_MIB``."""
 
 from __future__ import annotations
 

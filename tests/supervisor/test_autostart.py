@@ -1,4 +1,4 @@
-"""Whether somebody keeps the kiosk up is seen from its programs, its services and its desktop files."""
+"""Whether something restarts the kiosk is seen from its programs, its services and its desktop files."""
 
 from __future__ import annotations
 

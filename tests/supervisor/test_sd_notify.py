@@ -1,4 +1,4 @@
-"""What is told arrives, through a socket with a name or without one, or through a pipe; and telling never hurts."""
+"""Notices arrive through a socket with or without a name, or through a pipe, and sending never fails."""
 
 from __future__ import annotations
 

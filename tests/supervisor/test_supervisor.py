@@ -1,4 +1,4 @@
-"""Whatever a kiosk does, another one stands there soon, unless somebody left it; and nothing of it is left behind."""
+"""A kiosk that dies or hangs is replaced soon, unless it was left on purpose; nothing of it stays."""
 
 from __future__ import annotations
 

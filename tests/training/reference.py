@@ -1,4 +1,4 @@
-"""The players and the learner a second time, game by game on the real rooms: slow, plain, and written apart.
+"""The players and the learner a second time, game by game on the real modules: slow, plain, and written apart.
 
 Nothing of ``kiosk.training`` is used here, so that the kernel can be held against it, for its numbers and its speed.
 """
@@ -20,7 +20,7 @@ NAMES = tuple("abcdefghijkl")
 
 
 class Person(Protocol):
-    """Anybody who chooses the next card."""
+    """A player who chooses the next card."""
 
     def choose(self, game: Concentration, hint: Hint | None) -> Position: ...
 

@@ -1,4 +1,4 @@
-"""What somebody sees who lacks a kind of cone, and how far apart two pictures are for them.
+"""What a person sees who lacks a kind of cone, and how far apart two pictures are for them.
 
 ``python -m tests.ui.colour_vision docs/figures/colour-vision.png`` draws every deck and every mark as they see them.
 
@@ -67,7 +67,7 @@ MATRICES = {
 
 
 def seen(picture: Picture, vision: Vision) -> Picture:
-    """Return a picture as somebody sees it."""
+    """Return a picture as such a person sees it."""
     return _gamma(np.clip(_linear(picture) @ MATRICES[vision].T, 0, 1))
 
 
@@ -95,7 +95,7 @@ class Apart:
 
 
 def apart(one: Picture, other: Picture, empty: Picture) -> Apart:
-    """How far two cards are apart; ``empty`` is a card without a picture. All three as somebody sees them."""
+    """How far two cards are apart; ``empty`` is a card without a picture. All three as such a person sees them."""
     covers = [distance(card, empty) > JUST_NOTICED for card in (one, other)]
     either, both = covers[0] | covers[1], covers[0] & covers[1]
     return Apart(float(distance(one, other)[either].mean()), float(both.sum() / either.sum()))

@@ -39,7 +39,7 @@ def qapp_cls() -> type[QGuiApplication]:
 
 @dataclass
 class Booth:
-    """A kiosk at work, and the hand and eye of somebody in front of it."""
+    """A kiosk at work, and the hand and eye of a visitor in front of it."""
 
     app: App
     data: Path

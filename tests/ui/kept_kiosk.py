@@ -1,4 +1,4 @@
-"""``recollect`` with a visitor inside who plays up to a stage, and a kiosk that breaks when it is told to.
+"""``recollect`` with a visitor inside who plays up to a stage, and a kiosk that breaks when asked to.
 
 ``python -m tests.ui.kept_kiosk STAGE MARKER`` and then recollect's own arguments: the kiosk that finds no MARKER makes
 it and lets the visitor in; later ones are left alone. SIGUSR1 raises in the event loop, SIGUSR2 never gives it back.
@@ -18,7 +18,7 @@ from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 
 HASTE_MS = 100
-"""How long the visitor thinks; nobody is measured here."""
+"""How long the visitor thinks; nothing is measured here."""
 STAGE, MARKER = sys.argv[1], Path(sys.argv[2])
 
 

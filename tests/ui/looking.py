@@ -1,4 +1,4 @@
-"""What somebody who looks closely finds on a window: its texts, its controls, and what a screen reader is told of them.
+"""What a close look finds on a window: its texts, its controls, and what a screen reader gets of them.
 
 Colours are compared as WCAG 2.2 does it.
 """
@@ -120,7 +120,7 @@ def identity(thing: QObject) -> int:
 
 
 def untold(window: QQuickWindow) -> list[str]:
-    """Return what somebody who cannot see the window would not know of: controls without a role or name, and texts."""
+    """Return what a person who cannot see the window would miss: controls without a role or name, and texts."""
     reached = announced(window)
     return [
         f"{item.objectName() or item.metaObject().className()} {item.property('text') or ''}"

@@ -53,7 +53,7 @@ rate = 300
 mismatch_shown_ms = 100
 finish_ms = 100
 """
-"""Nobody has to follow what happens, so that a session takes half a minute."""
+"""No one has to follow what happens, so that a session takes half a minute."""
 STOPPED_S = 60.0
 """How long a stopped kiosk would stay stopped."""
 

@@ -1,4 +1,4 @@
-"""What is found on one screen: what nobody is told, what is written how, and what lies where it should not."""
+"""Faults found on one screen: what a screen reader misses, how texts are written, what overlaps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Everybody can take part: what has to be true of a screen is looked for on every one, the experimenter's too.
+"""Every screen is accessible, the experimenter's too.
 
 What the hands and the ears of visitors need besides is in ``test_without_a_mouse`` and ``test_told_and_seen``.
 """
@@ -194,5 +194,5 @@ def test_without_motion_nothing_moves(tmp_path: Path, *, motion: bool, moves: bo
         # A voice is heard; the face is seen.
         app.screens.avatar.open_mouth(1.0)
         assert (app.window.grabWindow() != before) is moves
-        # Nobody is there, and nothing goes on by itself.
+        # No visitor is there, and nothing goes on by itself.
         assert hasattr(app, "_life") is moves

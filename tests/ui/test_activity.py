@@ -1,4 +1,4 @@
-"""Somebody who reads, scrolls or goes about by keyboard is there; any touch or key says so when they are asked."""
+"""Reading, scrolling and keys are signs of life; any touch or key answers the question."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ class Other:
         self._connection = sqlite3.connect(data / FILE, isolation_level=None)
 
     def hold(self) -> None:
-        """Keep everybody else from writing."""
+        """Keep all others from writing."""
         self._connection.execute("BEGIN IMMEDIATE")
 
     def let_go(self) -> None:

@@ -1,4 +1,4 @@
-"""Whoever lacks a kind of cone tells any two cards apart, and sees every mark."""
+"""Visitors who lack a kind of cone can distinguish any two cards, and see every mark."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ def test_where_there_is_no_screen_no_session_can_be_held(monkeypatch: pytest.Mon
 def test_a_screen_that_is_there_is_looked_at_without_a_window(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    # Buses that nobody answers on: whether the screen is kept lit has its own tests.
+    # Buses without an answer: whether the screen is kept lit has its own tests.
     for name in ("DBUS_SESSION_BUS_ADDRESS", "DBUS_SYSTEM_BUS_ADDRESS", "XDG_RUNTIME_DIR"):
         monkeypatch.delenv(name, raising=False)
     del qtbot

@@ -1,4 +1,4 @@
-"""Nobody leaves the kiosk: a part of ``python -m tests.ui.exits`` that is quick enough for every day."""
+"""A visitor cannot leave the kiosk: a part of ``python -m tests.ui.exits`` that is quick enough for every day."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ QUICK = (
     *(
         "show the empty desktop",
         "another window above all",
-        "a window that nobody manages",
+        "an unmanaged window",
         "move and resize at the server",
     ),
 )

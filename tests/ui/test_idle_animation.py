@@ -1,4 +1,4 @@
-"""What moves by itself: one thing at a time, nothing that is heard, and nothing that stays when somebody comes."""
+"""What moves by itself: one thing at a time, nothing that is heard, and nothing that stays when a visitor comes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MANY = 2_000
 
 
 class Stage:
-    """A screen that nobody plays on, with its life, and who moved when."""
+    """A screen without a player, with its life, and who moved when."""
 
     def __init__(self, seed: int = 1) -> None:
         self.owner = QObject()

@@ -187,7 +187,7 @@ def test_whatever_lies_over_the_window_is_put_below_it(
 
 
 class FakeWay:
-    """A way to stay awake that answers as it is told."""
+    """A way to stay awake that answers as the test says."""
 
     def __init__(self, name: str, refusal: str | None) -> None:
         self.name = name

@@ -35,7 +35,7 @@ TALKS_NONSENSE = "import sys; print('no line of ours', flush=True); sys.exit(3)"
 
 @contextmanager
 def logging_into(folder: Path) -> Iterator[Path]:
-    """Log as a kiosk does, and more than it does: down to what only interests whoever mends it."""
+    """Log as a kiosk does, and more than it does: down to what only developers need."""
     root, handler = logging.getLogger(), log_file(folder)
     before = root.level
     root.addHandler(handler)

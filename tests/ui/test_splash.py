@@ -1,4 +1,4 @@
-"""The calm window: readable in every language, and gone when nobody keeps the kiosk up any more."""
+"""The calm window: readable in every language, and gone when the supervisor ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is chosen, missed or marked is told to whoever does not see the screen, and seen by whoever sees no colour."""
+"""What is chosen, missed or marked reaches screen readers, and is seen without colour."""
 
 from __future__ import annotations
 

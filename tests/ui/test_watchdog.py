@@ -1,4 +1,4 @@
-"""The kiosk tells that it lives, out of its own event loop, to whoever wants to know and to nobody else."""
+"""The kiosk sends signs of life from its own event loop, only to those who asked."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def window(qtbot: QtBot) -> Iterator[QQuickWindow]:
 
 @pytest.fixture
 def listener(tmp_path: Path) -> Iterator[NotifySocketListener]:
-    """Whoever wants to know."""
+    """Open a listener for signs of life."""
     made = NotifySocketListener(tmp_path)
     yield made
     made.close()
@@ -95,7 +95,7 @@ def test_without_a_wish_for_beats_there_are_none(
 
 
 class Told:
-    """Keeps what is told: a socket that nobody empties takes only so much."""
+    """Keeps the notices: a socket that is never emptied takes only so much."""
 
     def __init__(self, _: object) -> None:
         self.screens: list[str] = []

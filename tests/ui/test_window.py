@@ -1,4 +1,4 @@
-"""The window: nobody leaves it by accident, everything works without a mouse, and nothing is drawn that cannot be."""
+"""The window: it is not left by accident, everything works without a mouse, and nothing is drawn that cannot be."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whoever has only a keyboard, or only a finger, does everything, and sees where the keyboard is."""
+"""Everything works with a keyboard alone or touch alone, and the focus is visible."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def test_every_control_is_reached_by_keyboard_and_shows_it(make_booth: MakeBooth
             # what stands there.
             return
         window, groups = app.window, set[str]()
-        # Whoever points at nothing has no ring, and then takes to the keyboard.
+        # Without a pointer there is no ring; then the keyboard is used.
         QTest.mouseClick(window, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, QPoint(1, 1))
         before = window.grabWindow()
         for held in stops(window):

@@ -32,7 +32,7 @@ ASKED: dict[str, Item] = {item.kind: item for item in GALLERY.items if not isins
 """An item of every kind that is answered."""
 
 Look = Callable[[str], None]
-"""Looks at the window; is told what stands there."""
+"""Looks at the window, with what stands there."""
 
 
 def whole_study(first: str = "en", **screen: object) -> Settings:

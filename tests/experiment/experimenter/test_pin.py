@@ -1,4 +1,4 @@
-"""The PIN is kept so that nobody reads it, compared so that nobody guesses it, and a wrong one costs time."""
+"""The PIN is stored as a hash, compared in constant time, and a wrong one costs time."""
 
 from __future__ import annotations
 

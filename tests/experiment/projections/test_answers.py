@@ -1,4 +1,4 @@
-"""What was answered, when, and how often somebody changed their mind."""
+"""What was answered, when, and how often the answer was changed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Consent and age: nothing is ticked beforehand, and nobody agrees to what they did not tick."""
+"""Consent and age: nothing is ticked beforehand, and only what was ticked is agreed to."""
 
 from __future__ import annotations
 

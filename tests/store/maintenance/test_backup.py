@@ -1,4 +1,4 @@
-"""A copy is whole, is checked, and is in nobody's way; however it fails, the older copies stay."""
+"""A copy is whole, is checked, and blocks no one; however it fails, the older copies stay."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ TABLES = ("allocation_list", "audit_event", "event", "participant", "session", "
 
 @pytest.fixture
 def milan(tmp_path: Path, provenance: Provenance) -> Path:
-    """Return a day in Milan, after which somebody withdrew."""
+    """Return a day in Milan, after which a participant withdrew."""
     folder = tmp_path / "milan"
     people = a_day(folder, provenance, "MI", seed=1)
     withdraw(folder, people[0].code)
@@ -60,7 +60,7 @@ def contents(folder: Path) -> dict[str, list[tuple[Any, ...]]]:
 
 
 def people(folder: Path) -> list[tuple[Any, ...]]:
-    """Everybody by number and code, with what is stored of them but the session's own number."""
+    """All participants by number and code, with what is stored of them but the session's own number."""
     return rows(
         folder,
         """

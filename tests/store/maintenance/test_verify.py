@@ -25,7 +25,7 @@ OTHER_CODE = next(codes("MI", 12345))
 
 @pytest.fixture
 def day(folder: Path, provenance: Provenance) -> Path:
-    """Return a day at a booth, after which somebody withdrew."""
+    """Return a day at a booth, after which a participant withdrew."""
     people = a_day(folder, provenance, "MI")
     withdraw(folder, people[1].code)
     return folder

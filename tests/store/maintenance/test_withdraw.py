@@ -1,4 +1,4 @@
-"""Whoever withdraws is gone to the last byte; a tombstone stays, and nothing goes by halves."""
+"""A withdrawal deletes a participant to the last byte; a tombstone stays, and nothing is half deleted."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ OTHERS = "somebody else's answer"
 
 @pytest.fixture
 def code(folder: Path, provenance: Provenance) -> str:
-    """Return the code of somebody who said a good deal, between two others; copies were made before and after."""
+    """Return the code of a participant with long answers, between two others; copies were made before and after."""
     with Recorder(folder) as recorder:
         recorder.create_allocation_list(FOUR, 4, 7, kind=SessionKind.STUDY)
         place = recorder.next_slot(kind=SessionKind.STUDY)

@@ -1,4 +1,4 @@
-"""Everybody who came is counted once, whatever became of them, and whoever withdrew is counted still."""
+"""Every visitor is counted once, however the session ended, also after a withdrawal."""
 
 from __future__ import annotations
 

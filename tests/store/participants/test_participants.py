@@ -1,4 +1,4 @@
-"""A visitor is a number and a code: nobody's name, no two alike, and no slip of the pen goes unseen."""
+"""A participant is a number and a code: no name, no two alike, and a slip of the pen is noticed."""
 
 from __future__ import annotations
 

@@ -168,7 +168,7 @@ PROGRAMS = [
     Attempt("another window on top", lambda hands: hands.cover(), By.PROGRAM),
     Attempt("another window above all", lambda hands: hands.cover(state="_NET_WM_STATE_ABOVE"), By.PROGRAM),
     Attempt("another full screen", lambda hands: hands.cover(state="_NET_WM_STATE_FULLSCREEN"), By.PROGRAM),
-    Attempt("a window that nobody manages", lambda hands: hands.cover(managed=False), By.PROGRAM),
+    Attempt("an unmanaged window", lambda hands: hands.cover(managed=False), By.PROGRAM),
 ]
 
 ATTEMPTS = (*_keys(), *MOUSE, *TOUCH, *PROGRAMS)

@@ -35,7 +35,7 @@ for group in ("xf86", "xkb"):
 
 @dataclass(frozen=True)
 class Standing:
-    """How the kiosk stands, seen from outside; every field is true as long as nobody has left it."""
+    """How the kiosk stands, seen from outside; every field is true until it is left."""
 
     lives: bool
     full_screen: bool
@@ -55,7 +55,7 @@ class Standing:
 
 
 class Hands:
-    """Somebody in front of a kiosk."""
+    """A person in front of a kiosk."""
 
     def __init__(self, kiosk: Kiosk) -> None:
         """Stand in front of it."""

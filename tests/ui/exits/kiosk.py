@@ -32,7 +32,7 @@ BETWEEN_MS = 15
 
 
 def tell(**what: object) -> None:
-    """One line for whoever watches."""
+    """One line for the watching program."""
     sys.stdout.write(json.dumps(what) + "\n")
     sys.stdout.flush()
 
@@ -57,7 +57,7 @@ def show_board(app: App) -> None:
 
 
 def _let_others_watch() -> None:
-    """Let whoever watches reach this server too: cage keeps it for the user who runs it, and refuses to be root's."""
+    """Let the watcher reach this server too: cage keeps it for the user who runs it, and refuses to be root's."""
     with closing(Display()) as display:
         display.set_access_control(X.DisableAccess)
         display.sync()

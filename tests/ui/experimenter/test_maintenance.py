@@ -1,4 +1,4 @@
-"""Between sessions the booth copies its database and looks at the disk; nobody begins where there is no room left."""
+"""Between sessions the booth copies its database and looks at the disk; no session begins without room on it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ PLENTY, LITTLE, NONE = FreeSpace(5000), FreeSpace(300), FreeSpace(10)
 
 
 class Later:
-    """Does at once what it is given, and lands it only when it is told to."""
+    """Does at once what it is given, and lands it only when asked to."""
 
     def __init__(self) -> None:
         self._landings: list[Callable[[], None]] = []
@@ -98,7 +98,7 @@ class Place:
             self.clock.jump()
 
     def let_begin(self, *, shut: bool) -> None:
-        """Let nobody begin, or everybody again."""
+        """Let no session begin, or all again."""
         self.shut.append(shut)
 
     @property

@@ -1,4 +1,4 @@
-"""The lock looks at no PIN while nobody may try, and what it finds out is written down before it is told."""
+"""The lock checks no PIN during a wait, and writes a result down before it shows it."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ EMPTY = (Stage.ATTRACT, Stage.OVER)
 def say_something(assigner: Desk) -> None:
     """Let a sentence be said to its end, if one is said in this stage."""
     if assigner.stage is Stage.GAME:
-        # A hint comes only to somebody who finds nothing.
+        # A hint comes only to a player who finds nothing.
         board = assigner.app.screens.board
         while not assigner.app.runner.accepts(happened.RepeatRequested(at_ms=assigner.app.runner.now_ms())):
             for place in board.closed[:1]:

@@ -140,7 +140,7 @@ FocusScope {
                     PanelEmpty { words: view.panel.records.more; visible: words !== "" }
                 }
             }
-            PanelDeeds {
+            PanelActions {
                 id: right
                 x: content.width - width
                 width: view.wide ? content.width - left.width - middle.width - 2 * view.space
