@@ -33,7 +33,7 @@ from kiosk.ui.event_loop import (
 )
 from kiosk.ui.experimenter.actions import Services
 from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
-from kiosk.ui.input import Activity, PointerTrace
+from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
 from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
@@ -85,6 +85,7 @@ class App:
         self.clock = _clock(mode, owner)
         self.started_ms = self.clock.now_ms()
         self.runner = SessionRunner(self.screens, recorder, self.clock, assigner)
+        self._choices = ChoiceReset(self.screens.kiosk, self.clock, owner)
         self._activity = Activity(self.window, self.screens.kiosk, self.clock, owner)
         self.runner.last_activity_ms = self._activity.last_ms
         self.runner.last_device = lambda: self._activity.device

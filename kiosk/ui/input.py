@@ -9,7 +9,7 @@ from PySide6.QtGui import QInputDevice, QKeyEvent, QMouseEvent, QPointerEvent
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 
 from kiosk.experiment.events import InputDevice
-from kiosk.ui.event_loop import Clock
+from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.screens.shell import KioskScreen
 
 
@@ -97,6 +97,26 @@ _MODIFIERS = frozenset(
         Qt.Key.Key_Super_R,
     }
 )
+
+
+CHOICES_KEPT_MS = 60_000
+"""How long a choice on the start screen stands if no session begins."""
+
+
+class ChoiceReset(QObject):
+    """Takes back choices of the start screen if no session begins, so that the next visitor does not get them."""
+
+    def __init__(self, kiosk: KioskScreen, clock: Clock, parent: QObject) -> None:
+        """Watch the choices until ``parent`` goes."""
+        super().__init__(parent)
+        self._kiosk, self._clock = kiosk, clock
+        self._wait: TimerWait | None = None
+        kiosk.chosen.connect(self._begin)
+
+    def _begin(self) -> None:
+        if self._wait is not None:
+            self._wait.cancel()
+        self._wait = self._clock.after(CHOICES_KEPT_MS, self._kiosk.forget_choices)
 
 
 class Activity(QObject):

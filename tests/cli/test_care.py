@@ -178,6 +178,7 @@ def test_the_same_command_finishes_a_withdrawal_that_was_cut_off(day: Path, monk
 def test_folders_are_merged(day: Path, tmp_path: Path) -> None:
     a_day(tmp_path / "other", PEOPLE, "GI", seed=2)
     told = said("merge", day, tmp_path / "other", "--out", tmp_path / "all")
+    assert told.pop("studies")[0]["sessions"] == 3
     assert told == {"out": str(tmp_path / "all"), "folders": 2, "sessions": 8}
     assert len(said("sessions", "--data", tmp_path / "all")) == 8
 

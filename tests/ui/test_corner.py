@@ -9,6 +9,7 @@ from kiosk.config import Settings
 from kiosk.experiment.events import SoundSelected, Stage, Status, TextSize, TextSizeSelected
 from kiosk.experiment.replay import replay_events
 from kiosk.store.queries import open_repository
+from kiosk.ui.input import CHOICES_KEPT_MS
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
 from tests.ui.conftest import Booth, MakeBooth
 from tests.ui.headless import SMALL
@@ -76,11 +77,13 @@ def test_what_was_chosen_on_the_start_screen_stands_in_the_record(resting: Booth
     assert SoundSelected(at_ms=0, on=False) in events
 
 
-def test_what_a_passer_by_chose_is_taken_back_when_nobody_begins(resting: Booth) -> None:
+def test_what_a_passer_by_chose_is_taken_back_after_a_minute_without_a_session(resting: Booth) -> None:
     kiosk = resting.app.screens.kiosk
     resting.click("control-text-size")
     resting.click("control-sound")
-    kiosk.forgetChoices()
+    chosen_ms = resting.app.clock.now_ms()
+    resting.wait_until(lambda: kiosk.property("textStep") == 0)
+    assert resting.app.clock.now_ms() - chosen_ms == CHOICES_KEPT_MS
     assert (kiosk.property("textStep"), kiosk.property("sound")) == (0, True)
 
 

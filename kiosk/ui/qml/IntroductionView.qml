@@ -22,11 +22,11 @@ FocusScope {
     readonly property bool still: Theme.motion === 0
 
     onVisibleChanged: beat = 0
-    Timer {
-        interval: 1100
-        repeat: true
+    SequentialAnimation {
+        loops: Animation.Infinite
         running: view.visible && !view.still
-        onTriggered: view.beat = (view.beat + 1) % 16
+        PauseAnimation { duration: 1100 }
+        ScriptAction { script: view.beat = (view.beat + 1) % 16 }
     }
 
     // Six cards, some of them up or marked, above a sentence or beside it.

@@ -214,15 +214,6 @@ Window {
         x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
         y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
     }
-    // What a passer-by changed on the start screen is not left to the next one.
-    Timer {
-        readonly property bool changed: !root.kiosk.inSession && (root.kiosk.textStep > 0 || !root.kiosk.sound)
-        readonly property int step: root.kiosk.textStep
-        interval: 60000
-        running: changed
-        onStepChanged: if (changed) restart()
-        onTriggered: root.kiosk.forgetChoices()
-    }
     Feast {
         id: feast
         // Who is already asked something is not to be rained on.

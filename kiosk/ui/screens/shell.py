@@ -107,6 +107,8 @@ class KioskScreen(QObject):
     pressed = Signal()
     """A button was pressed, whichever it was."""
     """Something else is shown than a moment ago."""
+    chosen = Signal()
+    """A person chose text size or sound on the start screen."""
     controls = Signal()
     """What the visitor can do in the corner has changed."""
     stopped = Signal()
@@ -390,6 +392,7 @@ class KioskScreen(QObject):
             self.text_size_selected.emit(size.value)
         else:
             self.set_text_size(size)
+            self.chosen.emit()
 
     @Slot()
     def changeSound(self) -> None:  # noqa: N802 - QML's convention
@@ -398,9 +401,9 @@ class KioskScreen(QObject):
             self.sound_selected.emit(not self._sound)
         else:
             self.set_sound(on=not self._sound)
+            self.chosen.emit()
 
-    @Slot()
-    def forgetChoices(self) -> None:  # noqa: N802 - QML's convention
+    def forget_choices(self) -> None:
         """Take back what was chosen on the start screen by a person who has not begun."""
         if self._consent is None:
             self.set_text_size(TextSize.NORMAL)
