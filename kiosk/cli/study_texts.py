@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.console import Console
@@ -17,8 +18,13 @@ from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
+from kiosk.study.editing import TextPlace, change_text, find_text, text_places, why_not_editable
 from kiosk.study.loader import expected_minutes, read_study
 from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts
+
+if TYPE_CHECKING:
+    from kiosk.experiment.session_config import SessionConfig, StudyConfig
+    from kiosk.ui.preview import FoundText
 
 SHOWN = 60
 
@@ -95,3 +101,57 @@ def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
     check_robot(study.settings)
     pages = write_dossier(study, max(round(expected_minutes(plan)) for plan in study.plans), out)
     click.echo(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{pages} pages are in {out}.")
+
+
+@click.command("preview")
+@click.argument("file", type=click.Path(path_type=Path))
+def preview_command(file: Path) -> None:
+    """Show every screen of a study FILE in a window that follows the files as you change them.
+
+    Click on a text to see its file and key, and to change it.
+    """
+    from kiosk.ui.preview import show_preview  # noqa: PLC0415 - the other commands do without a window
+    from kiosk.ui.window import WindowMode, check_screen  # noqa: PLC0415 - as above
+
+    texts = EditedStudy(file)
+    texts.read()
+    check_screen(WindowMode.WINDOW)
+    show_preview(file, texts)
+
+
+class EditedStudy:
+    """A study whose texts are found and changed."""
+
+    def __init__(self, file: Path) -> None:
+        """Nothing is read before ``read``."""
+        self._file = file
+        self._settings = Settings()
+        self._places: dict[str, tuple[TextPlace, ...]] = {}
+        self._found: TextPlace | None = None
+
+    def read(self) -> StudyConfig:
+        """Return the study as its files are now; raises UserInputError."""
+        settings = read_settings(self._file)
+        study = read_study(settings)
+        self._settings, self._places = settings, {}
+        return study
+
+    def find(self, plan: SessionConfig, shown: str) -> FoundText | None:
+        """Return the text that reads like this on a screen in the language of a plan."""
+        from kiosk.ui.preview import FoundText  # noqa: PLC0415 - the other commands do without a window
+
+        if plan.language not in self._places:
+            self._places[plan.language] = text_places(plan)
+        self._found = place = find_text(self._places[plan.language], shown)
+        if place is None:
+            return None
+        note = why = why_not_editable(self._settings, place)
+        if not why and place.is_shipped:
+            note = f"It comes with Recollect; your text goes into [texts.{place.language}] of {self._file}."
+        return FoundText(place.file, place.key, place.text, note, is_editable=not why)
+
+    def change(self, text: str) -> None:
+        """Write the text that was found last; raises UserInputError and changes nothing if that is impossible."""
+        if self._found is None:
+            raise UserInputError("there is no text to change; click on one first")
+        change_text(self._settings, self._file, self._found, text)

@@ -9,14 +9,13 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from PySide6.QtCore import QObject
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.experiment import effects as do
 from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.robots.embodiment import EmbodimentSelector
-from kiosk.ui.event_loop import EventLoop, WallClock
+from kiosk.ui.event_loop import Clock, EventLoop, WallClock
 from kiosk.ui.rehearsal import unwritten
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.replay_controls import ReplayControls, ReplayPlayer
@@ -54,6 +53,14 @@ class _Deaf:
     def robot_lost(self, why: str) -> None: ...
 
 
+def avatar_alone(window: Window, clock: Clock, plan: SessionConfig) -> EmbodimentSelector:
+    """Return the avatar of a window as the only body; it shows what it says, and makes no sound."""
+    embodiments = EmbodimentSelector(_Deaf(), clock.after, plan.settings.robot)
+    board = plan.settings.screen.board_side
+    embodiments.set_avatar(AvatarBody(window.screens.avatar, MuteVoice(window.owner), _Deaf(), board, window.owner))
+    return embodiments
+
+
 class Replay:
     """One stored session in the window. Only one can be in a process."""
 
@@ -81,7 +88,7 @@ class Replay:
         self._clock = WallClock(owner)
         self._window.show(mode.display)
         self._renderer = Renderer(self._window.screens, self._clock, lambda _: None)
-        self._renderer.embodiments = self._embodiments(plan, owner)
+        self._renderer.embodiments = avatar_alone(self._window, self._clock, plan)
         self.player = ReplayPlayer(self._renderer, self._clock, plan, steps)
         self.player.change_speed(mode.speed)
         self._loop = EventLoop(self._clock, owner, self._fault, self._beat)
@@ -131,12 +138,6 @@ class Replay:
                 if not self._window.shown.grabWindow().save(str(file)):
                     raise unwritten(file)
                 yield file
-
-    def _embodiments(self, plan: SessionConfig, owner: QObject) -> EmbodimentSelector:
-        embodiments = EmbodimentSelector(_Deaf(), self._clock.after, plan.settings.robot)
-        board = plan.settings.screen.board_side
-        embodiments.set_avatar(AvatarBody(self._window.screens.avatar, MuteVoice(owner), _Deaf(), board, owner))
-        return embodiments
 
     def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
         """End the replay at a fault of ours; no visitor waits in front of it."""

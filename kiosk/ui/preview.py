@@ -1,0 +1,395 @@
+"""Show every screen of a study while it is written, with the file and key of each text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from random import Random
+from types import TracebackType
+from typing import Protocol
+
+from PySide6.QtCore import Property, QCoreApplication, QEvent, QObject, QPointF, QSize, QTimer, QUrl, Signal, Slot
+from PySide6.QtGui import QImage
+from PySide6.QtQml import QmlElement, QQmlApplicationEngine
+from PySide6.QtQuick import QQuickImageProvider, QQuickItem, QQuickWindow
+
+from kiosk import UserInputError
+from kiosk.config import Game, Practice
+from kiosk.experiment import effects as do
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.effects import Effect
+from kiosk.experiment.page_stages import item_pages
+from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.experiment.session_config import SessionConfig, StudyConfig
+from kiosk.game import CARDS_IN_A_PAIR
+from kiosk.ui.event_loop import EventLoop, WallClock
+from kiosk.ui.renderer import Renderer
+from kiosk.ui.replay import avatar_alone
+from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+
+QML_IMPORT_NAME = "Recollect"
+QML_IMPORT_MAJOR_VERSION = 1
+
+QML = Path(__file__).parent / "qml" / "Preview.qml"
+SIZES = ("1920 x 1080", "1280 x 720", "1080 x 1920", "720 x 1280")
+POLL_MS = 100
+"""How often the files are looked at; a change is shown within a second."""
+SETTLE_MS = 300
+"""Pictures that are loaded in the background are there by then."""
+EXAMPLE_MOVES, EXAMPLE_MS, EXAMPLE_HINTS = 31, 185_000, 4
+"""A result to look at."""
+
+
+@dataclass(frozen=True)
+class FoundText:
+    """A text that was clicked on: its file, its key there, and how it is written."""
+
+    file: Path
+    key: str
+    text: str
+    note: str = ""
+    """Where it is written to if that is another place, or why it cannot be changed."""
+    is_editable: bool = True
+
+
+class StudyTexts(Protocol):
+    """Reads a study, and finds and changes its texts."""
+
+    def read(self) -> StudyConfig:
+        """Return the study as its files are now; raises UserInputError."""
+        ...
+
+    def find(self, plan: SessionConfig, shown: str) -> FoundText | None:
+        """Return the text that reads like this on a screen in the language of a plan."""
+        ...
+
+    def change(self, text: str) -> None:
+        """Write the text that was found last; raises UserInputError and changes nothing if that is impossible."""
+        ...
+
+
+class _Picture(QQuickImageProvider):
+    """Hands the picture of the visitor's screen to QML."""
+
+    def __init__(self) -> None:
+        super().__init__(QQuickImageProvider.ImageType.Image)
+        self.image = QImage(1, 1, QImage.Format.Format_RGB32)
+
+    def requestImage(self, _id: str, size: QSize, _wanted: QSize) -> QImage:  # noqa: N802 - Qt's name
+        """Return the newest picture."""
+        size.setWidth(self.image.width())
+        size.setHeight(self.image.height())
+        return self.image
+
+
+def screen_effects(plan: SessionConfig) -> dict[str, tuple[Effect, ...]]:
+    """Return every screen of a session by its name, in their order, with the effects that show it."""
+    screens: dict[str, tuple[Effect, ...]] = {"attract": ()}
+    for stage in plan.settings.stages:
+        screens |= dict(_of_stage(stage, plan))
+    return screens | {"still there": (*screens["attract"], do.AskStillThere()), "pause": (do.ShowPause(),)}
+
+
+def _of_stage(  # noqa: C901 - one case per stage
+    stage: str, plan: SessionConfig
+) -> Iterator[tuple[str, tuple[Effect, ...]]]:
+    sheet, game, cell = plan.information, plan.settings.game, plan.cell
+    pairs = _pairs(game)
+    match stage:
+        case "about":
+            yield stage, (do.ShowAbout(sheet.about),)
+        case "age":
+            yield stage, (do.ShowAgeQuestion(plan.settings.consent.adult),)
+        case "consent":
+            yield stage, (do.ShowConsent(sheet.consent),)
+        case "about_you":
+            yield from _pages("about you", (plan.about_you,), rates=False)
+        case "introduction":
+            speech = "introduction-speech" if cell.helps else "introduction-speech-alone"
+            said = plan.catalogue.wordings(speech, cards=CARDS_IN_A_PAIR * pairs, pairs=pairs)[0]
+            yield stage, (do.ShowIntroduction(helped=cell.helps, points=cell.location), do.Speak(1, said))
+        case "practice":
+            board = plan.settings.practice
+            yield stage, (do.ShowBoard(board.rows, board.columns, _pairs(board), board.deck, practice=True),)
+        case "game":
+            yield stage, (do.ShowBoard(game.rows, game.columns, pairs, game.deck), do.UnlockBoard())
+        case "result":
+            yield stage, (do.ShowResult(pairs, EXAMPLE_MOVES, EXAMPLE_MS, EXAMPLE_HINTS),)
+        case "questions":
+            yield from _pages("questions", plan.questionnaires, rates=True)
+        case "debrief":
+            yield stage, (do.ShowDebrief(sheet.debrief),)
+        case "thanks":
+            yield stage, (do.ShowThanks(), do.Speak(1, plan.catalogue.wordings("thanks-speech")[0]))
+
+
+def _pairs(board: Game | Practice) -> int:
+    return board.rows * board.columns // CARDS_IN_A_PAIR
+
+
+def _pages(name: str, asked: tuple[Questionnaire, ...], *, rates: bool) -> Iterator[tuple[str, tuple[Effect, ...]]]:
+    pages = [page for each in asked for page in item_pages(each, Random(0))]
+    for number, page in enumerate(pages, 1):
+        yield f"{name} {number}", (do.ShowItems(page.items, number, len(pages), rates),)
+
+
+@QmlElement
+class PreviewModel(QObject):
+    """What the preview's window shows, and what is done in it."""
+
+    changed = Signal()
+    drawn = Signal()
+    found_changed = Signal()
+    left = Signal()
+
+    def __init__(self, file: Path, texts: StudyTexts, display: WindowMode, owner: QObject | None = None) -> None:
+        """Read the study; raises UserInputError if it is wrong already."""
+        super().__init__(owner)
+        self.picture = _Picture()
+        self._file = file
+        self._texts = texts
+        self._mode = RunMode(display, ClockMode.VIRTUAL)
+        self._study = texts.read()
+        self._seen = self._state()
+        self._fault = ""
+        self._found: FoundText | None = None
+        self._drawn = 0
+        self._screen, self._size = "attract", SIZES[0]
+        self._language = self._study.languages[0]
+        self._condition = self._study.settings.assistance.condition
+        self._open()
+        self._show()
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self.poll)
+        self._timer.start(POLL_MS)
+
+    def close(self) -> None:
+        """Close the visitor's screen."""
+        self._timer.stop()
+        self._window.close()
+
+    def poll(self) -> None:
+        """Read the study again if a file has changed; a wrong one leaves the last good view, with a sentence."""
+        now = self._state()
+        if now == self._seen:
+            return
+        self._seen = now
+        self.reload()
+
+    def reload(self) -> None:
+        """Read the study, and show the same screen of it."""
+        try:
+            study = self._texts.read()
+        except UserInputError as refusal:
+            self._fault = "\n".join(refusal.sentences)
+            self.changed.emit()
+            return
+        self._fault = ""
+        self._study = study
+        self._seen = self._state()
+        self._window.close()
+        self._open()
+        self._show()
+
+    @property
+    def window(self) -> QQuickWindow:
+        """The visitor's screen, which is drawn and not shown."""
+        return self._window.shown
+
+    def _open(self) -> None:
+        self._window = Window(self._study, self._mode)
+        clock = WallClock(self._window.owner)
+        self._renderer = Renderer(self._window.screens, clock, lambda _: None)
+        self._renderer.embodiments = avatar_alone(self._window, clock, self._study.plans[0])
+
+    def _plan(self) -> SessionConfig:
+        plans = self._study.plans
+        plan = next((each for each in plans if each.language == self._language), plans[0])
+        return plan.in_condition(Condition(self._condition))
+
+    def _show(self) -> None:
+        """Show what is chosen, or the first of it where the study has it no longer."""
+        if self._language not in self._study.languages:
+            self._language = self._study.languages[0]
+        if self._condition not in self.conditions_of(self._study):
+            self._condition = self._study.settings.assistance.condition
+        plan = self._plan()
+        screens = screen_effects(plan)
+        if self._screen not in screens:
+            self._screen = "attract"
+        width, height = map(int, self._size.split(" x "))
+        self.window.setWidth(width)
+        self.window.setHeight(height)
+        self._renderer.reset("attract")
+        self._renderer.begin(plan)
+        self._renderer.perform(screens[self._screen])
+        self._draw()
+        QTimer.singleShot(SETTLE_MS, self, self._draw)
+        self.changed.emit()
+
+    def _draw(self) -> None:
+        self.picture.image = self.window.grabWindow()
+        self._drawn += 1
+        self.drawn.emit()
+
+    @staticmethod
+    def conditions_of(study: StudyConfig) -> list[str]:
+        """Return the names of all conditions of a study."""
+        return list(study.settings.all_conditions)
+
+    def _state(self) -> dict[Path, tuple[int, int]]:
+        """Return when each file of the study was changed last, and its size."""
+        folder = self._file.absolute().parent
+        own = [source.path for source in self._study.sources if not source.is_shipped]
+        places = {self._file, *_children(folder)}
+        for path in own:
+            places |= {path, *(path.rglob("*") if path.is_dir() else ())}
+        return dict(filter(None, map(_stamp, places)))
+
+    def _get_screens(self) -> list[str]:
+        return list(screen_effects(self._plan()))
+
+    def _get_languages(self) -> list[str]:
+        return list(self._study.languages)
+
+    def _get_conditions(self) -> list[str]:
+        return self.conditions_of(self._study)
+
+    def _get_found(self) -> str:
+        return f"{self._found.file}: {self._found.key}" if self._found else ""
+
+    screens = Property(list, _get_screens, notify=changed)
+    languages = Property(list, _get_languages, notify=changed)
+    conditions = Property(list, _get_conditions, notify=changed)
+    sizes = Property(list, lambda _: list(SIZES), constant=True)
+    screen = Property(str, lambda self: self._screen, notify=changed)
+    language = Property(str, lambda self: self._language, notify=changed)
+    condition = Property(str, lambda self: self._condition, notify=changed)
+    size = Property(str, lambda self: self._size, notify=changed)
+    title = Property(str, lambda self: self._study.settings.title, notify=changed)
+    fault = Property(str, lambda self: self._fault, notify=changed)
+    number = Property(int, lambda self: self._drawn, notify=drawn)
+    found = Property(str, _get_found, notify=found_changed)
+    text = Property(str, lambda self: self._found.text if self._found else "", notify=found_changed)
+    note = Property(str, lambda self: self._found.note if self._found else "", notify=found_changed)
+    editable = Property(bool, lambda self: bool(self._found and self._found.is_editable), notify=found_changed)
+
+    @Slot(str, str)
+    def pick(self, what: str, value: str) -> None:
+        """Show another screen, language, size or condition."""
+        setattr(self, f"_{what}", value)
+        self._find("")
+        self._show()
+
+    @Slot(float, float)
+    def press(self, x: float, y: float) -> None:
+        """Find the text at a place of the visitor's screen; both are shares of its size."""
+        point = QPointF(x * self.window.width(), y * self.window.height())
+        for shown in _texts_at(self.window.contentItem(), point):
+            if self._find(shown):
+                return
+
+    @Slot(float, float, float)
+    def scroll(self, x: float, y: float, by: float) -> None:
+        """Scroll what is at a place of the visitor's screen, by a share of its height."""
+        point = QPointF(x * self.window.width(), y * self.window.height())
+        for item in _items_at(self.window.contentItem(), point):
+            length = item.property("contentHeight")
+            if item.inherits("QQuickFlickable") and length > item.height():
+                moved = item.property("contentY") + by * item.height()
+                item.setProperty("contentY", max(0.0, min(moved, length - item.height())))
+                self._draw()
+                return
+
+    @Slot(str)
+    def write(self, text: str) -> None:
+        """Change the text that was clicked on; what is wrong with it is said, and nothing is changed."""
+        try:
+            self._texts.change(text)
+        except UserInputError as refusal:
+            self._fault = "\n".join(refusal.sentences)
+            self.changed.emit()
+            return
+        self._find("")
+        self.reload()
+
+    @Slot()
+    def leave(self) -> None:
+        """End the preview."""
+        self.left.emit()
+
+    def _find(self, shown: str) -> bool:
+        self._found = self._texts.find(self._plan(), shown) if shown else None
+        self.found_changed.emit()
+        return self._found is not None
+
+
+def _children(folder: Path) -> Iterator[Path]:
+    try:
+        yield from folder.iterdir()
+    except OSError:
+        return
+
+
+def _stamp(path: Path) -> tuple[Path, tuple[int, int]] | None:
+    try:
+        known = path.stat()
+    except OSError:
+        return None
+    return path, (known.st_mtime_ns, known.st_size)
+
+
+def _items_at(item: QQuickItem, point: QPointF) -> Iterator[QQuickItem]:
+    """Yield the visible items at a point of the window, the uppermost first."""
+    for child in sorted(item.childItems(), key=lambda each: each.z())[::-1]:
+        if child.isVisible() and child.opacity() > 0:
+            yield from _items_at(child, point)
+            if child.contains(child.mapFromScene(point)):
+                yield child
+
+
+def _texts_at(item: QQuickItem, point: QPointF) -> Iterator[str]:
+    for each in _items_at(item, point):
+        for name in ("text", "words"):
+            shown = each.property(name)
+            if isinstance(shown, str) and shown.strip():
+                yield shown
+
+
+def show_preview(file: Path, texts: StudyTexts, display: WindowMode = WindowMode.WINDOW) -> None:
+    """Show the preview's window until it is closed; raises UserInputError if the study is wrong at the beginning."""
+    model = PreviewModel(file, texts, display)
+    engine = QQmlApplicationEngine()
+    errors: list[BaseException] = []
+    try:
+        engine.addImageProvider("visitor", model.picture)
+        engine.setInitialProperties({"preview": model})
+        engine.load(QUrl.fromLocalFile(str(QML)))
+        loop = EventLoop(WallClock(engine), engine, partial(_keep, errors, model))
+        try:
+            model.left.connect(loop.quit)
+            loop.run()
+        finally:
+            loop.close()
+    finally:
+        for window in engine.rootObjects():
+            window.setProperty("visible", False)  # noqa: FBT003 - Qt's way to set a property
+        engine.deleteLater()
+        # Before the model that its windows look at.
+        QCoreApplication.sendPostedEvents(engine, QEvent.Type.DeferredDelete)
+        model.close()
+    if errors:
+        raise errors[0]
+
+
+def _keep(
+    errors: list[BaseException],
+    model: PreviewModel,
+    _kind: type[BaseException],
+    fault: BaseException,
+    _at: TracebackType | None,
+) -> None:
+    errors.append(fault)
+    model.leave()
