@@ -43,6 +43,7 @@ KIOSK = """
     from pathlib import Path
 
     from kiosk.cli.composition import code_commit, read_settings
+    from kiosk.experiment.session_config import SessionKind
     from kiosk.store.recorder import Recorder
     from kiosk.study.loader import read_study
     from kiosk.ui.app import App
