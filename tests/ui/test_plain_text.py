@@ -76,7 +76,7 @@ def test_the_elements_of_a_file_are_told_apart() -> None:
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_every_text_of_a_screen_is_plain(file: Path) -> None:
     source = file.read_text("utf-8")
-    assert set(re.findall(r"textFormat: *(\S+)", source)) <= {"Text.PlainText"}
+    assert set(re.findall(r"textFormat: *(\S+)", source)) <= {"Text.PlainText", "TextEdit.PlainText"}
     assert "placeholderText:" not in source
     for kind, own in elements(source):
         assert kind not in DRAW_MARKUP, own
