@@ -49,7 +49,7 @@ Window {
                 delegate: ItemDelegate {
                     required property string modelData
                     width: ListView.view.width
-                    text: modelData
+                    contentItem: Text { text: parent.modelData; font.pixelSize: 14; textFormat: Text.PlainText }
                     highlighted: modelData === root.preview.screen
                     onClicked: root.preview.pick("screen", modelData)
                 }
@@ -117,8 +117,7 @@ Window {
                     }
                     Button {
                         visible: root.preview.editable
-                        text: "✓"
-                        font.pixelSize: 20
+                        contentItem: Text { text: "✓"; font.pixelSize: 20; textFormat: Text.PlainText }
                         Accessible.name: root.preview.found
                         onClicked: root.preview.write(editor.text)
                     }
