@@ -47,9 +47,10 @@ Window {
                 model: root.preview.screens
                 ScrollBar.vertical: ScrollBar {}
                 delegate: ItemDelegate {
+                    id: named
                     required property string modelData
                     width: ListView.view.width
-                    contentItem: Text { text: parent.modelData; font.pixelSize: 14; textFormat: Text.PlainText }
+                    contentItem: Text { text: named.modelData; font.pixelSize: 14; textFormat: Text.PlainText }
                     highlighted: modelData === root.preview.screen
                     onClicked: root.preview.pick("screen", modelData)
                 }
