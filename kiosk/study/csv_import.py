@@ -19,6 +19,7 @@ from pydantic.fields import FieldInfo
 from tomlkit.items import Array, InlineTable, Table
 
 from kiosk import UserInputError
+from kiosk.config import MOST_BYTES
 from kiosk.errors import error_message, validation_errors, validation_messages
 from kiosk.experiment.items import BaseItem, Question
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
@@ -155,7 +156,10 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
 def text_of_table(name: str, file: Path) -> str:
     """Return the text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
     try:
-        content = file.read_bytes()
+        with file.open("rb") as opened:
+            content = opened.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             return content.decode("utf-16")
         try:

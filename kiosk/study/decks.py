@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 import re
@@ -16,6 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
 from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
 from kiosk.language_codes import is_right
+from kiosk.study.csv_import import text_of_table
 
 _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", ".heif", ".avif", ".psd", ".ico"))
 """The endings of pictures that would be left out without a word."""
@@ -252,7 +252,7 @@ _LONGEST = 60
 
 def _rows(name: str, file: Path) -> list[tuple[int, list[str]]]:
     """Return the rows that are not empty, with their numbers; a spreadsheet may have put ; or tabs between cells."""
-    text, first = _decoded(name, file), 1
+    text, first = text_of_table(name, file).replace("\r\n", "\n"), 1
     if text.lower().startswith("sep="):
         text, first = text.partition("\n")[2], 2
     header = next((line for line in text.splitlines() if line.strip()), "")
@@ -262,18 +262,6 @@ def _rows(name: str, file: Path) -> list[tuple[int, list[str]]]:
     except csv.Error as error:
         raise UserInputError(f"{name} is no table: {error}") from error
     return [(number, row) for number, row in enumerate(cells, first) if any(cell.strip() for cell in row)]
-
-
-def _decoded(name: str, file: Path) -> str:
-    """Return the text of a table; spreadsheet programs mark UTF-16."""
-    try:
-        with file.open("rb") as opened:
-            wide = opened.read(2) in {codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE}
-        return file.read_text("utf-16").replace("\r\n", "\n") if wide else read_text(name, file)
-    except OSError as error:
-        raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise UserInputError(f"{name} is not UTF-16, although it begins so; save it as CSV UTF-8") from error
 
 
 def _columns(header: Sequence[str], faults: list[str]) -> Iterator[tuple[int, tuple[str, str]]]:

@@ -17,7 +17,16 @@ from kiosk.config import ASSETS, Settings, code_of, read_text
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.files import write_file
 from kiosk.study.loader import OWN_TEXTS, read_study
-from kiosk.study.translations import _document, _of_entry, _patterns, _plain, _put, _spelt, _strings, _worded
+from kiosk.study.translations import (
+    entry_patterns,
+    pattern_text,
+    put_text,
+    read_document,
+    resource_patterns,
+    spelling_among,
+    worded_strings,
+    worded_tables,
+)
 
 BOM = "\ufeff"
 
@@ -108,13 +117,13 @@ def _changed(settings: Settings, study_file: Path, place: TextPlace, text: str) 
         return place.file, _in_fluent(place.file, place.key, text)
     if place.kind in {"message", "own message"}:
         return _replaced(settings, study_file, place, text)
-    document = _document(place.file)
+    document = read_document(place.file)
     if place.kind == "sheet":
-        _put(document, place.key.split("."), text)
+        put_text(document, place.key.split("."), text)
     else:
-        for path, words in _worded(document, place.language):
+        for path, words in worded_tables(document, place.language):
             if path == place.key:
-                words[_spelt(words, place.language)] = text
+                words[spelling_among(words, place.language)] = text
     return place.file, tomlkit.dumps(document)
 
 
@@ -127,7 +136,7 @@ def _replaced(settings: Settings, study_file: Path, place: TextPlace, text: str)
         words = {f".{name}": each for name, each in (wordings | {wording: text}).items()} if wording else {"": text}
         lines = "".join(_attribute(name, each) for name, each in words.items())
         return own, f"{read_text(f'the file {own}', own).rstrip()}\n{message} ={lines}\n"
-    document = _document(study_file)
+    document = read_document(study_file)
     texts = document.setdefault("texts", tomlkit.table(is_super_table=True))
     code = next((key for key in texts if code_of(key) == place.language), place.language)
     table = texts.setdefault(code, tomlkit.table())
@@ -150,15 +159,15 @@ def _indented(text: str, spaces: int) -> str:
 
 def _wordings(place: TextPlace, message: str) -> dict[str, str]:
     """Return all wordings of a message in its file: whatever replaces a message replaces all of them."""
-    found = _patterns(FluentParser().parse(read_text(f"the file {place.file}", place.file)))
-    return {name.partition(".")[2]: _plain(pattern) for name, pattern in found if name.startswith(f"{message}.")}
+    found = resource_patterns(FluentParser().parse(read_text(f"the file {place.file}", place.file)))
+    return {name.partition(".")[2]: pattern_text(pattern) for name, pattern in found if name.startswith(f"{message}.")}
 
 
 def _in_fluent(file: Path, key: str, text: str) -> str:
     """Return a file of messages in which one text is another, and every other character is as it was."""
     source = read_text(f"the file {file}", file)
     resource = FluentParser().parse(source)
-    old = dict(_patterns(resource)).get(key)
+    old = dict(resource_patterns(resource)).get(key)
     if old is None or old.span is None:
         raise UserInputError(f"{file}: there is no message {key} any more")
     new = f"{source[: old.span.start]}{_spaced(source, old, text)}{source[old.span.end :]}"
@@ -185,7 +194,7 @@ def _spaced(source: str, old: Pattern, text: str) -> str:
 
 def _by_key(resource: Resource) -> dict[str, str]:
     """Return every text by its key, and what is not well-formed by its place."""
-    texts = {name: _plain(pattern) for name, pattern in _patterns(resource)}
+    texts = {name: pattern_text(pattern) for name, pattern in resource_patterns(resource)}
     serializer = FluentSerializer(with_junk=True)
     others = (entry for entry in resource.body if not isinstance(entry, Message | Term))
     return texts | {f" {n}": serializer.serialize_entry(entry) for n, entry in enumerate(others)}
@@ -196,10 +205,10 @@ def _messages(plan: SessionConfig) -> Iterator[TextPlace]:
         if isinstance(written.entry, Term):
             continue
         kind = "own message" if _is_in_study_file(plan, written) else "message"
-        for key, pattern in _of_entry(written.entry):
+        for key, pattern in entry_patterns(written.entry):
             shown, literal = _as_shown(pattern)
             if literal:
-                yield TextPlace(plan.language, written.file, key, _plain(pattern), kind, shown, literal)
+                yield TextPlace(plan.language, written.file, key, pattern_text(pattern), kind, shown, literal)
 
 
 def _is_in_study_file(plan: SessionConfig, written: Written) -> bool:
@@ -232,7 +241,7 @@ def _of_sheet(plan: SessionConfig) -> Iterator[TextPlace]:
     folder = plan.settings.resolve_asset("consent", plan.settings.consent.text)
     for file in sorted(folder.glob("*.toml")):
         if code_of(file.stem) == plan.language:
-            for key, text in _strings(_document(file)):
+            for key, text in worded_strings(read_document(file)):
                 yield _plainly(plan.language, file, key, text, "sheet")
 
 
@@ -240,6 +249,6 @@ def _of_questionnaires(plan: SessionConfig) -> Iterator[TextPlace]:
     for name in (plan.settings.about_you, *plan.settings.questionnaires):
         file = plan.settings.resolve_asset("questionnaires", name)
         if file.suffix == ".toml":
-            for key, words in _worded(_document(file), plan.language):
-                text = str(words[_spelt(words, plan.language)])
+            for key, words in worded_tables(read_document(file), plan.language):
+                text = str(words[spelling_among(words, plan.language)])
                 yield _plainly(plan.language, file, key, text, "questionnaire")

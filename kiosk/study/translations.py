@@ -145,7 +145,7 @@ class _Sentences(_Part):
 
     def units(self, language: str) -> Iterator[Unit]:  # noqa: ARG002 - the file is of one language
         """Yield the texts of every message, wordings one by one."""
-        theirs = dict(_patterns(_resource(self.target))) if self.target.is_file() else {}
+        theirs = dict(resource_patterns(_resource(self.target))) if self.target.is_file() else {}
         whole = {name.partition(".")[0] for name in theirs}
         for name, pattern, note in _noted(_resource(self.source)):
             message, _, wording = name.partition(".")
@@ -155,8 +155,8 @@ class _Sentences(_Part):
             found = theirs.get(name)
             yield Unit(
                 f"{self.name}#{name}",
-                _plain(pattern),
-                _plain(found) if found else "",
+                pattern_text(pattern),
+                pattern_text(found) if found else "",
                 note or self.note,
                 is_fluent=True,
             )
@@ -171,7 +171,7 @@ class _Sentences(_Part):
         for entry in _resource(self.source).body:
             if not isinstance(entry, Message | Term):
                 continue
-            own = {name: patterns[name] for name, _ in _of_entry(entry) if name in patterns}
+            own = {name: patterns[name] for name, _ in entry_patterns(entry) if name in patterns}
             if own:
                 _fill(resource, there, deepcopy(entry), own)
         return self.target, FluentSerializer().serialize(resource)
@@ -215,17 +215,19 @@ def _name(entry: Message | Term) -> str:
     return entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
 
 
-def _of_entry(entry: Message | Term) -> Iterator[tuple[str, Pattern]]:
+def entry_patterns(entry: Message | Term) -> Iterator[tuple[str, Pattern]]:
+    """Yield the text of a message and of its attributes, by their names."""
     name = _name(entry)
     if entry.value is not None:
         yield name, entry.value
     yield from ((f"{name}.{each.id.name}", each.value) for each in entry.attributes)
 
 
-def _patterns(resource: Resource) -> Iterator[tuple[str, Pattern]]:
+def resource_patterns(resource: Resource) -> Iterator[tuple[str, Pattern]]:
+    """Yield the texts of all messages, by their names."""
     for entry in resource.body:
         if isinstance(entry, Message | Term):
-            yield from _of_entry(entry)
+            yield from entry_patterns(entry)
 
 
 def _noted(resource: Resource) -> Iterator[tuple[str, Pattern, str]]:
@@ -233,10 +235,11 @@ def _noted(resource: Resource) -> Iterator[tuple[str, Pattern, str]]:
     for entry in resource.body:
         if isinstance(entry, Message | Term):
             note = entry.comment.content if entry.comment and entry.comment.content else ""
-            yield from ((name, pattern, note) for name, pattern in _of_entry(entry))
+            yield from ((name, pattern, note) for name, pattern in entry_patterns(entry))
 
 
-def _plain(pattern: Pattern) -> str:
+def pattern_text(pattern: Pattern) -> str:
+    """Return a text as it stands in its file, without the indent of its lines."""
     return dedent(serialize_pattern(pattern).lstrip("\n")).strip()
 
 
@@ -245,27 +248,27 @@ class _Sheet(_Part):
 
     def units(self, language: str) -> Iterator[Unit]:  # noqa: ARG002 - the file is of one language
         """Yield every title, paragraph and purpose."""
-        theirs = dict(_strings(_document(self.target))) if self.target.is_file() else {}
-        for path, text in _strings(_document(self.source)):
+        theirs = dict(worded_strings(read_document(self.target))) if self.target.is_file() else {}
+        for path, text in worded_strings(read_document(self.source)):
             yield Unit(f"{self.name}#{path}", text, theirs.get(path, ""), self.note)
 
     def changed(self, language: str, texts: Mapping[str, str]) -> tuple[Path, str] | None:  # noqa: ARG002 - as above
         """Return the sheet; a new one is written only whole, as visitors agree to it."""
-        document = _document(self.source)
-        theirs = dict(_strings(_document(self.target))) if self.target.is_file() else {}
-        wanted = {path for path, _ in _strings(document)}
+        document = read_document(self.source)
+        theirs = dict(worded_strings(read_document(self.target))) if self.target.is_file() else {}
+        wanted = {path for path, _ in worded_strings(document)}
         given = {path: text for path, text in (theirs | dict(texts)).items() if path in wanted}
         if not texts or wanted - given.keys():
             return None
         for path, text in given.items():
-            _put(document, path.split("."), text)
+            put_text(document, path.split("."), text)
         return self.target, tomlkit.dumps(document)
 
 
 _NOT_WORDED = frozenset(("id", "version"))
 
 
-def _strings(table: Any, before: str = "") -> Iterator[tuple[str, str]]:
+def worded_strings(table: Any, before: str = "") -> Iterator[tuple[str, str]]:
     """Yield every worded string of a document, by its path."""
     entries = table.items() if isinstance(table, Mapping) else enumerate(table)
     for key, value in entries:
@@ -273,7 +276,7 @@ def _strings(table: Any, before: str = "") -> Iterator[tuple[str, str]]:
         if isinstance(value, str) and key not in _NOT_WORDED:
             yield path, str(value)
         elif isinstance(value, Mapping | list):
-            yield from _strings(value, f"{path}.")
+            yield from worded_strings(value, f"{path}.")
 
 
 class _Questions(_Part):
@@ -283,44 +286,47 @@ class _Questions(_Part):
 
     def units(self, language: str) -> Iterator[Unit]:
         """Yield every text in which there is a word in the source language."""
-        for path, words in _worded(_document(self.source), self.source_language):
-            target = str(words.get(_spelt(words, language), ""))
-            yield Unit(f"{self.name}#{path}", str(words[_spelt(words, self.source_language)]), target, self.note)
+        for path, words in worded_tables(read_document(self.source), self.source_language):
+            target = str(words.get(spelling_among(words, language), ""))
+            yield Unit(
+                f"{self.name}#{path}", str(words[spelling_among(words, self.source_language)]), target, self.note
+            )
 
     def changed(self, language: str, texts: Mapping[str, str]) -> tuple[Path, str] | None:
         """Return the file with these texts added."""
         if not texts:
             return None
-        document = _document(self.source)
-        for path, words in _worded(document, self.source_language):
+        document = read_document(self.source)
+        for path, words in worded_tables(document, self.source_language):
             if path in texts:
-                words[_spelt(words, language)] = texts[path]
+                words[spelling_among(words, language)] = texts[path]
         return self.source, tomlkit.dumps(document)
 
 
-def _spelt(words: Mapping[str, Any], language: str) -> str:
+def spelling_among(words: Mapping[str, Any], language: str) -> str:
     """Return how a language is spelt among these words; its own spelling if it is not there."""
     return next((code for code in words if is_right(code) and standard(code) == language), language)
 
 
-def _worded(table: Any, language: str, before: str = "") -> Iterator[tuple[str, Any]]:
+def worded_tables(table: Any, language: str, before: str = "") -> Iterator[tuple[str, Any]]:
     """Yield every table of words that has this language, by its path; items and options go by their ids."""
     if isinstance(table, Mapping):
-        if isinstance(table.get(_spelt(table, language)), str):
+        if isinstance(table.get(spelling_among(table, language)), str):
             yield before.rstrip("."), table
             return
         named = [(key, value) for key, value in table.items() if isinstance(value, Mapping | list)]
     else:
         named = [(_id(each, n), each) for n, each in enumerate(table) if isinstance(each, Mapping | list)]
     for key, value in named:
-        yield from _worded(value, language, f"{before}{key}.")
+        yield from worded_tables(value, language, f"{before}{key}.")
 
 
 def _id(value: Any, number: int) -> str:
     return str(value.get("id", number)) if isinstance(value, Mapping) else str(number)
 
 
-def _put(document: Any, path: Sequence[str], text: str) -> None:
+def put_text(document: Any, path: Sequence[str], text: str) -> None:
+    """Put a text into a document at a path, which is there already."""
     *way, last = path
     place = document
     for step in way:
@@ -328,7 +334,8 @@ def _put(document: Any, path: Sequence[str], text: str) -> None:
     place[int(last) if isinstance(place, list) else last] = text
 
 
-def _document(file: Path) -> tomlkit.TOMLDocument:
+def read_document(file: Path) -> tomlkit.TOMLDocument:
+    """Read a TOML file so that its comments and order are kept; raises UserInputError."""
     text = read_text(f"the file {file}", file)
     try:
         return tomlkit.parse(text)
@@ -369,9 +376,9 @@ class Translation:
         source = self.settings.resolve_asset("sentences", self.settings.languages[0])
         folder = self._folder()
         # How a folder is cut into files does not matter; a message is looked for in all of them.
-        where = {name: file for file in sorted(folder.glob("*.ftl")) for name, _ in _patterns(_resource(file))}
+        where = {name: file for file in sorted(folder.glob("*.ftl")) for name, _ in resource_patterns(_resource(file))}
         for file in sorted(source.glob("*.ftl")):
-            names = [name for name, _ in _patterns(_resource(file))]
+            names = [name for name, _ in resource_patterns(_resource(file))]
             target = next((where[name] for name in names if name in where), folder / file.name)
             yield _Sentences(f"sentences/{file.name}", file, target)
 

@@ -105,12 +105,12 @@ def test_a_session_tells_what_it_began_with(data: Path, tmp_path: Path) -> None:
 
 
 def test_what_the_robot_s_driver_said_is_a_free_text(data: Path, tmp_path: Path) -> None:
-    for extras, told in ((frozenset[ExportOption](), False), (frozenset({ExportOption.TEXTS}), True)):
-        out = tmp_path / f"out-{told}"
+    for extras, with_detail in ((frozenset[ExportOption](), False), (frozenset({ExportOption.TEXTS}), True)):
+        out = tmp_path / f"out-{with_detail}"
         export_dataset(data, out, PsychDs, extras)
         first = json.loads(rows_of(out, "events")[0]["fields"])["setup"]
         assert first["fallback"] == "failed"
-        assert ("detail" in first) is told
+        assert ("detail" in first) is with_detail
 
 
 def test_how_many_came_before_is_told_nowhere_where_names_are_shuffled(data: Path, tmp_path: Path) -> None:
