@@ -213,7 +213,7 @@ class Limits:
     stuck: float = 3.0
     """The same for a process that does not even take notice."""
     memory_mib: int = 1024
-    """Far more than the 160 MiB that a kiosk takes."""
+    """What it may take beyond what it held when the guard began; a kiosk takes 160 MiB in all."""
     tick: float = 0.25
 
 
@@ -237,9 +237,10 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
         return
     reader, writer = os.pipe()
     guarded_process = os.getpid()
+    before_mib = memory_mib(guarded_process)
     guard = os.fork()
     if guard == 0:
-        _guard(guarded_process, reader, writer, limits)
+        _guard(guarded_process, reader, writer, limits, before_mib)
     os.close(reader)
     os.set_blocking(writer, False)
     before = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
@@ -258,7 +259,7 @@ def _beat(writer: int) -> None:
         os.write(writer, bytes([BEAT]))
 
 
-def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
+def _guard(process: int, reader: int, writer: int, limits: Limits, before_mib: int) -> NoReturn:
     """Be the guard; nothing of the process that it was forked from is used, or cleared away."""
     try:
         gc.disable()
@@ -269,7 +270,7 @@ def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
         nothing = os.open(os.devnull, os.O_RDWR)
         os.dup2(nothing, 0)
         os.dup2(nothing, 1)
-        fault = _watch(process, reader, limits)
+        fault = _watch(process, reader, limits, before_mib)
         if fault and os.getppid() == process:
             with suppress(OSError):
                 os.write(2, f"recollect: {fault}, so it was ended\n".encode())
@@ -278,14 +279,14 @@ def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
         os._exit(0)
 
 
-def _watch(process: int, reader: int, limits: Limits) -> str:
+def _watch(process: int, reader: int, limits: Limits, before_mib: int) -> str:
     """Read the pipe to its end; returns what is wrong, or nothing if the process has ended by itself."""
     watch = _Watch(limits)
     last = time.monotonic()
     while (told := _read(reader, limits.tick)) != b"":
         now = time.monotonic()
         # Where everything stood still for a while, the guard too, silence is no fault of the process's.
-        fault = watch.look(min(now - last, 2 * limits.tick), told or b"", memory_mib(process))
+        fault = watch.look(min(now - last, 2 * limits.tick), told or b"", memory_mib(process) - before_mib)
         last = now
         if fault:
             return fault

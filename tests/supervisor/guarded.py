@@ -70,6 +70,7 @@ ACTS: dict[str, Callable[[], None]] = {
     "be asked": take_notice,
     "swell": swell,
     "live": live,
+    "live large": live,
     "kill itself": lambda: os.kill(os.getpid(), signal.SIGKILL),
 }
 
@@ -78,6 +79,7 @@ if __name__ == "__main__":
     LIMITS = Limits(
         start=1, silence=60 if "asked" in act else 1, end=30, stuck=0.5, memory_mib=int(sys.argv[2]), tick=0.05
     )
+    HELD = b"x" * (300 << 20) if act == "live large" else b""
     with guarded(LIMITS) as beat:
         if act != "begin never":
             beat()

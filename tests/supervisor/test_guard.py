@@ -52,6 +52,12 @@ def test_a_process_that_takes_too_much_memory_is_ended_in_words() -> None:
     assert "MiB of memory and may take 200, so it was ended" in said
 
 
+def test_what_a_process_held_before_it_was_guarded_does_not_count() -> None:
+    with guarded_process("live large", memory_mib=200) as process:
+        _, said = process.communicate(" " * 20)
+    assert (process.returncode, said) == (0, "")
+
+
 def test_a_process_that_is_asked_to_end_ends_although_it_stands_still() -> None:
     with guarded_process("be asked while burning") as process:
         assert process.stdout is not None
