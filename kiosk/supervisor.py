@@ -71,7 +71,12 @@ class Watchdog:
         self._clock = clock
         self._up_at: float | None = None
         self._left_s = patience.start
-        self._looked_at = clock()
+        self._looked_at = self._sign_at = clock()
+
+    @property
+    def sign_at(self) -> float:
+        """When it last gave a sign of life, by the watch's clock; when it was started if it gave none."""
+        return self._sign_at
 
     @property
     def up(self) -> bool:
@@ -93,6 +98,7 @@ class Watchdog:
             self._up_at = now
         if self.up and {"READY", "WATCHDOG"} & notice.keys():
             self._left_s = self._patience.silence
+            self._sign_at = now
         return notice
 
     def over(self) -> bool:
@@ -365,7 +371,10 @@ class SupervisorEvent:
     detail: str = ""
     """The screen that is shown, or how the kiosk ended."""
     away_s: float | None = None
-    """For READY: since the kiosk before was seen to be dead or to hang; for PAUSE: how long it lasts."""
+    """For READY: since the last sign of life of the kiosk before; for HUNG: how long none came.
+
+    For PAUSE: how long it lasts.
+    """
 
 
 class Supervisor:
@@ -457,6 +466,7 @@ class Supervisor:
         if "READY" in notice:
             self._was_up = True
             away = None if self._lost_at is None else round(time.monotonic() - self._lost_at, 2)
+            self._lost_at = None
             self._happened(SupervisorEventKind.READY, away_s=away)
             self._above.tell(READY=1)
         if "STATUS" in notice:
@@ -481,15 +491,20 @@ class Supervisor:
             return REFUSED
         young = watch.up_s() < self._patience.young
         if hung:
-            self._lose(SupervisorEventKind.HUNG, "no sign of life" if watch.up else "no first frame", young=young)
+            how = "no sign of life" if watch.up else "no first frame"
+            self._lose(SupervisorEventKind.HUNG, how, young=young, silent_since=watch.sign_at)
         else:
             self._lose(SupervisorEventKind.DIED, f"signal {-code}" if code < 0 else f"exit code {code}", young=young)
         return None
 
-    def _lose(self, what: SupervisorEventKind, how: str, *, young: bool) -> None:
-        self._lost_at = time.monotonic()
+    def _lose(self, what: SupervisorEventKind, how: str, *, young: bool, silent_since: float | None = None) -> None:
+        now = time.monotonic()
+        if self._lost_at is None:
+            # A visitor waits from the last sign of life on: the time until a hang was noticed counts,
+            # and so does every start since that did not come up.
+            self._lost_at = now if silent_since is None else silent_since
         self._died_young = self._died_young + 1 if young else 0
-        self._happened(what, how)
+        self._happened(what, how, None if silent_since is None else round(now - silent_since, 2))
 
     def _wait(self) -> None:
         """Pause before the next start, and go on sending signs of life."""

@@ -108,6 +108,22 @@ def test_how_long_a_kiosk_was_away_is_told_with_the_next_one(tmp_path: Path) -> 
     assert second.away_s is not None
 
 
+def test_the_time_until_a_hang_was_noticed_counts_as_time_away(tmp_path: Path) -> None:
+    night = keep(tmp_path, "hang", "leave")
+    hung = next(one for one in night.told if one.what is SupervisorEventKind.HUNG)
+    _, second = (one for one in night.told if one.what is SupervisorEventKind.READY)
+    assert hung.away_s is not None
+    assert hung.away_s >= PATIENCE.silence
+    assert second.away_s == pytest.approx(hung.away_s + second.at_s - hung.at_s, abs=0.05)
+
+
+def test_starts_that_do_not_come_up_count_as_time_away(tmp_path: Path) -> None:
+    night = keep(tmp_path, "break", "break unseen", "leave", patience=Timeouts(longest_pause=LONGEST_PAUSE, tick=0.02))
+    died = next(one for one in night.told if one.what is SupervisorEventKind.DIED)
+    _, back = (one for one in night.told if one.what is SupervisorEventKind.READY)
+    assert back.away_s == pytest.approx(back.at_s - died.at_s, abs=0.05)
+
+
 def test_the_screens_that_are_shown_are_told(tmp_path: Path) -> None:
     assert keep(tmp_path, "leave").details(SupervisorEventKind.SHOWS) == ["attract"]
 
