@@ -159,6 +159,8 @@ class PreviewModel(QObject):
         self._screen, self._size = "attract", SIZES[0]
         self._language = self._study.languages[0]
         self._condition = self._study.settings.assistance.condition
+        self._settled = QTimer(self, singleShot=True)
+        self._settled.timeout.connect(self._draw)
         self._open()
         self._show()
         self._timer = QTimer(self)
@@ -168,6 +170,7 @@ class PreviewModel(QObject):
     def close(self) -> None:
         """Close the visitor's screen."""
         self._timer.stop()
+        self._settled.stop()
         self._window.close()
 
     def poll(self) -> None:
@@ -226,7 +229,7 @@ class PreviewModel(QObject):
         self._renderer.begin(plan)
         self._renderer.perform(screens[self._screen])
         self._draw()
-        QTimer.singleShot(SETTLE_MS, self, self._draw)
+        self._settled.start(SETTLE_MS)
         self.changed.emit()
 
     def _draw(self) -> None:

@@ -32,6 +32,13 @@ FAR_TOO_LONG_MS = 500
 """Well above what any machine needs, and below what any visitor would call waiting."""
 
 
+@pytest.fixture(autouse=True)
+def _nothing_else_runs(pytestconfig: pytest.Config) -> None:
+    """Measure only where benches are asked for: beside other tests, the times are those of the tests."""
+    if pytestconfig.getoption("benchmark_disable"):
+        pytest.skip("benches are switched off")
+
+
 @contextmanager
 def kiosk(data: Path, pace: ClockMode, fake: FurhatFake) -> Iterator[App]:
     """Provide a kiosk with this robot, which is tried again soon after a loss."""
