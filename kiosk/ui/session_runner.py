@@ -502,6 +502,7 @@ class SessionRunner:
                 self._busy.end()
                 self._unwritten = None
                 self._before_effects(handled.outcome, self._record.code)
+                self._renderer.screens.kiosk.reach(session.stage.value)
                 self._renderer.perform(handled.outcome.effects)
                 self._after_effects(handled, session.stage)
         finally:

@@ -19,6 +19,7 @@ from kiosk.experiment.effects import BoardWait
 from kiosk.game import Position
 from kiosk.robots.embodiment import ASIDE, BoardPoint
 from kiosk.ui.app import App
+from kiosk.ui.rehearsal import resize
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
@@ -284,3 +285,111 @@ def test_the_helper_has_the_name_of_the_study_file_and_may_have_none(app: App, q
     qtbot.waitUntil(lambda: len(names()) == 1)
     app.screens.avatar.call("")
     assert names() == []
+
+
+STILL = pytest.mark.parametrize("moves", [False], indirect=True)
+GONE = (Position(0, 0), Position(0, 1))
+
+
+@STILL
+def test_a_hint_is_announced_only_until_it_is_read_or_seen(app: App) -> None:
+    def announced() -> bool:
+        return find_item(app.window.contentItem(), "pill") is not None
+
+    board = app.screens.board
+    assert not announced()
+    board.lock(BoardWait.SPEAKING)
+    assert announced()
+    app.screens.avatar.say("Look at column 2.")
+    assert not announced()
+    app.screens.avatar.say("")
+    board.highlight(None, 1)
+    assert not announced()
+    app.screens.avatar.say("Let us practise first.")
+    board.lock(BoardWait.TURNING_BACK)
+    assert announced()
+
+
+@STILL
+def test_cards_that_are_no_pair_are_framed_until_they_turn_back(app: App) -> None:
+    def framed() -> list[int]:
+        return [n for n in range(24) if find_item(app.window.contentItem(), f"missed-{n}") is not None]
+
+    board = app.screens.board
+    for position, card in zip(CAT, ("cat", "owl"), strict=True):
+        board.reveal(position, card)
+    assert framed() == []
+    board.lock(BoardWait.TURNING_BACK)
+    assert framed() == [board.location(position) for position in CAT]
+    board.hide(CAT)
+    board.lock(None)
+    assert framed() == []
+
+
+@STILL
+def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_heard_again(app: App) -> None:
+    def said() -> list[str]:
+        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
+
+    board, avatar = app.screens.board, app.screens.avatar
+    board.deal(3, 4, 6, "animals", practice=True)
+    app.screens.kiosk.show("practice")
+    avatar.say("Let us practise first.")
+    assert said() == ["Let us practise first."]
+    board.mark_matched(GONE)
+    assert said() == []
+    app.screens.kiosk.sayAgain()
+    assert said() == ["Let us practise first."]
+    avatar.say("Look at column 2.")
+    assert said() == ["Look at column 2."]
+
+
+@pytest.mark.parametrize("moves", [True], indirect=True)
+def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
+    """Of those that are seen at one time, no tenth of the height has a third."""
+    feast = next(i for i in items(app.window.contentItem()) if i.metaObject().className().startswith("Feast"))
+    feast.begin()  # type: ignore[attr-defined] # a function of QML
+    for moment in (0.3, 0.4, 0.47, 0.55):
+        feast.setProperty("time", moment)
+        tops = [item.y() / feast.height() for item in feast.childItems()]
+        seen = [top for top in tops if 0 <= top <= 1]
+        assert len(seen) > 60
+        fullest = max(sum(tenth <= 10 * top < tenth + 1 for top in seen) for tenth in range(10))
+        assert fullest < len(seen) / 3, moment
+
+
+@STILL
+def test_on_an_upright_screen_the_helper_stands_close_to_the_board(app: App) -> None:
+    resize(app.window, "upright")
+    lay_out(app.window)
+    board, face = find(app, "board"), find(app, "face")
+    bottom = board.mapToScene(board.boundingRect().bottomLeft()).y()
+    top = face.mapToScene(face.boundingRect().topLeft()).y()
+    assert bottom < top < bottom + 0.25 * app.window.height()
+
+
+@STILL
+def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: App) -> None:
+    app.screens.avatar.say("Look at column 2.")
+    app.screens.kiosk.pause(paused=True)
+    face = find(app, "face")
+    assert face.property("blinking")
+    assert not [i for i in items(app.window.contentItem()) if lies_in(i, "Bubble") and i.property("text")]
+    app.screens.kiosk.pause(paused=False)
+    assert not face.property("blinking")
+
+
+@STILL
+def test_dots_tell_how_far_a_visit_is(app: App) -> None:
+    kiosk = app.screens.kiosk
+    kiosk.begin(["en"], "en", QUIET.consent)
+    kiosk.reach("about")
+    assert (kiosk.property("step"), kiosk.property("steps")) == (0, 5)
+    kiosk.reach("questions")
+    assert find(app, "progress").property("step") == 3
+    kiosk.plan(("introduction", "game", "debrief"))
+    kiosk.reach("result")
+    assert (kiosk.property("step"), kiosk.property("steps")) == (1, 3)
+    kiosk.clear()
+    assert find_item(app.window.contentItem(), "progress") is None

@@ -6,6 +6,7 @@ language-name = English
 
 attract-title = Do you remember?
 attract-line = Play a game of pairs with me.
+attract-promise = About ten minutes. No name needed.
 attract-start = Start
 attract-trial = Trial: no PIN is set. { $shortcut } leaves
 attract-trial-keyless = Trial: no PIN is set

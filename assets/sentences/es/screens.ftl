@@ -7,6 +7,7 @@ language-name = Español
 
 attract-title = ¿Te acuerdas?
 attract-line = Juega conmigo a encontrar las parejas.
+attract-promise = Unos diez minutos. No hace falta tu nombre.
 attract-start = Empezar
 attract-trial = Prueba: no hay PIN. { $shortcut } para salir
 attract-trial-keyless = Prueba: no hay PIN

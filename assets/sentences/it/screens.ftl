@@ -7,6 +7,7 @@ language-name = Italiano
 
 attract-title = Ti ricordi?
 attract-line = Gioca con me a trovare le coppie.
+attract-promise = Circa dieci minuti. Il nome non serve.
 attract-start = Inizia
 attract-trial = Prova: nessun PIN impostato. { $shortcut } per uscire
 attract-trial-keyless = Prova: nessun PIN impostato

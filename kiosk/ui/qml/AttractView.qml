@@ -15,8 +15,7 @@ FocusScope {
 
     // The lab stands above everything, if it says who it is.
     readonly property real head: lab.visible ? lab.height + Theme.gap : 0
-    // All in two rows; where the screen is narrow, in three.
-    readonly property int columns: Math.ceil(attract.layout.length / (width > height ? 2 : 3))
+    readonly property int columns: Math.ceil(attract.layout.length / 2)
     readonly property int rows: Math.ceil(attract.layout.length / columns)
     // The words take what they need; the cards have the rest.
     readonly property real cardSize: Math.max(60 * Theme.unit,
@@ -145,7 +144,7 @@ FocusScope {
                     shadow: view.cardShadow
                     picture: place.modelData
                     up: view.attract.up.includes(place.index)
-                    scale: 1 + 0.07 * lift + 0.1 * place.forward
+                    scale: 1 + 0.07 * lift + 0.35 * place.forward
                 }
                 SequentialAnimation {
                     id: coming
@@ -170,9 +169,18 @@ FocusScope {
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
-            bottomPadding: Theme.gap
             text: view.attract.line
-            font.pixelSize: Theme.size(38)
+            font.pixelSize: Theme.size(44)
+            color: Theme.ink
+        }
+        Line {
+            anchors.horizontalCenter: parent.horizontalCenter
+            objectName: "promise"
+            visible: text !== ""
+            room: view.width - 4 * Theme.gap
+            bottomPadding: Theme.gap
+            text: view.attract.promise
+            font.pixelSize: Theme.size(34)
             color: Theme.faintInk
         }
         Grid {

@@ -36,9 +36,9 @@ Item {
                      upL: 1, upR: 0.62, low: 0.9, slant: 0, lx: 0, ly: 0,
                      smile: -0.15, span: 66, skew: 5, wave: 20, mx: 3, cheek: 0,
                      hLx: 70, hLy: 540, hRx: 262, hRy: 352 },
-        sad:       { tilt: -6, dx: 4, dy: 17, zoom: 0.98, sh: 9, earL: 140, earR: 140, bLi: 14, bLo: -9, bRi: 14, bRo: -9,
-                     upL: 0.68, upR: 0.68, low: 0.95, slant: 13, lx: 0, ly: 0.25,
-                     smile: -0.85, span: 54, skew: 0, wave: 0, mx: 0, cheek: 0,
+        sad:       { tilt: -4, dx: 3, dy: 9, zoom: 0.99, sh: 5, earL: 104, earR: 104, bLi: 8, bLo: -4, bRi: 8, bRo: -4,
+                     upL: 0.82, upR: 0.82, low: 0.95, slant: 8, lx: 0, ly: 0.12,
+                     smile: -0.35, span: 56, skew: 0, wave: 0, mx: 0, cheek: 0.1,
                      hLx: 70, hLy: 540, hRx: 330, hRy: 540 },
         thinking:  { tilt: -8, dx: 18, dy: -2, zoom: 1, sh: 0, earL: 57, earR: 24, bLi: -7, bLo: 1, bRi: 8, bRo: 13,
                      upL: 0.8, upR: 0.95, low: 0.8, slant: 0, lx: 0.75, ly: -0.8,
@@ -74,13 +74,15 @@ Item {
     readonly property real size: Math.min(width / 400, height / 440)
     readonly property point goal: Qt.point((aim.x - width / 2) / size + 200, (aim.y - height / 2) / size + 220)
     readonly property int near: goal.x < 200 ? -1 : 1
+    // How steeply it points up, 0 .. 1: the arm then stays beside the face.
+    readonly property real steep: Math.max(0, Math.min(1, 1.4 - Math.abs(goal.x - 200) / Math.max(1, 416 - goal.y)))
     readonly property point leftHand: Qt.point(trail.hLx, trail.hLy)
     readonly property point rightHand: Qt.point(trail.hRx + (372 + 16 * sway - trail.hRx) * waving,
                                                 trail.hRy + (284 - trail.hRy) * waving)
 
     // Where a hand is that points: the forearm goes straight from beside the shoulder towards the target.
     function pointingHand(side: int): point {
-        const x = side < 0 ? 92 : 308, y = 416
+        const x = 200 + side * (108 + 52 * steep), y = 416
         const far = Math.max(1, Math.hypot(goal.x - x, goal.y - y))
         const length = 112 + 10 * jab
         return Qt.point(x + (goal.x - x) / far * length, y + (goal.y - y) / far * length)
@@ -340,7 +342,7 @@ Item {
             AvatarArm {
                 required property int modelData
                 side: modelData
-                shoulder: Qt.point(200 + modelData * 92, 408 + avatar.trail.sh - 3 * avatar.breath)
+                shoulder: Qt.point(200 + modelData * (92 + (avatar.near === modelData ? 20 * avatar.steep * avatar.reaching : 0)), 408 + avatar.trail.sh - 3 * avatar.breath)
                 hand: avatar.reached(modelData, modelData < 0 ? avatar.leftHand : avatar.rightHand)
                 goal: avatar.goal
                 pointing: avatar.near === modelData ? Math.min(1, Math.max(0, avatar.reaching)) : 0

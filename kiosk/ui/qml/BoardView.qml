@@ -11,6 +11,12 @@ FocusScope {
     required property var words
     required property url cardBack
     required property url cardShadow
+    // Whether the screen is higher than wide: then the tray is large, and lies above the cards in two rows.
+    property bool upright: false
+    // Whether a sentence of the assistant stands on the screen.
+    property bool said: false
+    // How much of a cell a card takes.
+    readonly property real share: 0.91
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -18,17 +24,21 @@ FocusScope {
     // Where there is far more room beside the cards than above them, the tray stands there.
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
-    readonly property real strip: broad ? 0 : 84 * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
-    readonly property real header: 12 * Theme.unit + strip
+    readonly property real usualStrip: (upright ? 196 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property real strip: broad ? 0 : usualStrip
+    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property bool skipsBelow: !broad
         && practice.width + progress.implicitWidth + skip.implicitWidth + 240 * Theme.unit + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
-    readonly property real footer: (broad && !board.practice ? 40 : 64) * Theme.unit + (board.practice && skipsBelow ? skip.height + Theme.gap : 0)
+    readonly property real footer: pill.height + 14 * Theme.unit + (board.practice && skipsBelow ? skip.height + Theme.gap : 0)
+    // How high this item has to be on an upright screen, for cells as wide as there is room for.
+    readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, board.columns)
+    readonly property real wish: 34 * Theme.unit + usualStrip + numbers + pill.height
+        + board.rows * (width - numbers - 2 * Theme.gap) / Math.max(1, board.columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
-    readonly property real cell: Math.floor(Math.min((width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, board.columns),
-                                                     (height - header - numbers - footer) / Math.max(1, board.rows)))
+    readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, board.rows)))
     // What was last touched or turned, in this item; the assistant looks at it.
     property point touched: Qt.point(width / 2, height / 2)
     signal touchedSomething()
@@ -42,6 +52,11 @@ FocusScope {
     property int turning: 0
     // Every pair was found, and is in the tray.
     signal won()
+    // The first pair was found.
+    signal firstFound()
+    // How far the joy about that has run over the cards, from the first to the last.
+    property real wave: 0
+    NumberAnimation { id: sweep; target: view; property: "wave"; from: 0; to: 1; duration: 5 * Theme.motion }
 
     function centre(location: int): point {
         return Qt.point(table.x + (location % board.columns + 0.5) * cell,
@@ -51,7 +66,7 @@ FocusScope {
     // Loads the pictures when the cards are dealt, in the sizes of the cards and of the tray, and not in the frame in
     // which the first one is turned or found.
     Repeater {
-        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * 0.86), Math.round(tray.slot * 0.74)]
+        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * view.share), Math.round(tray.slot * 0.74)]
         Item {
             id: loaded
             required property int modelData
@@ -122,7 +137,7 @@ FocusScope {
         readonly property real end: !view.board.practice ? moves.x : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.strip - 8 * Theme.unit
         places: view.board.pairs
-        lines: view.broad ? Math.ceil(places / 2) : 1
+        lines: view.broad ? Math.ceil(places / 2) : view.upright ? 2 : 1
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
         back: view.cardBack
@@ -130,8 +145,11 @@ FocusScope {
     }
 
     Rectangle {
+        id: pill
+        objectName: "pill"
         anchors { top: cards.bottom; topMargin: 8 * Theme.unit; horizontalCenter: cards.horizontalCenter }
-        visible: view.board.wait !== ""
+        // A hint that is seen or read needs no announcement any more.
+        visible: view.board.wait !== "" && !(view.board.speaking && (view.marks || view.said))
         width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
         height: Math.max(waiting.height + 6 * Theme.unit, 46 * Theme.unit)
         radius: height / 2
@@ -153,8 +171,10 @@ FocusScope {
         PlainText {
             id: waiting
             anchors { left: dots.right; leftMargin: 0.6 * Theme.gap; verticalCenter: parent.verticalCenter }
+            width: Math.min(implicitWidth, view.width - dots.width - 5 * Theme.gap)
+            wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
             text: view.board.wait
-            font.pixelSize: Theme.small
+            font.pixelSize: Theme.body
             color: Theme.ink
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
@@ -300,7 +320,8 @@ FocusScope {
                 anchors { fill: parent; margins: parent.width * 0.05 }
                 opacity: place.rest
                 radius: width * 0.12
-                color: Theme.sand
+                color: (place.row + place.column + 1) <= view.wave * (view.board.rows + view.board.columns) ? Theme.amber : Theme.sand
+                Behavior on color { ColorAnimation { duration: Theme.motion } }
             }
             Rectangle {
                 visible: place.forward > 0
@@ -315,7 +336,7 @@ FocusScope {
                 id: face
                 property real shift: 0
                 anchors { centerIn: parent; horizontalCenterOffset: shift }
-                width: Math.floor(parent.width * 0.86)
+                width: Math.floor(parent.width * view.share)
                 height: width
                 back: view.cardBack
                 shadow: view.cardShadow
@@ -326,6 +347,18 @@ FocusScope {
                 opacity: view.board.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
                 scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward)
+            }
+            // These two are no pair; in a while they close again.
+            Rectangle {
+                objectName: "missed-" + place.index
+                visible: place.missed && !place.turns
+                anchors { centerIn: face; horizontalCenterOffset: face.shift }
+                width: face.width * face.scale + 4 * Theme.unit
+                height: width
+                rotation: face.rotation
+                radius: width * 0.12
+                color: "transparent"
+                border { color: Theme.deepAmber; width: 4 * Theme.unit }
             }
             SequentialAnimation {
                 id: coming
@@ -388,20 +421,30 @@ FocusScope {
             // A new board begins at its first card for those who play by keyboard.
             function onModelReset() {
                 view.turning = 0
+                sweep.stop()
+                view.wave = 0
                 cards.currentIndex = 0
                 cards.focus = true
                 joy.cancel()
             }
             function onPairFound(first, second, picture) {
                 const goal = tray.middle(view.board.tray.length - 1)
+                if (view.board.tray.length === 1)
+                    view.firstFound()
                 joy.celebrate([view.centre(first), view.centre(second)], Qt.point(tray.x + goal.x, tray.y + goal.y),
-                              Math.floor(view.cell * 0.86), tray.slot, picture)
+                              Math.floor(view.cell * view.share), tray.slot, picture)
             }
         }
     }
     Joy {
         id: joy
         anchors.fill: parent
-        onLanded: if (view.board.tray.length === view.board.pairs) view.won()
+        onLanded: {
+            if (view.board.tray.length !== view.board.pairs)
+                return
+            if (!view.board.practice)
+                sweep.restart()
+            view.won()
+        }
     }
 }

@@ -1,4 +1,5 @@
 // What the assistant says, to be read: as long as the sentence stands, so does the bubble.
+pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Shapes
 import "."
@@ -8,6 +9,7 @@ Item {
 
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
+    property bool thinks: false         // whether it is still looking for words
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
@@ -15,11 +17,12 @@ Item {
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
     readonly property real room: height - tail - tag - (hasSpeaker ? 3 : 2) * Theme.gap
 
-    opacity: sentence === "" ? 0 : 1
+    opacity: sentence === "" && !thinks ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
 
     // The last sentence stays in the bubble while it fades, and no longer.
     onSentenceChanged: if (sentence !== "") words.text = sentence
+    onThinksChanged: if (thinks) words.text = sentence
     onOpacityChanged: if (opacity === 0) words.text = ""
 
     // The sentence as large as it is usually; what is longer than any hint is set smaller anyway.
@@ -29,7 +32,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: text.length > 130 ? Theme.small : Theme.body
+        font.pixelSize: text.length > 130 ? Theme.reading : Theme.body
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }
@@ -56,6 +59,31 @@ Item {
             wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
+        }
+        // Words are on their way.
+        Row {
+            anchors { left: words.left; verticalCenter: words.verticalCenter }
+            visible: words.text === ""
+            spacing: 10 * Theme.unit
+            Repeater {
+                model: 3
+                Rectangle {
+                    id: dot
+                    required property int index
+                    width: 14 * Theme.unit
+                    height: width
+                    radius: width / 2
+                    color: Theme.sea
+                    SequentialAnimation on opacity {
+                        running: bubble.thinks && Theme.motion > 0
+                        loops: Animation.Infinite
+                        PauseAnimation { duration: dot.index * Theme.motion / 2 }
+                        NumberAnimation { from: 1; to: 0.3; duration: Theme.motion }
+                        NumberAnimation { from: 0.3; to: 1; duration: Theme.motion }
+                        PauseAnimation { duration: (2 - dot.index) * Theme.motion / 2 }
+                    }
+                }
+            }
         }
         PlainText {
             id: name

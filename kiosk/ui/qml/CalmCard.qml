@@ -1,6 +1,7 @@
 // A calm word over everything: a title, a line, and perhaps something to choose.
 pragma ComponentBehavior: Bound
 import QtQuick
+import QtQuick.Shapes
 import "."
 
 FocusScope {
@@ -8,6 +9,10 @@ FocusScope {
 
     required property string title
     property string line: ""
+    // The lines of a drawing above the title, on a square of 24; empty for none.
+    property string sign: ""
+    // Where the middle of the card is.
+    property point middle: Qt.point(width / 2, height / 2)
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
@@ -18,12 +23,13 @@ FocusScope {
     Rectangle {
         anchors.fill: parent
         color: Theme.paper
-        opacity: 0.85
+        opacity: 0.94
         MouseArea { anchors.fill: parent; hoverEnabled: true; preventStealing: true; Accessible.ignored: true }
     }
 
     Rectangle {
-        anchors.centerIn: parent
+        x: Math.round(calm.middle.x - width / 2)
+        y: Math.round(calm.middle.y - height / 2)
         width: Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
         height: content.height + 5 * Theme.gap
         radius: Theme.radius
@@ -34,10 +40,32 @@ FocusScope {
             anchors.centerIn: parent
             width: parent.width - 4 * Theme.gap
             spacing: 1.5 * Theme.gap
+            Rectangle {
+                anchors.horizontalCenter: parent.horizontalCenter
+                visible: calm.sign !== ""
+                width: 112 * Theme.unit
+                height: width
+                radius: width / 2
+                color: Theme.sand
+                Shape {
+                    anchors.centerIn: parent
+                    width: 24
+                    height: 24
+                    scale: 2.6 * Theme.unit
+                    ShapePath {
+                        strokeColor: Theme.ink
+                        strokeWidth: 2.2
+                        capStyle: ShapePath.RoundCap
+                        joinStyle: ShapePath.RoundJoin
+                        fillColor: "transparent"
+                        PathSvg { path: calm.sign }
+                    }
+                }
+            }
             PlainText {
                 width: parent.width
                 text: calm.title
-                font { pixelSize: Theme.heading; bold: true }
+                font { pixelSize: Theme.figure; bold: true }
                 color: Theme.ink
                 Accessible.role: Accessible.AlertMessage
                 Accessible.name: text

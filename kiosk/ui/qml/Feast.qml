@@ -21,15 +21,17 @@ Item {
     NumberAnimation { id: rain; target: feast; property: "time"; from: 0; to: 1; duration: Theme.motion * 16 }
 
     Repeater {
-        model: feast.under ? 56 : 0
+        model: feast.under ? 120 : 0
         Rectangle {
             id: snippet
             required property int index
-            // Spread evenly, as if by chance, and the same at every feast.
+            // Spread evenly, as if by chance, and the same at every feast; speed and delay are drawn apart, or all
+            // of them would meet in one line.
             readonly property real chance: (index * 0.618) % 1
-            readonly property real other: (index * 0.377) % 1
-            readonly property real fallen: feast.time * (1.15 + 0.75 * other) - 0.35 * other
-            width: (12 + 12 * other) * Theme.unit
+            readonly property real other: (index * 0.755) % 1
+            readonly property real third: (index * 0.57) % 1
+            readonly property real fallen: feast.time * (1.45 + 0.5 * other) - 0.45 * third
+            width: (16 + 18 * other) * Theme.unit
             height: width * 0.62
             radius: 2 * Theme.unit
             x: feast.width * chance + Math.sin(feast.time * 9 + index) * 30 * Theme.unit

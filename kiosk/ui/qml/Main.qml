@@ -53,6 +53,10 @@ Window {
     onClosing: close => close.accepted = kiosk.leaving
 
     Connections {
+        target: root.kiosk
+        function onAsked_again() { helper.stale = "" }
+    }
+    Connections {
         target: Theme
         function onClicked() { root.kiosk.press() }
     }
@@ -80,7 +84,10 @@ Window {
         width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all.
         height: root.wide ? root.room - root.said
-              : unwatched ? root.room - corner.height - Theme.gap : root.room * (root.speaks ? 0.64 : 0.78)
+              : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
+        // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
+        readonly property real upright: !root.speaks ? 0.78 : !boardView.visible ? 0.64
+              : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
 
@@ -150,7 +157,11 @@ Window {
             cardBack: root.cardBack
             cardShadow: root.cardShadow
             onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
+            upright: !root.wide
+            said: helper.says
             onWon: if (!root.board.practice) feast.begin()
+            // How a practice goes is clear by now.
+            onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
             onVisibleChanged: if (!visible) helper.stopNoticing()
         }
         ResultView {
@@ -186,6 +197,18 @@ Window {
         acceptedDevices: PointerDevice.Mouse | PointerDevice.TouchPad
         onPointChanged: helper.follow(point.position)
     }
+    // Under the assistant, who rests meanwhile.
+    CalmCard {
+        anchors.fill: parent
+        visible: root.kiosk.paused || root.kiosk.screen === "pause"
+        // Beside the assistant, or above it.
+        middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
+              : root.wide ? Qt.point(stage.x + stage.width / 2, root.room / 2) : Qt.point(root.width / 2, 0.36 * root.room)
+        sign: "M8 5 V19 M16 5 V19"
+        title: root.kiosk.words["pause-title"]
+        // A pause goes on by itself; the screen of that name waits for the experimenter.
+        line: root.kiosk.words[root.kiosk.screen === "pause" ? "pause-help" : "pause-line"]
+    }
     SidePanel {
         id: helper
         readonly property bool below: !root.wide || root.whole
@@ -198,6 +221,9 @@ Window {
         visible: !root.whole || root.speaks
         avatar: root.avatar
         speaks: root.wide || root.speaks
+        thinks: boardView.visible && root.board.speaking
+        rests: root.kiosk.paused
+        share: root.wide ? 0.52 : 0.66
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
@@ -209,10 +235,22 @@ Window {
         kiosk: root.kiosk
         words: root.kiosk.words
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
+        // There is nothing to be done in a pause.
+        opacity: root.kiosk.paused ? 0 : 1
         places: !root.wide ? (stage.unwatched ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
         x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
         y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
+    }
+    // How far the visit is; quiet, beside the controls or in the other corner.
+    Progress {
+        steps: root.kiosk.steps
+        step: root.kiosk.step
+        visible: corner.visible && root.kiosk.step >= 0
+        opacity: corner.opacity
+        readonly property bool aside: root.wide && !root.whole
+        x: !aside ? Theme.gap : corner.atLeft ? corner.x + corner.width + 1.2 * Theme.gap : corner.x - width - 1.2 * Theme.gap
+        y: aside ? corner.y + (corner.step - corner.spacing - height) / 2 : root.room - height - Theme.gap
     }
     Feast {
         id: feast
@@ -226,6 +264,7 @@ Window {
         visible: root.kiosk.asksStillThere
         focus: visible
         enabled: root.kiosk.takesInput
+        sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
         title: root.kiosk.words["still-there-title"]
         line: root.kiosk.words["still-there-line"]
         choices: [{ name: "still-here", words: root.kiosk.words["still-there-yes"] }]
@@ -236,6 +275,7 @@ Window {
         visible: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
+        sign: "M8.5 9 C8.5 4 16 4 16 8.7 C16 12 12 12 12 15 M12 19 V19.2"
         title: root.kiosk.words["stop-title"]
         line: root.kiosk.stopLine
         choices: [{ name: "stop-no", words: root.kiosk.words["stop-no"] }, { name: "stop-yes", words: root.kiosk.words["stop-yes"], quiet: true }]
@@ -247,6 +287,7 @@ Window {
         visible: root.kiosk.asks === "language" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
+        sign: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
         title: root.kiosk.words["control-language"]
         choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
             .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
@@ -254,14 +295,8 @@ Window {
         Keys.onEscapePressed: root.kiosk.ask("")
     }
     CalmCard {
-        anchors.fill: parent
-        visible: root.kiosk.paused || root.kiosk.screen === "pause"
-        title: root.kiosk.words["pause-title"]
-        // A pause goes on by itself; the screen of that name waits for the experimenter.
-        line: root.kiosk.words[root.kiosk.screen === "pause" ? "pause-help" : "pause-line"]
-    }
-    CalmCard {
         objectName: "wait"
+        sign: "M6 4 H18 M6 20 H18 M7 4 C7 9 12 10 12 12 C12 14 7 15 7 20 M17 4 C17 9 12 10 12 12 C12 14 17 15 17 20"
         anchors.fill: parent
         visible: root.kiosk.waits && root.kiosk.screen !== "pause"
         title: root.kiosk.words["wait-title"]

@@ -10,6 +10,15 @@ Item {
     // Whether it says anything here; where it does not, the face has all of the height.
     property bool speaks: true
 
+    // Whether it is about to say something.
+    property bool thinks: false
+    // How much of the height the face has, where it speaks.
+    property real share: 0.52
+    // Whether it rests, with its eyes shut and in silence.
+    property bool rests: false
+    // A sentence that was read long ago, and is not shown any more.
+    property string stale: ""
+
     // What a hint marks, in this item: the face looks there and points at it.
     property bool marks: false
     property point marked
@@ -25,6 +34,13 @@ Item {
     readonly property bool follows: following.running
     readonly property bool notices: attention.running
 
+    // Whether a sentence is to be read.
+    readonly property bool says: bubble.sentence !== ""
+
+    // Takes away what stands in the bubble; the next sentence is shown again.
+    function fade() {
+        stale = avatar.bubble
+    }
     function notice(place: point) {
         noticed = place
         attention.restart()
@@ -51,6 +67,10 @@ Item {
     PauseAnimation { id: following; duration: 2500 }
     Connections {
         target: panel.avatar
+        function onChanged() {
+            if (panel.avatar.bubble !== panel.stale)
+                panel.stale = ""
+        }
         function onGestured(name) {
             if (name === "wave")
                 face.wave()
@@ -60,10 +80,12 @@ Item {
     }
 
     Bubble {
+        id: bubble
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
-        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: 4 * Theme.unit }
-        sentence: panel.speaks ? panel.avatar.bubble : ""
+        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: panel.avatar.present ? -0.14 * face.height : 4 * Theme.unit }
+        sentence: panel.speaks && !panel.rests && panel.avatar.bubble !== panel.stale ? panel.avatar.bubble : ""
+        thinks: panel.speaks && !panel.rests && panel.thinks && panel.avatar.bubble === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
     }
@@ -74,7 +96,7 @@ Item {
         property real gone: panel.avatar.away ? 1 : 0
         Behavior on gone { NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.InOutQuad } }
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
-        width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? 0.52 : 0.94) * 400 / 440)
+        width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? panel.share : 0.94) * 400 / 440)
         height: width * 440 / 400
         mood: panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
@@ -85,7 +107,7 @@ Item {
         points: panel.marks
         aim: Qt.point(panel.marked.x - face.x, panel.marked.y - face.y)
         breathes: !panel.quiet
-        blinking: panel.avatar.blinking
+        blinking: panel.avatar.blinking || panel.rests
         motion: Theme.motion * 1.5
         visible: panel.avatar.present && gone < 1
     }

@@ -17,7 +17,7 @@ from kiosk.ui.screens.shell import KioskScreen
 QML_IMPORT_NAME = "Recollect"
 QML_IMPORT_MAJOR_VERSION = 1
 
-MOST_PAIRS = 6
+MOST_PAIRS = 4
 """More cards could not be made out from three metres away."""
 
 
@@ -147,6 +147,11 @@ class AttractScreen(QObject):
     def line(self) -> str:
         """Return the line below it, in the same language."""
         return self._text("attract-line")
+
+    @Property(str, notify=changed)
+    def promise(self) -> str:
+        """Return what a visit takes and what it does not ask for; empty if nothing is promised."""
+        return self._text("attract-promise")
 
     @Property(str, notify=changed)
     def trial(self) -> str:

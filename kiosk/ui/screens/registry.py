@@ -80,8 +80,10 @@ class ScreenSet:
         pictures = CardPictures(study.settings)
         avatar = AvatarScreen(owner)
         avatar.call(study.settings.assistance.name)
+        kiosk = KioskScreen(first, owner)
+        kiosk.plan(study.settings.stages)
         return cls(
-            kiosk=KioskScreen(first, owner),
+            kiosk=kiosk,
             attract=AttractScreen(pictures.deck(study.settings.game.deck), catalogues, owner),
             about=AboutScreen(owner),
             consent=ConsentScreen(owner),

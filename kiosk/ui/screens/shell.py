@@ -94,6 +94,16 @@ QML_IMPORT_MAJOR_VERSION = 1
 _TEXT_SCALES = {TextSize.NORMAL: 1.0, TextSize.LARGE: 1.15, TextSize.LARGEST: 1.3}
 
 
+_PARTS = (
+    ("about", "age", "consent", "about_you"),
+    ("introduction", "practice"),
+    ("game", "result"),
+    ("questions",),
+    ("debrief", "thanks"),
+)
+"""The stages that are one part of a visit to those who visit."""
+
+
 @QmlElement
 class KioskScreen(QObject):
     """The window as a whole: which screen is shown, in which language, and what lies over it."""
@@ -137,6 +147,19 @@ class KioskScreen(QObject):
         self._sound = self._audible = True
         self._goes_back = False
         self._asks: str = ""
+        self._parts: tuple[tuple[str, ...], ...] = ()
+        self._step = -1
+
+    def plan(self, stages: Sequence[str]) -> None:
+        """Count the parts of a visit that has these stages."""
+        self._parts = tuple(part for part in _PARTS if any(stage in stages for stage in part))
+
+    def reach(self, stage: str) -> None:
+        """Show how far the visit is, by the name of its stage."""
+        step = next((number for number, part in enumerate(self._parts) if stage in part), -1)
+        if step != self._step:
+            self._step = step
+            self.controls.emit()
 
     def begin(self, languages: Sequence[str], language: str, consent: ConsentConfig) -> None:
         """Show that a visitor can go on in one of these languages, or stop."""
@@ -220,6 +243,7 @@ class KioskScreen(QObject):
         self.wait(waits=False)
         self._languages, self._consent, self._code = (), None, ""
         self._text_size, self._sound, self._goes_back, self._asks = TextSize.NORMAL, True, False, ""
+        self._step = -1
         self.controls.emit()
 
     @property
@@ -293,6 +317,16 @@ class KioskScreen(QObject):
         self.confirmed.emit()
 
     # The corner
+
+    @Property(int, notify=controls)
+    def steps(self) -> int:
+        """How many parts a visit has."""
+        return len(self._parts)
+
+    @Property(int, notify=controls)
+    def step(self) -> int:
+        """Return the number of the part that the visit is in, from 0; -1 without a visit."""
+        return self._step
 
     @Property(bool, notify=controls)
     def inSession(self) -> bool:  # noqa: N802 - QML's convention

@@ -1,0 +1,27 @@
+// How far a visit is: one dot for each of its parts, the present one longer.
+pragma ComponentBehavior: Bound
+import QtQuick
+import "."
+
+Row {
+    id: progress
+
+    required property int steps
+    required property int step      // from 0
+
+    objectName: "progress"
+    spacing: 8 * Theme.unit
+    Accessible.role: Accessible.ProgressBar
+    Accessible.name: `${step + 1} / ${steps}`
+
+    Repeater {
+        model: progress.steps
+        Rectangle {
+            required property int index
+            width: (index === progress.step ? 26 : 11) * Theme.unit
+            height: 11 * Theme.unit
+            radius: height / 2
+            color: index <= progress.step ? Theme.lightSea : Theme.edge
+        }
+    }
+}
