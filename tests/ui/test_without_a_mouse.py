@@ -122,6 +122,7 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     booth.click("start-en")
     keyboard = open_panel(booth.app)
     assert booth.app.experimenter.panel.is_open
+    keyboard.click("unfold-conditions")
     keyboard.click("condition-notom")
     keyboard.type("5in their own words")
     keyboard.press(Qt.Key.Key_Return)

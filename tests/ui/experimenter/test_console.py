@@ -337,3 +337,14 @@ def test_visitors_see_neither_panel_nor_card_while_nobody_asks_for_them(assigner
     for name in ("panel", "pin-card", "experimenter-note"):
         item = find_item(assigner.app.window.contentItem(), name)
         assert item is None or not item.isVisible()
+
+
+def test_conditions_are_named_only_on_request_while_a_visitor_is_there(assigner: Desk) -> None:
+    assigner.click("start-en")
+    assigner.open_panel()
+    assigner.settle()
+    assert not assigner.sees("condition-tom")
+    assigner.click("unfold-conditions")
+    assert assigner.sees("condition-tom")
+    assigner.click("unfold-conditions")
+    assert not assigner.sees("condition-tom")

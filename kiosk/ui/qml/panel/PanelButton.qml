@@ -12,6 +12,9 @@ Button {
     // The one of several that holds; or what is on, and whose words then say how to end it.
     property bool chosen: false
     property bool choosable: false
+    // What is pressed most, and must be found at a glance.
+    property bool filled: false
+    readonly property bool solid: chosen || (filled && enabled)
     property int alignment: Text.AlignHCenter
 
     width: Math.min(implicitWidth, parent?.width ?? Infinity)
@@ -19,7 +22,7 @@ Button {
     focusPolicy: Qt.StrongFocus
     horizontalPadding: 18 * Theme.unit
     verticalPadding: 9 * Theme.unit
-    font { pixelSize: Theme.dense; bold: chosen }
+    font { pixelSize: Theme.dense; bold: solid }
     checkable: choosable
     checked: choosable && chosen
     onCheckedChanged: if (checked !== (choosable && chosen)) checked = Qt.binding(() => button.choosable && button.chosen)
@@ -37,7 +40,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: button.chosen ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
+        color: button.solid ? Theme.white : button.enabled ? Theme.sea : Theme.faintInk
         horizontalAlignment: button.alignment
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -45,7 +48,7 @@ Button {
     }
     background: Rectangle {
         radius: 12 * Theme.unit
-        color: button.chosen ? Theme.sea : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
+        color: button.solid ? (filled && hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
         // What cannot be pressed now has no edge.
         border { color: Theme.sea; width: button.enabled ? 2 * Theme.unit : 0 }
         FocusRing {

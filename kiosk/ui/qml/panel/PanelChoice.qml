@@ -10,6 +10,7 @@ Column {
     required property var options
     required property string chosen
     required property string action
+    property bool titled: true
     signal picked(string value)
 
     spacing: 8 * Theme.unit
@@ -17,6 +18,7 @@ Column {
 
     PlainText {
         width: parent.width
+        visible: choice.titled
         text: choice.title
         font.pixelSize: Theme.dense
         color: Theme.faintInk

@@ -8,16 +8,17 @@ PanelSection {
 
     required property var words
     required property var records
-    readonly property real first: width * 0.22
-    readonly property real second: width * 0.19
-    readonly property real other: (width - first - second - 1.6 * Theme.gap) / 4
+    readonly property real first: width * 0.16
+    readonly property real second: width * 0.15
+    readonly property real between: 0.6 * Theme.gap
+    readonly property real other: (width - first - second - between - 1.6 * Theme.gap) / 4
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
 
     title: words["console-counts"]
 
     Row {
-        PlainText { width: counts.first; text: " "; font.pixelSize: Theme.dense }
+        PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: Theme.dense }
         PanelCell { width: counts.second; words: counts.words["console-counts-done"]; heading: true }
         Repeater {
             model: counts.columns
@@ -36,7 +37,8 @@ PanelSection {
             id: cell
             required property var modelData
             PlainText {
-                width: counts.first
+                width: counts.first + counts.between
+                rightPadding: counts.between
                 text: cell.modelData.name
                 font { pixelSize: Theme.dense; bold: true }
                 color: Theme.ink
