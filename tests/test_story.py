@@ -51,4 +51,7 @@ def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
         "debrief",
         "thanks",
     }
+    assert taken >= {"last-pair", "pause", "stop", "panel"}
+    heights = {QImage(str(picture)).height() for picture in shots.glob("[0-9]*.png")}
+    assert heights == {1920}
     assert taken & {"mark-card", "mark-row", "mark-column"}

@@ -43,12 +43,12 @@ from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import (
     LAYOUTS,
+    CoversRehearsal,
     ProcessUsage,
     Rehearsal,
     Screenshots,
     day_summary,
     draw_visitors,
-    layout_of,
     make_folder,
     rehearse_day,
     resize,
@@ -110,12 +110,12 @@ leaves_option = click.option(
     "--shots",
     type=click.Path(path_type=Path),
     help="Save a picture of every moment in this folder, and contact sheets of the session: with --headless one for "
-    "each language (or that of --language) and layout.",
+    "each language (or that of --language) and layout, and pictures of the pause, the question to stop and the panel.",
 )
 @click.option(
     "--layout",
     type=click.Choice(tuple(LAYOUTS)),
-    help="With --headless --shots: write the contact sheets of this layout only.",
+    help="With --headless --shots: save the pictures and contact sheets of this layout only.",
 )
 @rehearsal_data_option
 @study_option
@@ -168,26 +168,31 @@ def rehearse(
         _recorder(data, mode) as recorder,
         App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app,
     ):
-        pictures = (
-            Screenshots(app.window, shots, app.clock, 0 if mode.pace is ClockMode.VIRTUAL else SETTLE_MS)
-            if shots
-            else None
-        )
+        pictures = _pictures(app, mode, shots, layout if headless else None)
         rehearsal = Rehearsal(app, seed, pictures, character)
         with _stuck_in_words():
             rehearsal.run()
         if app.stop_requested:
             raise click.Abort
         begun = recorder.sessions_begun
-        shown = layout_of(app.window.size())
     if shots is not None and pictures is not None:
-        if layout in (None, shown):
-            pictures.sheet.save(shots / f"contact-{language}-{shown}.png")
-        for other, how in sheets:
-            if (other, how) != (language, shown):
-                _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed)
+        if headless and begun and character.manner is BehaviourKind.COMPLETES:
+            _shoot_covers(prepared, mode, origin, character, shots, pictures, seed)
+        if layout in (None, pictures.layout):
+            pictures.sheet.save(shots / f"contact-{language}-{pictures.layout}.png")
+        for other, how in set(sheets) - {(language, pictures.layout)}:
+            _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed)
     told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
+
+
+def _pictures(app: App, mode: RunMode, shots: Path | None, layout: str | None) -> Screenshots | None:
+    """Give what takes the pictures of a session, if they are wanted; the window gets the size of a layout, if any."""
+    if shots is None:
+        return None
+    if layout is not None:
+        resize(app.window, layout)
+    return Screenshots(app.window, shots, app.clock, 0 if mode.pace is ClockMode.VIRTUAL else SETTLE_MS)
 
 
 def _sheets(study: StudyConfig, language: str | None, layout: str | None) -> tuple[tuple[str, str], ...]:
@@ -219,6 +224,32 @@ def _shoot_sheet(
         if app.stop_requested:
             raise click.Abort
     pictures.sheet.save(shots / f"contact-{character.language}-{layout}.png")
+
+
+def _shoot_covers(
+    study: StudyConfig,
+    mode: RunMode,
+    origin: RunContext,
+    character: BehaviourProfile,
+    shots: Path,
+    before: Screenshots,
+    seed: int,
+) -> None:
+    """Play up to the first pair once more, for pictures of what may lie over a game; it is not kept."""
+    if "game" not in study.settings.stages:
+        return
+    with (
+        TemporaryDirectory() as unkept,
+        guarded() as beat,
+        _recorder(Path(unkept), mode) as recorder,
+        App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
+    ):
+        resize(app.window, before.layout)
+        pictures = Screenshots(app.window, shots, app.clock, 0, before)
+        with _stuck_in_words():
+            CoversRehearsal(app, seed, pictures, character).run()
+        if app.stop_requested:
+            raise click.Abort
 
 
 SIZES = ((1280, 720), (1920, 1080), (1080, 1920))

@@ -143,17 +143,25 @@ class ContactSheet:
 class Screenshots:
     """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
 
-    def __init__(self, window: QQuickWindow, folder: Path | None, clock: Clock, settle_ms: int) -> None:
+    def __init__(
+        self,
+        window: QQuickWindow,
+        folder: Path | None,
+        clock: Clock,
+        settle_ms: int,
+        before: Screenshots | None = None,
+    ) -> None:
         """Take pictures of this window, ``settle_ms`` after their moment, when nothing moves any more.
 
-        Without a folder they are only put on the sheet.
+        Without a folder they are only put on the sheet. Numbers and sheet go on from those ``before``, if there are.
         """
-        self.sheet = ContactSheet()
+        self.sheet: ContactSheet = ContactSheet() if before is None else before.sheet
+        self.layout = layout_of(window.size())
         self._window = window
         self._folder = folder
         self._clock = clock
         self._settle_ms = settle_ms
-        self._taken: list[str] = []
+        self._taken: list[str] = [] if before is None else before._taken
 
     def watch(self, effects: Iterable[Effect], stage: Stage) -> None:
         """Take a picture if these effects, in this stage, were the first to bring their moment."""
@@ -163,7 +171,9 @@ class Screenshots:
                 self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
 
     def take(self, moment: str) -> None:
-        """Take a picture of what is shown now."""
+        """Take a picture of what is shown now, the first time that it is called so."""
+        if moment in self._taken:
+            return
         self._taken.append(moment)
         self._take_when_settled(f"{len(self._taken):02}-{moment}.png")
 
@@ -418,6 +428,8 @@ class Rehearsal:
         if self._shots is not None:
             with self.pulse.aside():
                 self._shots.watch(outcome.effects, stage)
+                if stage is Stage.GAME and _found_a_pair(outcome) and not self._app.screens.board.closed:
+                    self._shots.take("last-pair")
         if stage is Stage.OVER:
             self._over = True
             self._app.quit()
@@ -427,6 +439,45 @@ class Rehearsal:
         act = self._hand.double_click if self._manner is BehaviourKind.HASTY else self._hand.click
         act(name)
 
+
+def _found_a_pair(outcome: Outcome) -> bool:
+    return any(isinstance(effect, do.MarkMatched) for effect in outcome.effects)
+
+
+class CoversRehearsal(Rehearsal):
+    """A session up to the first pair of its game, for pictures of what may lie over a game."""
+
+    def __init__(self, app: App, seed: int, shots: Screenshots, visitor: BehaviourProfile) -> None:
+        """Take the pictures with ``shots``; the same seed does the same things."""
+        super().__init__(app, seed, visitor=visitor)
+        self._pictures = shots
+
+    def _watch(self, event: WorldEvent, outcome: Outcome, stage: Stage) -> None:
+        super()._watch(event, outcome, stage)
+        if stage is Stage.GAME and _found_a_pair(outcome) and not self._over:
+            self._over = True
+            with self.pulse.aside():
+                self._shoot()
+
+    def _shoot(self) -> None:
+        kiosk = self._app.screens.kiosk
+        kiosk.ask("stop")
+        self._pictures.take("stop")
+        kiosk.ask("")
+        kiosk.pause(paused=True)
+        self._pictures.take("pause")
+        kiosk.pause(paused=False)
+        # What the panel shows is read soon after it is opened.
+        self._app.clock.after(0, self._app.experimenter.panel.toggle)
+        self._app.clock.after(PANEL_READ_MS, self._end)
+
+    def _end(self) -> None:
+        with self.pulse.aside():
+            self._pictures.take("panel")
+        self._app.quit()
+
+
+PANEL_READ_MS = 3_000
 
 KIB = 1024
 
