@@ -231,6 +231,23 @@ def memory_mib(process: int) -> int:
         return 0
 
 
+def _processor_s(process: int) -> float:
+    """How much time on a processor a process has had; 0 if it is gone."""
+    try:
+        times = psutil.Process(process).cpu_times()
+    except psutil.Error:
+        return 0.0
+    return float(times.user + times.system)
+
+
+def _is_ready(process: int) -> bool:
+    """Whether a process works, or would if it had a processor: on a busy machine, silence is no fault of its own."""
+    try:
+        return psutil.Process(process).status() == psutil.STATUS_RUNNING
+    except psutil.Error:
+        return False
+
+
 @contextmanager
 def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.environ) -> Iterator[Callable[[], None]]:
     """Guard this process for as long as this lasts; gives what the event loop calls as its beat.
@@ -288,12 +305,14 @@ def _guard(process: int, reader: int, writer: int, limits: Limits, before_mib: i
 def _watch(process: int, reader: int, limits: Limits, before_mib: int) -> str:
     """Read the pipe to its end; returns what is wrong, or nothing if the process has ended by itself."""
     watch = _Watch(limits)
-    last = time.monotonic()
+    last, used = time.monotonic(), _processor_s(process)
     while (told := _read(reader, limits.tick)) != b"":
         now = time.monotonic()
         # Where everything stood still for a while, the guard too, silence is no fault of the process's.
-        fault = watch.look(min(now - last, 2 * limits.tick), told or b"", memory_mib(process) - before_mib)
-        last = now
+        passed, had = min(now - last, 2 * limits.tick), _processor_s(process)
+        silent = min(passed, had - used) if _is_ready(process) else passed
+        fault = watch.look(passed, told or b"", memory_mib(process) - before_mib, silent)
+        last, used = now, had
         if fault:
             return fault
     return ""
@@ -307,9 +326,12 @@ class _Watch:
         self._silent_s = self._asked_s = 0.0
         self._beats = self._asked = self._answered = False
 
-    def look(self, passed_s: float, told: bytes, taken_mib: int) -> str:
-        """Take in what was told after so much time; returns what is wrong, if anything is."""
-        self._silent_s += passed_s
+    def look(self, passed_s: float, told: bytes, taken_mib: int, silent_s: float | None = None) -> str:
+        """Take in what was told after so much time; returns what is wrong, if anything is.
+
+        ``silent_s`` is how much of the time counts as silence, if not all of it.
+        """
+        self._silent_s += passed_s if silent_s is None else silent_s
         self._asked_s += passed_s
         for byte in told:
             self._hear(byte)

@@ -107,6 +107,13 @@ def test_silence_counts_from_the_last_beat() -> None:
     assert found == [*[""] * 20, "the interface stood still for 10 s"]
 
 
+def test_a_process_that_waits_for_a_processor_is_silent_only_for_what_it_had() -> None:
+    watch = _Watch(LIMITS)
+    watch.look(1, BEAT, 50)
+    found = [watch.look(1, b"", 50, silent_s=0.25) for _ in range(40)]
+    assert found == [*[""] * 39, "the interface stood still for 10 s"]
+
+
 def test_there_is_long_patience_before_the_first_beat() -> None:
     assert looks(*[b""] * 30) == [*[""] * 29, "the interface stood still for 30 s"]
 
