@@ -24,7 +24,9 @@ FocusScope {
     // Where there is far more room beside the cards than above them, the tray stands there.
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
-    readonly property real usualStrip: (upright ? 196 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    // Where the cards leave room for it, the tray has two rows of larger places.
+    readonly property bool tall: upright || height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - board.rows * widest > 70 * Theme.unit
+    readonly property real usualStrip: (upright ? 196 : tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
@@ -137,7 +139,7 @@ FocusScope {
         readonly property real end: !view.board.practice ? moves.x : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.strip - 8 * Theme.unit
         places: view.board.pairs
-        lines: view.broad ? Math.ceil(places / 2) : view.upright ? 2 : 1
+        lines: view.broad ? Math.ceil(places / 2) : view.tall ? 2 : 1
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
         back: view.cardBack
@@ -351,7 +353,7 @@ FocusScope {
             // These two are no pair; in a while they close again.
             Rectangle {
                 objectName: "missed-" + place.index
-                visible: place.missed && !place.turns
+                visible: place.missed && place.turning === 1
                 anchors { centerIn: face; horizontalCenterOffset: face.shift }
                 width: face.width * face.scale + 4 * Theme.unit
                 height: width

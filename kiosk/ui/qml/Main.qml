@@ -77,6 +77,7 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
+        y: !root.wide && boardView.visible ? Math.round(0.035 * root.room) : 0
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
@@ -86,7 +87,8 @@ Window {
         height: root.wide ? root.room - root.said
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        readonly property real upright: !root.speaks ? 0.78 : !boardView.visible ? 0.64
+        readonly property real upright: !root.speaks ? 0.78 : attractView.visible && root.texts <= 1 ? 0.56
+              : !boardView.visible ? 0.64
               : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
         enabled: root.kiosk.takesInput && root.kiosk.bare
@@ -215,15 +217,16 @@ Window {
         x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
         // A whole number: edges that move by fractions do not come back to the last bit.
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
-        y: below ? stage.height : above
+        y: below ? stage.y + stage.height : above
         width: below ? root.width * 0.76 : root.width - stage.width - Theme.gap
-        height: below ? root.room - stage.height : root.room - above
+        height: below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
         speaks: root.wide || root.speaks
         thinks: boardView.visible && root.board.speaking
         rests: root.kiosk.paused
-        share: root.wide ? 0.52 : 0.66
+        // Large sentences need the room.
+        share: root.wide ? 0.52 : root.texts <= 1.15 ? 0.72 : 0.64
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
