@@ -45,8 +45,8 @@ Description: kiosk for studies in which a robot helps a person play Concentratio
 """
 
 
-def package(built: Path, work: Path, place: Path) -> Path:
-    """Make the package of a built folder, in ``place``, and return its file."""
+def package(built: Path, work: Path, place: Path, level: int) -> Path:
+    """Make the package of a built folder, compressed at a level of zstd, in ``place``; return its file."""
     tree = work / "deb"
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(built, tree / PROGRAM, symlinks=True)
@@ -60,8 +60,8 @@ def package(built: Path, work: Path, place: Path) -> Path:
     _put(_control(tree, architecture).encode(), tree / "DEBIAN" / "control")
     _set_modes(tree)
     file = place / f"recollect_{__version__}_{architecture}.deb"
-    # Level 19 would take a minute or more, for a tenth less.
-    _say("dpkg-deb", "--root-owner-group", "-Zzstd", "-z9", "--build", str(tree), str(file))
+    # Level 19 would take a minute or more, for a tenth less than level 9.
+    _say("dpkg-deb", "--root-owner-group", "-Zzstd", f"-z{level}", "--build", str(tree), str(file))
     return file
 
 

@@ -30,7 +30,9 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     config.stash[HOME] = TemporaryDirectory(prefix="recollect-tests-")
     os.environ["XDG_DATA_HOME"] = config.stash[HOME].name
-    os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        # All workers share it: compiling the rules takes each of them half a minute.
+        os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
     _keep_bytecode()
 
 

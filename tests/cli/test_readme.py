@@ -27,6 +27,7 @@ ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the commands are run in a Unix shell's way")
 
 SMALL = """
+languages = ["en"]
 stages = ["introduction", "game", "result"]
 [game]
 rows = 3

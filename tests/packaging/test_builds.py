@@ -44,7 +44,7 @@ def unpacked(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     dpkg = shutil.which("dpkg-deb")
     if dpkg is None:
         pytest.skip("there is no dpkg-deb here")
-    _build("deb")
+    _build("quick-deb")
     (package,) = (ROOT / "dist").glob("recollect_*.deb")
     place = tmp_path_factory.mktemp("deb")
     subprocess.run([dpkg, "-x", str(package), str(place)], check=True)
@@ -178,3 +178,12 @@ def test_what_the_screens_do_not_use_is_not_in_a_build(folder: Path) -> None:
     assert not modules & {"VirtualKeyboard", "Dialogs", "NativeStyle", "Scene2D", "Timeline"}
     assert not {file.name for file in qt.rglob("*")} & {"libQt6Designer.so.6", "libqsqlite.so", "libqgtk3.so"}
     assert not list(qt.rglob("*.qm"))
+
+
+def test_what_only_developers_use_is_not_in_a_build(folder: Path) -> None:
+    viewer = (sys.executable, "-m", "PyInstaller.utils.cliutils.archive_viewer", "--list", "--recursive", "--brief")
+    command = (*viewer, str(folder / "recollect"))
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=LONG)
+    packages = {name.strip().partition(".")[0] for name in done.stdout.splitlines()}
+    assert {"kiosk", "rich", "numpy"} <= packages
+    assert not packages & {"pygments", "unittest", "numba", "matplotlib", "scipy", "pytest"}
