@@ -354,7 +354,7 @@ def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
         feast.setProperty("time", moment)
         tops = [item.y() / feast.height() for item in feast.childItems()]
         seen = [top for top in tops if 0 <= top <= 1]
-        assert len(seen) > 60
+        assert len(seen) > 48
         fullest = max(sum(tenth <= 10 * top < tenth + 1 for top in seen) for tenth in range(10))
         assert fullest < len(seen) / 3, moment
 

@@ -21,7 +21,7 @@ Item {
     NumberAnimation { id: rain; target: feast; property: "time"; from: 0; to: 1; duration: Theme.motion * 16 }
 
     Repeater {
-        model: feast.under ? 120 : 0
+        model: feast.under ? 96 : 0
         Rectangle {
             id: snippet
             required property int index
@@ -33,7 +33,8 @@ Item {
             readonly property real fallen: feast.time * (1.45 + 0.5 * other) - 0.45 * third
             width: (16 + 18 * other) * Theme.unit
             height: width * 0.62
-            radius: 2 * Theme.unit
+            // Drawn without a GPU, smooth edges cost a fifth of the frames.
+            antialiasing: false
             x: feast.width * chance + Math.sin(feast.time * 9 + index) * 30 * Theme.unit
             y: -40 * Theme.unit + fallen * (feast.height + 80 * Theme.unit)
             rotation: index * 40 + feast.time * 700 * (index % 2 === 0 ? 1 : -1)

@@ -48,7 +48,7 @@ Button {
     }
     background: Rectangle {
         radius: 12 * Theme.unit
-        color: button.solid ? (filled && hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
+        color: button.solid ? (button.filled && button.hovered ? Theme.lightSea : Theme.sea) : button.down ? Theme.sand : button.hovered ? Theme.white : Theme.paper
         // What cannot be pressed now has no edge.
         border { color: Theme.sea; width: button.enabled ? 2 * Theme.unit : 0 }
         FocusRing {
