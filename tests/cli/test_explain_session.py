@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sqlite3
 import sys
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.queries import DecisionExplainer, explain_stored_decision, open_repository
 from kiosk.store.recorder import Provenance, Recorder
-from tests.experiment.driver import Driver, at_random
+from tests.experiment.driver import Driver, forgetful
 from tests.samples import mixed, plan, whole
 
 SEED = 5
@@ -28,12 +29,18 @@ SEED = 5
 
 def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) -> Driver:
     """Return a game played to its end, and on the disk."""
-    followed = plan(condition, mixed(SEED, Gate()), **settings)
-    driver = Driver(followed, SEED)
-    driver.to_the_game()
-    driver.play(at_random(SEED))
+    driver = played(condition, json.dumps(settings))
     with Recorder(folder) as recorder:
-        recorder.begin(Provenance(followed, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
+        recorder.begin(Provenance(driver.plan, SEED, "avatar", "unknown", kind=SessionKind.SIMULATED), driver.events)
+    return driver
+
+
+@cache
+def played(condition: Condition, settings: str) -> Driver:
+    """Return a game played to its end with these settings, which are JSON; tests only read it."""
+    driver = Driver(plan(condition, mixed(SEED, Gate()), **json.loads(settings)), SEED)
+    driver.to_the_game()
+    driver.play(forgetful(SEED))
     return driver
 
 

@@ -6,11 +6,13 @@ import json
 import os
 import subprocess
 import sys
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
 
 from kiosk import DISK_FULL, program
+from kiosk.cli.main import main
 from kiosk.experiment.events import SessionStarted
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Provenance, Recorder
@@ -54,14 +56,28 @@ def command(name: str, data: Path, study: Path) -> tuple[str, ...]:
 @pytest.mark.parametrize("encoding", ENCODINGS)
 @pytest.mark.parametrize("name", ["study check", "study check --json", "a refusal"])
 def test_what_the_terminal_has_no_character_for_is_printed_all_the_same(
-    name: str, encoding: str, data: Path, study: Path
+    name: str, encoding: str, data: Path, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    environment = os.environ | {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0", "LC_ALL": "C"}
-    done = subprocess.run(command(name, data, study), env=environment, capture_output=True, check=False)
-    assert b"Traceback" not in done.stderr
-    assert done.returncode == (2 if name == "a refusal" else 0)
+    out, err = (TextIOWrapper(BytesIO(), encoding) for _ in "oe")
+    monkeypatch.setattr(sys, "argv", ["recollect", *command(name, data, study)[len(program()) :]])
+    monkeypatch.setattr(sys, "stdout", out)
+    monkeypatch.setattr(sys, "stderr", err)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out.flush()
+    err.flush()
+    assert (ended.value.code or 0) == (2 if name == "a refusal" else 0)
+    said = (err if name == "a refusal" else out).buffer
+    assert isinstance(said, BytesIO)
+    assert said.getvalue()
     if name == "study check --json":
-        assert json.loads(done.stdout)["title"] == TITLE
+        assert json.loads(said.getvalue())["title"] == TITLE
+
+
+def test_a_refusal_is_printed_where_the_system_has_no_characters_but_ascii(data: Path, study: Path) -> None:
+    environment = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0", "LC_ALL": "C"}
+    done = subprocess.run(command("a refusal", data, study), env=environment, capture_output=True, check=False)
+    assert (done.returncode, b"Traceback" in done.stderr) == (2, False)
 
 
 @pytest.mark.parametrize("name", ["sessions", "events", "help"])

@@ -111,10 +111,13 @@ def test_the_study_file_says_where_the_robot_is(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("mode", "changes"), [(Mode.WELL, 0), (Mode.RESET, 1)], ids=["well", "fails"])
 def test_a_rehearsal_with_a_robot_tells_what_became_of_every_sentence(tmp_path: Path, mode: Mode, changes: int) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text('languages = ["en"]\nstages = ["introduction", "game", "result"]\n[game]\nrows = 3\ncolumns = 4\n')
     with FurhatFake(character_ms=0.2) as fake:
-        fake.arm(mode, path="/furhat/say", after=4)
+        fake.arm(mode, path="/furhat/say", after=2)
         robot = ["--robot-host", "127.0.0.1", "--robot-port", str(fake.port)]
         command = [sys.executable, "-m", "kiosk", "rehearse", "--headless", "--json", "--data", str(tmp_path), *robot]
+        command += ["--study", str(study)]
         played = json.loads(subprocess.run(command, capture_output=True, check=True, timeout=60).stdout)
     assert (played["status"], played["embodiment"], played["embodiment_changes"]) == (
         "completed",

@@ -13,8 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
-from kiosk import program
+from kiosk import UserInputError, program
+from kiosk.cli.main import recollect
 from tests.samples import WITH_PIN
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks for processes as Linux shows them")
@@ -88,7 +90,7 @@ def test_a_data_folder_that_cannot_be_used_is_said_before_anything_is_started(tm
     study.write_text(WITH_PIN)
     command = program("run", "--supervise", "--data", str(tmp_path / "file"), "--study", str(study))
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
+    assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"recollect: the data folder {tmp_path / 'file'} cannot be used: File exists\n"
 
 
@@ -108,13 +110,11 @@ def test_a_study_without_a_pin_is_not_kept_up(study: str | None, tmp_path: Path)
     file.write_text(study or "")
     options = () if study is None else (f"--study={file}", "--window")
     data = tmp_path / "data"
-    done = subprocess.run(
-        program("run", "--supervise", "--data", str(data), *options), capture_output=True, text=True, check=False
-    )
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("recollect: no PIN is set, so the kiosk is not started unattended: ")
-    assert "recollect study set-pin" in done.stderr
-    assert len(done.stderr.splitlines()) == 1
+    refused = CliRunner().invoke(recollect, ["run", "--supervise", "--data", str(data), *options])
+    assert isinstance(refused.exception, UserInputError)
+    (said,) = refused.exception.sentences
+    assert (said.startswith("no PIN is set, so the kiosk is not started unattended: "), refused.output) == (True, "")
+    assert "recollect study set-pin" in said
     assert not data.exists()
 
 

@@ -357,6 +357,17 @@ def with_memory(seed: int) -> Callable[[View], Position]:
     return choose
 
 
+def forgetful(seed: int) -> Callable[[View], Position]:
+    """Return a visitor who remembers at half of the flips, so that a game has hints of every kind and is soon over."""
+    rng, remembers, guesses = Random(seed), with_memory(seed), at_random(seed)
+
+    def choose(view: View) -> Position:
+        remembered, guessed = remembers(view), guesses(view)
+        return remembered if rng.random() < 0.5 else guessed
+
+    return choose
+
+
 def replay(plan: SessionConfig, seed: int, world: Iterable[WorldEvent]) -> list[Outcome]:
     """Return the outcomes of a new session that is handed the same events."""
     session = Session(plan, seed)

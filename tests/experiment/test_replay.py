@@ -8,14 +8,14 @@ import pytest
 
 from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.events import BoardDealt, WorldEvent, from_record, to_record
-from tests.experiment.driver import Driver, Voice, at_random, replay
+from tests.experiment.driver import Driver, Voice, at_random, forgetful, replay
 from tests.samples import mixed, plan, whole
 
 
 def session(seed: int, voice: Voice = Voice.SPEAKS, condition: Condition = Condition.TOM) -> Driver:
     """Return a whole session of all stages."""
     driver = Driver(whole(condition, mixed(seed)), seed, voice)
-    driver.whole_session(at_random(seed))
+    driver.whole_session(forgetful(seed))
     return driver
 
 

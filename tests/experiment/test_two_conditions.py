@@ -1,6 +1,6 @@
 """ToM and noToM, on the same seeds with the same visitor, differ where the design says and nowhere else.
 
-The visitor plays on without minding the hints, so that whatever differs comes from the assistant.
+The visitor, who forgets half the time, does not mind the hints, so that whatever differs comes from the assistant.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from kiosk.assistance.policy import FlipInMove, Gate
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import AssistanceDecided, BoardDealt, CardFlipped, HintGiven, HintHighlighted
-from tests.experiment.driver import Driver, at_random
+from tests.experiment.driver import Driver, forgetful
 from tests.samples import CATALOGUES, mixed, plan
 
 SEEDS = range(12)
@@ -25,7 +25,7 @@ def session(condition: Condition, seed: int, catalogue: Catalogue = CATALOGUES["
     """Return a game played to its end, in this condition, behind the gate."""
     driver = Driver(replace(plan(condition, mixed(seed, Gate())), catalogue=catalogue), seed)
     driver.to_the_game()
-    driver.play(at_random(seed))
+    driver.play(forgetful(seed))
     return driver
 
 

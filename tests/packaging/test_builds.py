@@ -57,9 +57,9 @@ def _build(kind: str) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def rehearse(command: tuple[str, ...], data: Path) -> dict[str, Any]:
+def rehearse(command: tuple[str, ...], data: Path, *options: str) -> dict[str, Any]:
     """Return what a rehearsal tells, run far away from the checkout."""
-    rehearsal = (*command, "rehearse", "--headless", "--seed", "7", "--data", str(data), "--json")
+    rehearsal = (*command, "rehearse", "--headless", "--seed", "7", "--data", str(data), "--json", *options)
     away = None if command[-1] == "kiosk" else data.parent
     done = subprocess.run(rehearsal, cwd=away, capture_output=True, text=True, check=False, timeout=LONG)
     assert done.returncode == 0, done.stderr
@@ -118,7 +118,10 @@ def test_a_command_that_needs_the_full_install_says_so_in_a_sentence(folder: Pat
 
 
 def test_an_unpacked_package_plays_a_session_by_its_name_on_the_path(unpacked: Path, tmp_path: Path) -> None:
-    assert rehearse((str(unpacked / "usr/bin/recollect"),), tmp_path / "data")["status"] == "completed"
+    study = tmp_path / "study.toml"
+    study.write_text('languages = ["en"]\nstages = ["introduction", "game", "result"]\n[game]\nrows = 2\ncolumns = 3\n')
+    played = rehearse((str(unpacked / "usr/bin/recollect"),), tmp_path / "data", "--study", str(study))
+    assert (played["status"], played["pairs"]) == ("completed", 3)
 
 
 def test_a_build_keeps_itself_up(unpacked: Path, tmp_path: Path) -> None:
