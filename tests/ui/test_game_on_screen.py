@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
 from kiosk.experiment import effects as do
-from kiosk.experiment.effects import BoardWait
+from kiosk.experiment.effects import BoardWait, Mood
 from kiosk.game import Position
 from kiosk.robots.embodiment import ASIDE, BoardPoint
 from kiosk.ui.app import App
@@ -372,9 +372,10 @@ def test_on_an_upright_screen_the_helper_stands_close_to_the_board(app: App) -> 
 @STILL
 def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: App) -> None:
     app.screens.avatar.say("Look at column 2.")
+    app.screens.avatar.feel(Mood.HAPPY)
     app.screens.kiosk.pause(paused=True)
     face = find(app, "face")
-    assert face.property("blinking")
+    assert (face.property("blinking"), face.property("mood")) == (True, "idle")
     assert not [i for i in items(app.window.contentItem()) if lies_in(i, "Bubble") and i.property("text")]
     app.screens.kiosk.pause(paused=False)
     assert not face.property("blinking")

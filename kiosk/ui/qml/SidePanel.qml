@@ -98,7 +98,7 @@ Item {
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
         width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? panel.share : 0.94) * 400 / 440)
         height: width * 440 / 400
-        mood: panel.avatar.mood
+        mood: panel.rests ? "idle" : panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
         mouth: Theme.motion === 0 ? 0 : panel.avatar.mouth
         mouthShape: panel.avatar.mouthShape
