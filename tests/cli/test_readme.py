@@ -9,7 +9,7 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -21,6 +21,7 @@ from kiosk.experiment.events import SessionStarted
 from kiosk.experiment.session_config import SessionKind
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
+from tests.forked import PROGRAM, LoadedProgram
 from tests.samples import WITH_PIN, plan
 
 ROOT = Path(__file__).parents[2]
@@ -36,7 +37,7 @@ columns = 4
 LESS = {
     "train": ("--episodes", "200"),
     "simulate": ("--games", "50"),
-    "rehearse": ("--study", "small.toml"),
+    "rehearse": ("--study", "smallest.toml"),
 }
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
 
@@ -78,6 +79,7 @@ class Newcomer:
     """A person with a fresh checkout and no screen, who has typed the first command."""
 
     home: Path
+    loaded: LoadedProgram
 
     @property
     def environment(self) -> dict[str, str]:
@@ -89,19 +91,9 @@ class Newcomer:
             "PYTHONPATH": str(ROOT),
         }
 
-    def run(self, arguments: Sequence[str], how: Sequence[str] = ("-m", "kiosk")) -> subprocess.CompletedProcess[str]:
+    def run(self, arguments: Sequence[str], program: str = PROGRAM) -> subprocess.CompletedProcess[str]:
         """Run the program in their home."""
-        return subprocess.run(
-            [sys.executable, *how, *arguments],
-            cwd=self.home,
-            env=self.environment,
-            input="2580\n2580\n",
-            capture_output=True,
-            text=True,
-            timeout=120,
-            check=False,
-            start_new_session=True,
-        )
+        return self.loaded.run(arguments, self.home, self.environment, "2580\n2580\n", program)
 
 
 def bootstrap() -> ModuleType:
@@ -115,9 +107,16 @@ def bootstrap() -> ModuleType:
 
 
 @pytest.fixture(scope="module")
-def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def loaded() -> Iterator[LoadedProgram]:
+    """Provide the program, loaded once for all rows."""
+    with LoadedProgram() as program:
+        yield program
+
+
+@pytest.fixture(scope="module")
+def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Path:
     """Return a home in which ``bootstrap.py start`` has been run; it is installed already."""
-    newcomer = Newcomer(tmp_path_factory.mktemp("home"))
+    newcomer = Newcomer(tmp_path_factory.mktemp("home"), loaded)
     start = bootstrap()
 
     def run(command: Sequence[str], environment: Mapping[str, str]) -> int:
@@ -146,11 +145,11 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def newcomer(begun: Path, tmp_path: Path) -> Newcomer:
+def newcomer(begun: Path, tmp_path: Path, loaded: LoadedProgram) -> Newcomer:
     """Return the same home for every row, so that none depends on what another one did."""
     shutil.copytree(begun / "share", tmp_path / "share")
-    (tmp_path / "small.toml").write_text(SMALL)
-    return Newcomer(tmp_path)
+    (tmp_path / "smallest.toml").write_text(SMALL.replace("3", "2").replace("4", "2"))
+    return Newcomer(tmp_path, loaded)
 
 
 @pytest.mark.parametrize("row", rows())
@@ -165,7 +164,7 @@ def test_every_row_works_as_it_is_printed(row: str, newcomer: Newcomer) -> None:
         assert is_kept_up(newcomer, arguments)
         return
     has_a_window = command in {"", "replay"}
-    how = ("-c", LEFT_AT_ONCE) if has_a_window else ("-m", "kiosk")
+    how = LEFT_AT_ONCE if has_a_window else PROGRAM
     done = newcomer.run([*filled_in(newcomer, arguments), *LESS.get(command, ())], how)
     assert "Traceback" not in done.stderr
     if command == "status":
@@ -216,15 +215,15 @@ def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
     return supervisor.returncode == 0
 
 
-def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path) -> None:
-    done = Newcomer(tmp_path).run(["sessions"])
+def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path, loaded: LoadedProgram) -> None:
+    done = Newcomer(tmp_path, loaded).run(["sessions"])
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"recollect: there is no database in {tmp_path / 'share' / 'recollect'}\n"
 
 
 def test_what_people_did_goes_before_rehearsals(newcomer: Newcomer) -> None:
     # A kiosk that was opened and left has a database without participants.
-    assert newcomer.run([], ("-c", LEFT_AT_ONCE)).returncode == 0
+    assert newcomer.run([], LEFT_AT_ONCE).returncode == 0
     assert "about the rehearsals" in newcomer.run(["sessions"]).stderr
     assert newcomer.run(["verify"]).stderr == ""
     with Recorder(newcomer.home / "share" / "recollect") as recorder:

@@ -1,0 +1,92 @@
+"""A process that has loaded the program once, and runs each command of a test in a copy of itself.
+
+Starting the program takes a second and more, nearly all of it for loading it; a copy starts at once and is a process
+of its own, with its own arguments, folder, environment and files. The modules of ``kiosk.cli`` are loaded in the copy,
+as they look for the user's folders while they are loaded.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Self
+
+ROOT = Path(__file__).parents[1]
+
+LOADED = ("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsal")
+
+SERVER = f"""
+import gc, json, os, sys
+from importlib import import_module
+for name in {LOADED!r}:
+    import_module(name)
+assert "kiosk.cli" not in sys.modules
+gc.freeze()
+for line in iter(sys.stdin.readline, ""):
+    job = json.loads(line)
+    child = os.fork()
+    if child:
+        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+        continue
+    os.setsid()
+    os.chdir(job["folder"])
+    os.environ.clear()
+    os.environ.update(job["environment"])
+    for number, name in enumerate(("in", "out", "err")):
+        file = os.open(job[name], os.O_RDWR)
+        os.dup2(file, number)
+        os.close(file)
+    sys.stdin, sys.stdout, sys.stderr = open(0), open(1, "w"), open(2, "w")
+    sys.argv = ["recollect", *job["arguments"]]
+    exec(job["program"])
+    sys.exit()
+"""
+
+PROGRAM = "from kiosk.cli.main import main\nmain()\n"
+
+
+class LoadedProgram:
+    """The program, loaded and waiting for commands."""
+
+    def __init__(self) -> None:
+        command = [sys.executable, "-c", SERVER]
+        self._server = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        # It ends with its input.
+        self._server.communicate()
+
+    def run(
+        self,
+        arguments: Sequence[str],
+        folder: Path,
+        environment: Mapping[str, str],
+        typed: str = "",
+        program: str = PROGRAM,
+    ) -> subprocess.CompletedProcess[str]:
+        """Run a command to its end, in a folder, and return its exit code and what it said."""
+        with TemporaryDirectory() as files:
+            said = {name: Path(files) / name for name in ("in", "out", "err")}
+            for name, file in said.items():
+                file.write_text(typed if name == "in" else "", "utf-8")
+            job = {name: str(file) for name, file in said.items()} | {
+                "arguments": list(arguments),
+                "folder": str(folder),
+                "environment": dict(environment),
+                "program": program,
+            }
+            assert self._server.stdin is not None
+            assert self._server.stdout is not None
+            self._server.stdin.write(json.dumps(job) + "\n")
+            self._server.stdin.flush()
+            code = int(self._server.stdout.readline())
+            return subprocess.CompletedProcess(
+                list(arguments), code, said["out"].read_text("utf-8"), said["err"].read_text("utf-8")
+            )
