@@ -31,7 +31,7 @@ Picture = NDArray[np.float64]
 SIDE = 120
 STEP = SIDE + 6
 LABEL = 170
-CARD = 0.86
+CARD = 0.91
 """How much of its place on the board a card takes."""
 EDGE = 5
 JUST_NOTICED = 2.3

@@ -44,7 +44,7 @@ FocusScope {
             most: view.width - 4 * Theme.gap
             words: way.modelData.start
             font.pixelSize: Theme.size(54)
-            horizontalPadding: 68 * Theme.unit
+            horizontalPadding: (Theme.textSize > 1 ? 44 : 68) * Theme.unit
             verticalPadding: 32 * Theme.unit
             focus: true
             Accessible.description: way.modelData.name
@@ -164,7 +164,8 @@ FocusScope {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
             text: view.attract.title
-            font { pixelSize: Theme.size(92); bold: true }
+            // Large words are large enough in one line, and the cards need the room.
+            font { pixelSize: Math.min(Theme.size(92), 0.087 * view.width); bold: true }
         }
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
@@ -194,7 +195,7 @@ FocusScope {
                 return sum
             }
             columns: wish <= view.width - 2 * Theme.gap ? ways.count : 1
-            columnSpacing: 1.5 * Theme.gap
+            columnSpacing: (Theme.textSize > 1 ? 1 : 1.5) * Theme.gap
             rowSpacing: 0.7 * Theme.gap
             horizontalItemAlignment: Grid.AlignHCenter
             Repeater {

@@ -87,7 +87,8 @@ Window {
         height: root.wide ? root.room - root.said
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        readonly property real upright: !root.speaks ? 0.78 : attractView.visible && root.texts <= 1 ? 0.56
+        readonly property real upright: !root.speaks ? 0.78
+              : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.56, 0.56 + 0.25 * (root.texts - 1)))
               : !boardView.visible ? 0.64
               : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
