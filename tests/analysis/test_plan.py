@@ -151,9 +151,10 @@ def running_cluster(folder: Path, workers: int) -> Iterator[str]:
     here = [sys.executable, "-m"]
     address = folder / "scheduler.json"
     scheduler = [*here, "distributed.cli.dask_scheduler", "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
-    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--nworkers", str(workers)]
+    # No nanny: it would be one more process, and no worker is started again here.
+    worker = [*here, "distributed.cli.dask_worker", "--no-dashboard", "--nthreads", "1", "--no-nanny"]
     with ExitStack() as stack:
-        for words in (scheduler, worker):
+        for words in (scheduler, *[worker] * workers):
             started = subprocess.Popen(
                 [*words, "--scheduler-file", str(address)], cwd=folder, stderr=subprocess.DEVNULL
             )
