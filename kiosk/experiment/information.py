@@ -8,9 +8,9 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from kiosk import UserInputError
 from kiosk.config import ConfigModel, code_of
@@ -25,16 +25,42 @@ POINTER = "pointer"
 Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
 
 
+Sign = Literal[
+    "helper", "cards", "clock", "questions", "no_name", "delete", "play", "lock", "compare", "letter", "camera"
+]
+"""A drawing beside a line."""
+
+
 class Page(ConfigModel):
-    """A title and a few paragraphs."""
+    """A title and a few paragraphs.
+
+    ``points`` say the most important in a few short lines. The consent page shows them first, and all paragraphs once
+    the visitor asks for more. ``signs`` are drawings, one for each point, or for each paragraph where there are no
+    points.
+    """
 
     title: Text
     paragraphs: Paragraphs
+    points: Annotated[tuple[Text, ...], Field(max_length=4, strict=False)] = ()
+    signs: Annotated[tuple[Sign, ...], Field(max_length=8, strict=False)] = ()
+
+    @model_validator(mode="after")
+    def _draw_one_sign_for_each_line(self) -> Self:
+        lines, what = (self.points, "points") if self.points else (self.paragraphs, "paragraphs")
+        if self.signs and len(self.signs) != len(lines):
+            raise ValueError(f"there are {len(self.signs)} signs for {len(lines)} {what}; each needs one")
+        return self
+
+    @property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """What the page says first, line by line, each with the name of its drawing, which may be empty."""
+        lines = self.points or self.paragraphs
+        return tuple(zip(lines, self.signs or ("",) * len(lines), strict=True))
 
     @property
     def characters(self) -> int:
         """How much there is to read."""
-        return len(self.title) + sum(map(len, self.paragraphs))
+        return len(self.title) + sum(map(len, (*self.points, *self.paragraphs)))
 
 
 class Purpose(ConfigModel):
@@ -79,8 +105,10 @@ class Information(ConfigModel):
 
     @property
     def sha256(self) -> str:
-        """The hash of all of it, stored with every consent."""
-        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+        """The hash of all of it, stored with every consent; what a page leaves out does not count."""
+        pages = {"about": self.about, "consent": self.consent, "debrief": self.debrief}
+        absent = {name: {key for key in ("points", "signs") if not getattr(page, key)} for name, page in pages.items()}
+        return hashlib.sha256(self.model_dump_json(exclude=absent).encode()).hexdigest()
 
     @classmethod
     def of(cls, folder: Path, language: str) -> Self:
@@ -93,7 +121,7 @@ class Information(ConfigModel):
 
 def check_alike(sheets: Mapping[str, Information], folder: Path) -> None:
     """Raise UserInputError unless every language has the same version and asks for the same."""
-    for what, says in (("versions", _version), ("purposes", _purposes)):
+    for what, says in (("versions", _version), ("purposes", _purposes), ("points", _points), ("signs", _signs)):
         said = {language: says(sheet) for language, sheet in sheets.items()}
         if len(set(said.values())) > 1:
             each = "; ".join(f"{language}: {words}" for language, words in said.items())
@@ -102,6 +130,14 @@ def check_alike(sheets: Mapping[str, Information], folder: Path) -> None:
 
 def _version(sheet: Information) -> str:
     return sheet.version
+
+
+def _points(sheet: Information) -> str:
+    return ", ".join(str(len(page.points)) for page in (sheet.about, sheet.consent, sheet.debrief))
+
+
+def _signs(sheet: Information) -> str:
+    return ", ".join(sign for page in (sheet.about, sheet.consent, sheet.debrief) for sign in page.signs) or "none"
 
 
 def _purposes(sheet: Information) -> str:

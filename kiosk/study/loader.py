@@ -618,7 +618,10 @@ def _of_translations(study: StudyConfig) -> Iterator[str]:
         same = list(_unchanged_items((plan.about_you, *plan.questionnaires), first.language, plan.language))
         if same:
             yield f"in {plan.language!r}, items are still in {first.language!r}: {_counted(same)}"
-        pages = [[text for page in _pages(each.information) for text in page.paragraphs] for each in (first, plan)]
+        pages = [
+            [text for page in _pages(each.information) for text in (*page.points, *page.paragraphs)]
+            for each in (first, plan)
+        ]
         if set(pages[0]) & set(pages[1]):
             yield f"the information sheet in {plan.language!r} has paragraphs that are still in {first.language!r}"
 
@@ -734,7 +737,7 @@ def _words_of(plan: SessionConfig, items: Iterable[Item]) -> Iterator[str]:
     sheet = plan.information
     for page in (sheet.about, sheet.consent, sheet.debrief):
         yield page.title
-        yield from page.paragraphs
+        yield from (*page.points, *page.paragraphs)
     yield from (purpose.text for purpose in sheet.consent.purposes)
     yield from (in_language(words, plan.language) for item in items for words in item.texts())
     yield from (plan.catalogue.card(card)[CARD] for card in plan.deck if plan.catalogue.names(card))

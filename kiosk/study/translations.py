@@ -265,7 +265,7 @@ class _Sheet(_Part):
         return self.target, tomlkit.dumps(document)
 
 
-_NOT_WORDED = frozenset(("id", "version"))
+_NOT_WORDED = frozenset(("id", "version", "signs"))
 
 
 def worded_strings(table: Any, before: str = "") -> Iterator[tuple[str, str]]:
@@ -273,7 +273,9 @@ def worded_strings(table: Any, before: str = "") -> Iterator[tuple[str, str]]:
     entries = table.items() if isinstance(table, Mapping) else enumerate(table)
     for key, value in entries:
         path = f"{before}{key}"
-        if isinstance(value, str) and key not in _NOT_WORDED:
+        if key in _NOT_WORDED:
+            continue
+        if isinstance(value, str):
             yield path, str(value)
         elif isinstance(value, Mapping | list):
             yield from worded_strings(value, f"{path}.")

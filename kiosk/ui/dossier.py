@@ -210,7 +210,8 @@ def _language(plan: SessionConfig, shots: Iterable[Path]) -> Iterator[str]:
     yield f"<h1 style='page-break-before: always'>{name} ({escape(language)})</h1>"
     yield f"<h2>Information and consent, version {escape(sheet.version)}</h2>"
     for page in (sheet.about, sheet.consent, sheet.debrief):
-        yield f"<h3>{escape(page.title)}</h3>" + "".join(f"<p>{escape(each)}</p>" for each in page.paragraphs)
+        points = "".join(f"<p><b>{escape(each)}</b></p>" for each in page.points)
+        yield f"<h3>{escape(page.title)}</h3>{points}" + "".join(f"<p>{escape(each)}</p>" for each in page.paragraphs)
         if page is sheet.consent:
             marks = (f"{each.text}{'' if each.required else ' *'}" for each in sheet.consent.purposes)
             yield f"<ul>{''.join(f'<li>{escape(each)}</li>' for each in marks)}</ul><p class='note'>* not required</p>"

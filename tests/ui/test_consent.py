@@ -107,6 +107,38 @@ def test_a_keyboard_alone_decides(booth: Booth, done: Done) -> None:
     assert done == [("take_part", True), "declined"]
 
 
+def test_in_short_the_page_says_its_points_and_all_of_it_on_request(booth: Booth, done: Done) -> None:
+    window = booth.app.window
+    short = PAGE.model_copy(update={"points": ("No name.",), "signs": ("no_name",)})
+    booth.app.screens.consent.show(short)
+    booth.settle()
+    assert says(window.contentItem(), "No name.")
+    assert not says(window.contentItem(), "We record your moves.")
+    booth.press(Qt.Key.Key_Tab)
+    booth.press(Qt.Key.Key_Return)
+    assert says(window.contentItem(), "We record your moves.")
+    assert not says(window.contentItem(), "No name.")
+    booth.click("read-more")
+    assert says(window.contentItem(), "No name.")
+    assert done == []
+
+
+@pytest.mark.usefixtures("done")
+def test_what_one_visitor_opened_is_closed_for_the_next(booth: Booth) -> None:
+    booth.app.screens.consent.show(PAGE.model_copy(update={"points": ("No name.",)}))
+    booth.click("read-more")
+    booth.app.screens.kiosk.show("attract")
+    booth.app.screens.kiosk.show("consent")
+    booth.settle()
+    assert says(booth.app.window.contentItem(), "No name.")
+
+
+@pytest.mark.usefixtures("done")
+def test_a_page_without_points_shows_all_of_it_at_once(booth: Booth) -> None:
+    assert says(booth.app.window.contentItem(), "We record your moves.")
+    assert not booth.sees("read-more")
+
+
 def test_both_answers_about_the_age_look_the_same(booth: Booth) -> None:
     told: list[bool] = []
     booth.app.screens.age.answered.connect(told.append)

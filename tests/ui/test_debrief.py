@@ -11,6 +11,7 @@ from PySide6.QtCore import QPoint, QRectF
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
+from kiosk.config import ASSETS
 from kiosk.experiment.information import Page
 from kiosk.game import Position
 from kiosk.ui.screens.pages import QUIET_MODULES
@@ -134,3 +135,20 @@ def test_the_result_shows_the_pairs_that_were_found_and_the_hints_only_if_there_
     assert {"2", "3", "4", "Hints", screens.kiosk.property("words")["result-line"]} <= words
     screens.result.show(2, 3, 9_000, 0, screens.board.found)
     assert "Hints" not in seen()[1]
+
+
+def test_the_thanks_show_the_pairs_that_the_visitor_found_or_else_some_cards(booth: Booth) -> None:
+    screens = booth.app.screens
+
+    def pictures() -> set[str]:
+        booth.settle()
+        shown = [item for item in items(booth.app.window.contentItem()) if lies_in(item, "ThanksView")]
+        sources = (item.property("source") for item in shown if item.inherits("QQuickImage"))
+        return {Path(source.path()).stem for source in sources if source.path()}
+
+    screens.kiosk.show("thanks")
+    assert len(pictures() - {"back", "shadow"}) > 2
+    folder = ASSETS / "cards" / "animals"
+    screens.result.show(2, 3, 9_000, 0, [(folder / f"{card}.svg").as_uri() for card in ("cat", "owl")])
+    assert {"cat", "owl"} <= pictures()
+    assert len(pictures() - {"back", "shadow", "cat", "owl"}) <= 1

@@ -45,6 +45,7 @@ def test_the_pdf_has_every_text_and_screen_of_each_language(tmp_path: Path, monk
     (text,) = written
     for plan in STUDY.plans:
         assert all(paragraph.split("'")[0] in text for paragraph in plan.information.consent.paragraphs)
+        assert all(point.split("'")[0] in text for point in plan.information.consent.points)
         assert all(item.text[plan.language].split("'")[0] in text for item in plan.questionnaires[0].items)
         for screen in ("attract", "board", "items-1"):
             assert f"-{screen}.png" in text.split(f"({plan.language})")[1]

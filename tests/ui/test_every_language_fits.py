@@ -129,7 +129,9 @@ def longer(sheet: Information) -> Information:
             case str():
                 return pseudo.sentence(value)
             case dict():
-                return {key: item if key in {"id", "version"} else rewritten(item) for key, item in value.items()}
+                return {
+                    key: item if key in {"id", "version", "signs"} else rewritten(item) for key, item in value.items()
+                }
             case list() | tuple():
                 return [rewritten(item) for item in value]
         return value

@@ -45,7 +45,7 @@ def rejoined(value: Any) -> Any:
         case str():
             return joined(value)
         case dict():
-            return {key: item if key in ("id", "version") else rejoined(item) for key, item in value.items()}
+            return {key: item if key in ("id", "version", "signs") else rejoined(item) for key, item in value.items()}
         case list() | tuple():
             return [rejoined(item) for item in value]
     return value

@@ -113,7 +113,7 @@ def marked(value: Any) -> Any:
             names = ("id", "kind", "version", "pictures", "scale")
             return {key: item if key in names else marked(item) for key, item in value.items()}
         case dict():
-            return {key: item if key == "version" else marked(item) for key, item in value.items()}
+            return {key: item if key in ("version", "signs") else marked(item) for key, item in value.items()}
         case list() | tuple():
             return [marked(item) for item in value]
         case str():

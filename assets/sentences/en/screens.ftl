@@ -26,6 +26,8 @@ consent-optional = up to you
 consent-missing = Please tick this box if you want to take part.
 consent-agree = I take part
 consent-decline = Play without taking part
+consent-more = Read all of it
+consent-less = Show less
 
 ## Age
 
@@ -137,7 +139,6 @@ debrief-continue = Continue
 ## Thanks
 
 thanks-title = Thank you!
-thanks-line = It was lovely to play with you. See you soon!
 thanks-continue = Finish
 thanks-speech =
     .a = Thank you for playing with me. Goodbye!

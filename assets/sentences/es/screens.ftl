@@ -27,6 +27,8 @@ consent-optional = como prefieras
 consent-missing = Si quieres participar, marca esta casilla.
 consent-agree = Participo
 consent-decline = Jugar sin participar
+consent-more = Leer todo
+consent-less = Mostrar menos
 
 ## Age
 
@@ -138,7 +140,6 @@ debrief-continue = Continuar
 ## Thanks
 
 thanks-title = ¡Gracias!
-thanks-line = Ha sido un placer jugar contigo. ¡Hasta pronto!
 thanks-continue = Terminar
 thanks-speech =
     .a = Gracias por jugar conmigo. ¡Hasta la vista!

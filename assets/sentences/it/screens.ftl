@@ -27,6 +27,8 @@ consent-optional = come preferisci
 consent-missing = Se vuoi partecipare, spunta questa casella.
 consent-agree = Partecipo
 consent-decline = Gioco senza partecipare
+consent-more = Leggi tutto
+consent-less = Mostra meno
 
 ## Age
 
@@ -142,7 +144,6 @@ debrief-continue = Continua
 ## Thanks
 
 thanks-title = Grazie!
-thanks-line = È stato bello giocare con te. A presto!
 thanks-continue = Fine
 thanks-speech =
     .a = Grazie per aver giocato con me. Arrivederci!

@@ -4,50 +4,37 @@ import QtQuick
 import Recollect
 import "."
 
-FocusScope {
+PageFrame {
     id: view
 
     required property AboutScreen about
-    required property KioskScreen kiosk
-    required property var words
 
+    title: about.title
+    label: words["about-continue"]
+    onWent: about.proceed()
     // Whatever the last visitor's keyboard was at, the next one's is at the button.
-    onVisibleChanged: go.focus = true
+    onVisibleChanged: way.focus = true
     Keys.onPressed: event => pane.turn(event)
 
-    Column {
-        anchors.centerIn: parent
-        width: Math.min(1000 * Theme.unit, view.width - 4 * Theme.gap)
-        spacing: 2 * Theme.gap
-
-        PlainText {
-            id: title
-            width: parent.width
-            text: view.about.title
-            font { pixelSize: Theme.title; bold: true }
-            wrapMode: Text.Wrap
-            color: Theme.ink
-        }
-        ScrollPane {
-            id: pane
-            width: parent.width
-            room: view.height - title.height - go.height - 8 * Theme.gap
-            more: view.words["scroll-more"]
-            Paragraphs {
-                width: parent.width
-                spacing: Theme.gap
-                texts: view.about.paragraphs
-                size: Theme.body
+    ScrollPane {
+        id: pane
+        y: view.sink(height)
+        width: parent?.width ?? 0
+        room: view.room
+        more: view.words["scroll-more"]
+        spacing: 1.8 * Theme.gap
+        Repeater {
+            model: view.about.lines
+            SignedLine {
+                required property int index
+                required property var modelData
+                width: parent?.width ?? 0
+                text: modelData.text
+                sign: modelData.sign
+                // What it takes of the visitor, by which they decide.
+                strong: index > 0 && index === view.about.lines.length - 1
+                size: Theme.size(36)
             }
-        }
-        WayOn {
-            id: go
-            width: parent.width
-            kiosk: view.kiosk
-            words: view.words
-            label: view.words["about-continue"]
-            focus: true
-            onWent: view.about.proceed()
         }
     }
 }

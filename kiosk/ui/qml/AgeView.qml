@@ -4,47 +4,41 @@ import QtQuick
 import Recollect
 import "."
 
-FocusScope {
+PageFrame {
     id: view
 
     required property AgeScreen age
-    required property KioskScreen kiosk
-    required property var words
 
+    title: age.question
     onVisibleChanged: yes.focus = true
 
     Column {
-        anchors.centerIn: parent
+        y: view.sink(height)
+        width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
-        Line {
-            anchors.horizontalCenter: parent.horizontalCenter
-            room: Math.min(1200 * Theme.unit, view.width - 4 * Theme.gap)
-            text: view.age.question
-            font { pixelSize: Theme.title; bold: true }
-        }
-        Line {
-            anchors.horizontalCenter: parent.horizontalCenter
-            room: Math.min(900 * Theme.unit, view.width - 4 * Theme.gap)
+        PlainText {
+            width: parent.width
             text: view.words["age-line"]
-            font.pixelSize: Theme.body
+            font.pixelSize: Theme.size(36)
+            lineHeight: 1.08
+            wrapMode: Text.Wrap
             color: Theme.faintInk
         }
         Grid {
             id: answers
             // Both are as wide as the longer one needs; side by side, or where that is too wide, one above the other.
-            readonly property real room: view.width - 4 * Theme.gap
-            readonly property real wish: Math.min(room, Math.max(yes.implicitWidth, no.implicitWidth, 280 * Theme.unit))
-            anchors.horizontalCenter: parent.horizontalCenter
-            columns: 2 * wish + spacing <= room ? 2 : 1
-            topPadding: Theme.gap
+            readonly property real wish: Math.min(width, Math.max(yes.implicitWidth, no.implicitWidth, 420 * Theme.unit))
+            width: parent.width
+            columns: 2 * wish + spacing <= width ? 2 : 1
             spacing: 2 * Theme.gap
             BigButton {
                 id: yes
                 objectName: "age-yes"
                 width: answers.wish
+                height: Math.max(implicitHeight, 220 * Theme.unit)
                 words: view.words["age-yes"]
-                font.pixelSize: Theme.heading
+                font.pixelSize: Theme.pageTitle
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -52,16 +46,11 @@ FocusScope {
                 id: no
                 objectName: "age-no"
                 width: answers.wish
+                height: yes.height
                 words: view.words["age-no"]
-                font.pixelSize: Theme.heading
+                font.pixelSize: Theme.pageTitle
                 onClicked: view.age.answer(false)
             }
-        }
-        WayOn {
-            width: Math.min(900 * Theme.unit, view.width - 4 * Theme.gap)
-            anchors.horizontalCenter: parent.horizontalCenter
-            kiosk: view.kiosk
-            words: view.words
         }
     }
 }

@@ -4,24 +4,27 @@ import QtQuick
 import Recollect
 import "."
 
-FocusScope {
+PageFrame {
     id: view
 
     required property IntroductionScreen introduction
     required property AttractScreen attract
-    required property KioskScreen kiosk
-    required property var words
     required property url cardBack
     required property url cardShadow
 
     readonly property int boards: introduction.helped ? 3 : 2
     readonly property bool abreast: width > height
-    readonly property real room: Math.min(view.width - 3 * Theme.gap, (abreast ? 1560 : 960) * Theme.unit)
     // Where the story is, in beats; without motion every board shows its end.
     property int beat: 0
     readonly property bool still: Theme.motion === 0
 
-    onVisibleChanged: beat = 0
+    title: words["introduction-title"]
+    label: words["introduction-continue"]
+    onWent: introduction.proceed()
+    onVisibleChanged: {
+        beat = 0
+        way.focus = true
+    }
     SequentialAnimation {
         loops: Animation.Infinite
         running: view.visible && !view.still
@@ -42,15 +45,15 @@ FocusScope {
         required property bool plays
 
         // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
-        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 6, 150 * Theme.unit,
-            ((view.height - title.height - go.height - 6 * Theme.gap) / view.boards - 2 * pad - 2 * numbers) / 2))
+        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 5, 190 * Theme.unit,
+            ((view.room - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         readonly property real cell: view.abreast
-            ? Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / 3, (view.height - title.height - go.height - telling.height - 11 * Theme.gap) / 2))
+            ? Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / 3, (view.room - telling.height - numbers - 0.6 * Theme.gap - 2 * pad) / 2))
             : small
         readonly property real numbers: 34 * Theme.unit
         readonly property real pad: 0.8 * Theme.gap
 
-        width: view.abreast ? (view.room - (view.boards - 1) * Theme.gap) / view.boards : view.room
+        width: view.abreast ? (view.column - (view.boards - 1) * Theme.gap) / view.boards : view.column
         height: view.abreast ? scenes.tallest : Math.max(board.height + numbers, telling.height) + 2 * pad
         radius: Theme.radius
         color: Theme.white
@@ -105,7 +108,7 @@ FocusScope {
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
             width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
             text: scene.text
-            font { pixelSize: Theme.reading; bold: true }
+            font { pixelSize: Theme.body; bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.ink
@@ -113,59 +116,40 @@ FocusScope {
         readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + pad
     }
 
-    Column {
-        anchors.centerIn: parent
-        spacing: 1.2 * Theme.gap
-
-        Line {
-            id: title
-            room: view.room
-            text: view.words["introduction-title"]
-            font { pixelSize: Theme.title; bold: true }
+    Grid {
+        id: scenes
+        y: view.sink(height)
+        readonly property real tallest: Math.max(turn.wish, match.wish, hint.visible ? hint.wish : 0)
+        columns: view.abreast ? 3 : 1
+        spacing: Theme.gap
+        // Two that differ: turned one after the other, and turned back.
+        Scene {
+            id: turn
+            text: view.words["introduction-turn"]
+            pictures: [0, 1, 2, 3, 0, 1]
+            plays: view.beat < 5
+            up: view.still ? [0, 5] : view.beat === 1 ? [0] : view.beat === 2 || view.beat === 3 ? [0, 5] : []
         }
-        Grid {
-            id: scenes
-            readonly property real tallest: Math.max(turn.wish, match.wish, hint.visible ? hint.wish : 0)
-            columns: view.abreast ? 3 : 1
-            spacing: Theme.gap
-            // Two that differ: turned one after the other, and turned back.
-            Scene {
-                id: turn
-                text: view.words["introduction-turn"]
-                pictures: [0, 1, 2, 3, 0, 1]
-                plays: view.beat < 5
-                up: view.still ? [0, 5] : view.beat === 1 ? [0] : view.beat === 2 || view.beat === 3 ? [0, 5] : []
-            }
-            // Two alike: they stay.
-            Scene {
-                id: match
-                text: view.words["introduction-match"]
-                pictures: [1, 2, 3, 0, 2, 3]
-                plays: view.beat >= 5 && view.beat < 9
-                found: view.still || view.beat >= 7
-                up: view.still || view.beat >= 7 ? [1, 4] : view.beat === 6 ? [1] : []
-            }
-            // What a hint marks: a column, a row, a card.
-            Scene {
-                id: hint
-                visible: view.introduction.helped
-                text: view.words["introduction-help"]
-                pictures: [3, 0, 4, 2, 4, 1]
-                plays: view.beat >= 9
-                markColumn: view.introduction.points && (view.still || view.beat === 10 || view.beat === 11 || view.beat === 14) ? 2 : -1
-                markRow: view.introduction.points && !view.still && (view.beat === 12 || view.beat === 13 || view.beat === 14) ? 0 : -1
-                up: view.still || view.beat === 9 || view.beat > 9 && view.beat < 15 ? [4] : view.beat === 15 ? [4, 2] : []
-                found: view.beat === 15
-            }
+        // Two alike: they stay.
+        Scene {
+            id: match
+            text: view.words["introduction-match"]
+            pictures: [1, 2, 3, 0, 2, 3]
+            plays: view.beat >= 5 && view.beat < 9
+            found: view.still || view.beat >= 7
+            up: view.still || view.beat >= 7 ? [1, 4] : view.beat === 6 ? [1] : []
         }
-        WayOn {
-            id: go
-            width: view.room
-            kiosk: view.kiosk
-            words: view.words
-            label: view.words["introduction-continue"]
-            focus: true
-            onWent: view.introduction.proceed()
+        // What a hint marks: a column, a row, a card.
+        Scene {
+            id: hint
+            visible: view.introduction.helped
+            text: view.words["introduction-help"]
+            pictures: [3, 0, 4, 2, 4, 1]
+            plays: view.beat >= 9
+            markColumn: view.introduction.points && (view.still || view.beat === 10 || view.beat === 11 || view.beat === 14) ? 2 : -1
+            markRow: view.introduction.points && !view.still && (view.beat === 12 || view.beat === 13 || view.beat === 14) ? 0 : -1
+            up: view.still || view.beat === 9 || view.beat > 9 && view.beat < 15 ? [4] : view.beat === 15 ? [4, 2] : []
+            found: view.beat === 15
         }
     }
 }

@@ -188,6 +188,7 @@ Window {
             visible: root.kiosk.screen === "thanks"
             focus: visible && root.kiosk.bare
             thanks: root.thanks
+            result: root.result
             attract: root.attract
             kiosk: root.kiosk
             words: root.kiosk.words

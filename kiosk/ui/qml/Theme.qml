@@ -38,6 +38,7 @@ QtObject {
     readonly property real held: highContrast ? 1 : 0.72
 
     readonly property real title: size(76)
+    readonly property real pageTitle: size(60)
     readonly property real figure: size(64)
     readonly property real heading: size(46)
     readonly property real body: size(32)

@@ -27,11 +27,17 @@ Choosable {
             radius: Theme.radius + reach
         }
     }
-    contentItem: Row {
-        spacing: Theme.gap
+    contentItem: Item {
+        id: parts
+        // What the box is, at its right; where that leaves the words little room, below them.
+        readonly property real room: box.availableWidth - mark.width - Theme.gap
+        readonly property bool beside: tag.visible
+        implicitHeight: Math.max(mark.height, told.height)
+        implicitWidth: mark.width
         Rectangle {
             id: mark
-            anchors.verticalCenter: parent.verticalCenter
+            x: Theme.across(0, width, parts.width)
+            y: (parts.height - height) / 2
             width: 48 * Theme.unit
             height: width
             radius: 10 * Theme.unit
@@ -53,8 +59,10 @@ Choosable {
             }
         }
         Column {
-            anchors.verticalCenter: parent.verticalCenter
-            width: box.availableWidth - mark.width - parent.spacing
+            id: told
+            x: Theme.across(mark.width + Theme.gap, width, parts.width)
+            y: (parts.height - height) / 2
+            width: parts.room - (parts.beside ? tag.implicitWidth + Theme.gap : 0)
             Text {
                 textFormat: Text.PlainText
                 width: parent.width
@@ -67,11 +75,21 @@ Choosable {
                 textFormat: Text.PlainText
                 width: parent.width
                 visible: text !== ""
-                text: box.warning || box.note
+                text: box.warning || (parts.beside ? "" : box.note)
                 font { pixelSize: Theme.small; bold: box.warning !== "" }
                 wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
             }
+        }
+        Text {
+            id: tag
+            visible: box.note !== "" && box.warning === "" && implicitWidth + Theme.gap < 0.4 * parts.room
+            textFormat: Text.PlainText
+            x: Theme.across(parts.width - width, width, parts.width)
+            y: (parts.height - height) / 2
+            text: box.note
+            font.pixelSize: Theme.small
+            color: Theme.faintInk
         }
     }
 }

@@ -1,4 +1,5 @@
-// The way on at the bottom right of a page, or in its middle, and at its left the way back, where there is one.
+// The way on at the bottom right of a page, another one beside it where there are two, and at the left the way back,
+// where there is one.
 import QtQuick
 import Recollect
 import "."
@@ -11,25 +12,51 @@ FocusScope {
     // What the way on says; with no words there is none but the page's own buttons.
     property string label: ""
     property bool quiet: false
-    property bool centred: false
+    // What the other way on says, such as a no; and what the two are called.
+    property string other: ""
+    property string name: "continue"
+    property string otherName: ""
     readonly property alias button: go
+    // Where there is room between the way back and the way on.
+    readonly property real free: back.visible ? back.x + back.width : 0
+    readonly property real freeRoom: beside ? go.x - free : 0
     signal went()
+    signal turnedDown()
 
-    readonly property bool beside: (centred ? 2 : 1) * (back.implicitWidth + Theme.gap) + go.implicitWidth <= width
+    readonly property real wish: (go.visible ? go.implicitWidth : 0) + (no.visible ? no.implicitWidth + Theme.gap : 0)
+        + (back.visible ? back.implicitWidth + Theme.gap : 0)
+    readonly property bool beside: wish <= width
+    readonly property real step: 0.5 * Theme.gap
+    readonly property real tallest: Math.max(go.visible ? go.height : 0, back.visible ? back.height : 0)
 
-    height: label === "" ? (back.visible ? back.height : 0)
-                         : back.visible && !beside ? go.height + 0.5 * Theme.gap + back.height : go.height
+    // Where there are too many for one row: whether the way back stands beside the other one.
+    readonly property bool paired: no.visible && back.implicitWidth + Theme.gap + no.implicitWidth <= width
+
+    height: beside ? tallest : (go.visible ? go.height : 0) + (no.visible ? no.height + step : 0)
+                               + (back.visible && !paired ? back.height + step : 0)
 
     BigButton {
         id: go
-        objectName: "continue"
+        objectName: ways.name
         visible: ways.label !== ""
         most: ways.width
-        x: ways.centred ? (ways.width - width) / 2 : Theme.across(ways.width - width, width, ways.width)
+        x: Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
         words: ways.label
         focus: true
         onClicked: ways.went()
+    }
+    BigButton {
+        id: no
+        objectName: ways.otherName
+        visible: ways.other !== ""
+        most: ways.width
+        x: Theme.across(ways.width - width - (ways.beside ? go.width + Theme.gap : 0), width, ways.width)
+        y: ways.beside ? 0 : go.height + ways.step
+        quiet: true
+        horizontalPadding: 44 * Theme.unit
+        words: ways.other
+        onClicked: ways.turnedDown()
     }
     BigButton {
         id: back
@@ -37,7 +64,7 @@ FocusScope {
         visible: ways.kiosk.goesBack
         most: ways.width
         x: Theme.across(0, width, ways.width)
-        y: ways.label === "" ? 0 : ways.beside ? (go.height - height) / 2 : go.height + 0.5 * Theme.gap
+        y: ways.beside ? (ways.tallest - height) / 2 : ways.paired ? no.y + (no.height - height) / 2 : ways.height - height
         quiet: true
         words: ways.words["control-back"]
         verticalPadding: 18 * Theme.unit

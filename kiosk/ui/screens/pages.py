@@ -25,6 +25,10 @@ QUIET_MODULES = 4
 """The white frame that a QR code must have to be found, in its own squares."""
 
 
+def _lines(page: Page | None) -> list[dict[str, str]]:
+    return [] if page is None else [{"text": text, "sign": sign} for text, sign in page.lines]
+
+
 @QmlElement
 class ReadingScreen(QObject):
     """Something to read, with one way on.
@@ -70,6 +74,11 @@ class PageScreen(ReadingScreen):
     def paragraphs(self) -> list[str]:
         """Return the paragraphs, in their order."""
         return [] if self._page is None else list(self._page.paragraphs)
+
+    @Property(list, notify=changed)
+    def lines(self) -> list[dict[str, str]]:
+        """Return the lines, each with its text and the name of its drawing."""
+        return _lines(self._page)
 
 
 @QmlElement
@@ -331,6 +340,11 @@ class ConsentScreen(QObject):
     def paragraphs(self) -> list[str]:
         """Return the paragraphs, in their order."""
         return [] if self._page is None else list(self._page.paragraphs)
+
+    @Property(list, notify=changed)
+    def points(self) -> list[dict[str, str]]:
+        """Return what stands for the paragraphs at first, each with its drawing; empty if they stand for themselves."""
+        return _lines(self._page) if self._page is not None and self._page.points else []
 
     @Property(list, notify=changed)
     def purposes(self) -> list[dict[str, Any]]:

@@ -1,0 +1,65 @@
+// The frame of every page that is read or filled in: its title at the top, its content below that, and at the bottom the
+// way back and the way on. They stand at the same places on all pages.
+import QtQuick
+import Recollect
+import "."
+
+FocusScope {
+    id: frame
+
+    required property KioskScreen kiosk
+    required property var words
+    property string title: ""
+    // What the way on says; see WayOn.
+    property alias label: ways.label
+    property alias quiet: ways.quiet
+    property alias other: ways.other
+    property alias way: ways
+    // How far all of it is moved up, for a keyboard at the bottom.
+    property real lift: 0
+    // What stands at the end of the title's line, if anything.
+    property Item beside: null
+    default property alias content: body.data
+    signal went()
+    signal turnedDown()
+
+    readonly property real column: Math.min((width > 1600 * Theme.unit ? 1340 : 1240) * Theme.unit, width - 4 * Theme.gap)
+    // The height that there is for the content.
+    readonly property real room: ways.y - body.y - Theme.gap
+    readonly property real above: 2 * Theme.gap
+    readonly property real below: 1.6 * Theme.gap
+
+    // How far below the title a content of this height stands: a little lower where there is much room.
+    function sink(tall: real): real {
+        return Math.max(0, Math.min((room - tall) / 3, (width < height ? 8 : 2.5) * Theme.gap))
+    }
+
+    PlainText {
+        id: heading
+        x: body.x
+        y: frame.above - frame.lift
+        width: frame.column - (frame.beside?.visible ? frame.beside.width + Theme.gap : 0)
+        visible: text !== ""
+        text: frame.title
+        font { pixelSize: Theme.pageTitle; bold: true }
+        wrapMode: Text.Wrap
+        color: Theme.ink
+    }
+    Item {
+        id: body
+        x: (frame.width - width) / 2
+        y: heading.y + (heading.visible ? Math.max(heading.height, frame.beside?.visible ? frame.beside.height : 0) + Theme.gap : 0)
+        width: frame.column
+        height: frame.room
+    }
+    WayOn {
+        id: ways
+        x: body.x
+        y: frame.height - height - frame.below - frame.lift
+        width: frame.column
+        kiosk: frame.kiosk
+        words: frame.words
+        onWent: frame.went()
+        onTurnedDown: frame.turnedDown()
+    }
+}

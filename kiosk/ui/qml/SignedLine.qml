@@ -1,0 +1,70 @@
+// A line to be read, with a drawing at its beginning if it has one.
+import QtQuick
+import QtQuick.Shapes
+import "."
+
+Item {
+    id: line
+
+    required property string text
+    // The name of a drawing; without one the text has all of the width.
+    property string sign: ""
+    property bool strong: false
+    property real size: Theme.body
+
+    // On a square of 24.
+    readonly property var drawings: ({
+        helper: "M6 11 A6 6 0 0 1 18 11 V14 A6 6 0 0 1 6 14 Z M9.7 11.5 H9.8 M14.2 11.5 H14.3 M9.7 15 C11 16.3 13 16.3 14.3 15 M12 5 V2.5",
+        cards: "M5 3.5 H12.5 Q14 3.5 14 5 V14.5 Q14 16 12.5 16 H5 Q3.5 16 3.5 14.5 V5 Q3.5 3.5 5 3.5 Z "
+            + "M17.5 8 H19 Q20.5 8 20.5 9.5 V19 Q20.5 20.5 19 20.5 H11.5 Q10 20.5 10 19.3",
+        clock: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M12 7.5 V12 L15 14",
+        questions: "M4 4.5 H20 V16 H12.5 L8 20.5 V16 H4 Z M8.5 10.2 H8.6 M12 10.2 H12.1 M15.5 10.2 H15.6",
+        no_name: "M12 4.5 A3.3 3.3 0 0 1 12 11.1 A3.3 3.3 0 0 1 12 4.5 M5.5 20 C6 16 9 14.2 12 14.2 C15 14.2 18 16 18.5 20 M3.5 3.5 L20.5 20.5",
+        delete: "M4.5 7 H19.5 M9.5 7 V4 H14.5 V7 M6.8 7 L7.6 20.5 H16.4 L17.2 7 M10.3 10.5 V17 M13.7 10.5 V17",
+        play: "M8 4.5 L19.5 12 L8 19.5 Z",
+        lock: "M5.5 11 H18.5 V20.5 H5.5 Z M8.5 11 V7.5 A3.5 3.5 0 0 1 15.5 7.5 V11 M12 15 V16.5",
+        compare: "M3.5 6 H10 V18 H3.5 Z M14 6 H20.5 V18 H14 Z M12 3 V21",
+        letter: "M3.5 6 H20.5 V18 H3.5 Z M4 6.5 L12 13 L20 6.5",
+        camera: "M3.5 8 H8 L9.5 5 H14.5 L16 8 H20.5 V19 H3.5 Z M12 10 A3.4 3.4 0 0 1 12 16.8 A3.4 3.4 0 0 1 12 10"
+    })
+    readonly property real badge: 2.5 * size
+
+    height: Math.max(words.height, mark.visible ? mark.height : 0)
+
+    Rectangle {
+        id: mark
+        visible: line.sign !== ""
+        x: Theme.across(0, width, line.width)
+        y: Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
+        width: line.badge
+        height: width
+        radius: width / 2
+        color: Theme.sand
+        Shape {
+            anchors.centerIn: parent
+            width: 24
+            height: 24
+            scale: line.badge / 40
+            ShapePath {
+                strokeColor: Theme.sea
+                strokeWidth: 2
+                capStyle: ShapePath.RoundCap
+                joinStyle: ShapePath.RoundJoin
+                fillColor: "transparent"
+                PathSvg { path: line.drawings[line.sign] ?? "" }
+            }
+        }
+    }
+    PlainText {
+        id: words
+        readonly property real indent: mark.visible ? mark.width + Theme.gap : 0
+        x: Theme.across(indent, width, line.width)
+        y: mark.visible ? Math.max(0, (mark.height - height) / 2) : 0
+        width: line.width - indent
+        text: line.text
+        font { pixelSize: line.size; bold: line.strong }
+        lineHeight: 1.08
+        wrapMode: Text.Wrap
+        color: Theme.ink
+    }
+}
