@@ -115,7 +115,10 @@ def _is_astray(window: QQuickWindow, item: QQuickItem, side: str) -> bool:
     """Whether the middle of an item is not on its side: screens where the board is, the assistant on the other."""
     across = place(item).center().x() / window.width()
     from_the_board = across if side == "left" else 1 - across
-    return (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel", "Corner")
+    # The keys of a number stand in the assistant's place, and those of letters below the page.
+    return not lies_in(item, "ScreenKeyboard") and (
+        (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel", "Corner")
+    )
 
 
 def _name(item: QQuickItem) -> str:

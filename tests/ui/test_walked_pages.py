@@ -43,7 +43,7 @@ def test_pages_that_fit_are_passed_over_in_silence_and_no_robot_is_looked_for(tm
 
 @pytest.mark.usefixtures("_one_size")
 def test_a_page_that_does_not_fit_and_cannot_be_left_is_told_with_language_and_window(tmp_path: Path) -> None:
-    found = walked(tmp_path, f'[texts.en]\nintroduction-title = "{"Unbreakable" * 30}"\n')
+    found = walked(tmp_path, f'[texts.en]\nintroduction-continue = "{"Unbreakable" * 300}"\n')
     place = "in 'en', on a window of 1280 x 720"
     (fault,) = [each for is_fault, each in found if is_fault]
     assert fault == f"{place}, a session cannot go on: 'continue' lies outside the window, on the screen introduction"

@@ -102,6 +102,7 @@ result-speech-many =
 
 ## Questions
 
+form-title = A few questions
 form-progress = Page { $number } of { $all }
 form-next = Next
 form-skip = Go on without it

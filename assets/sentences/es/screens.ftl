@@ -103,6 +103,7 @@ result-speech-many =
 
 ## Questions
 
+form-title = Algunas preguntas
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
 form-skip = Seguir sin responder

@@ -107,6 +107,7 @@ result-speech-many =
 
 ## Questions
 
+form-title = Alcune domande
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
 form-skip = Continua senza

@@ -5,24 +5,30 @@ import Recollect
 import "."
 import "form"
 
-FocusScope {
+PageFrame {
     id: view
 
     required property FormScreen form
-    required property KioskScreen kiosk
-    required property var words
 
     readonly property bool alone: form.items.length === 1
-    readonly property real lift: {
+    readonly property bool dense: form.items.length > 4
+    // Whether there is little height for what stands on the page.
+    readonly property bool tight: room < 720 * Theme.unit
+
+    title: words["form-title"]
+    quiet: form.skips
+    label: words[form.skips ? "form-skip" : "form-next"]
+    beside: progress
+    onWent: form.proceed()
+    lift: {
         if (keyboard.field === null || keyboard.numbers)
             return 0
-        const above = view.height - keyboard.height - Theme.gap
-        const top = keyboard.field.mapToItem(group, 0, 0).y + group.y
-        const needed = Math.max(0, top + keyboard.field.height - above)
+        const above = height - keyboard.height - Theme.gap
+        const at = begin + home.y + keyboard.field.mapToItem(home, 0, 0).y
+        const needed = Math.max(0, at + keyboard.field.height - above)
         // The way on as well, as far as the field stays in view.
-        return Math.max(needed, Math.min(Math.max(0, top - Theme.gap), group.y + group.height - above))
+        return Math.max(needed, Math.min(Math.max(0, at - Theme.gap), foot + way.height - above))
     }
-    readonly property bool dense: form.items.length > 4
 
     // One press of a digit answers the scale that has the keyboard, or else the first that is not answered, and goes on
     // to the next.
@@ -40,7 +46,7 @@ FocusScope {
         if (next)
             next.take()
         else
-            go.button.forceActiveFocus(Qt.TabFocusReason)
+            way.button.forceActiveFocus(Qt.TabFocusReason)
         view.form.rate(view.form.items[at].id, digit)
         return true
     }
@@ -52,80 +58,117 @@ FocusScope {
             pane.turn(event)
     }
 
+    // Where the keys of a number stand: in the helper's place, in the margin, or below everything; they cover no answer
+    // unless there is no such place.
+    function padPlace(wide: real, tall: real): point {
+        const before = parent.x, after = Window.width - before - width
+        const beside = keyboard.field === null ? 0
+            : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
+        if (Math.max(before, after) >= wide)
+            return Qt.point(after >= wide ? width + (after - wide) / 2 : -(before + wide) / 2, 5 * Theme.gap)
+        if ((width - column) / 2 >= wide)
+            return Qt.point(width - wide - ((width - column) / 2 - wide) / 2, beside)
+        if (Window.height - height >= tall)
+            return Qt.point((width - wide) / 2, height + (Window.height - height - tall) / 2)
+        const free = foot - tall - Theme.gap
+        return free >= begin + home.y + home.height ? Qt.point((width - wide) / 2, free) : Qt.point(width - wide, beside)
+    }
+
+    // To tap beside everything is to have done with typing.
     Item {
-        id: place
         objectName: "ground"
+        parent: view
+        z: -1
         anchors.fill: parent
-
-        // To tap beside everything is to have done with typing.
-        TapHandler { onTapped: go.button.forceActiveFocus() }
-
-        Column {
-            id: group
-            anchors.centerIn: parent
-            width: Math.min((view.alone ? 1100 : view.width > 1600 * Theme.unit ? 1500 : 1220) * Theme.unit, parent.width - 3 * Theme.gap)
-            // The keys move nothing, unless they would cover what is typed into.
-            transform: Translate { y: -view.lift }
-            spacing: (view.dense ? 0.8 : view.alone ? 2 : 0.9) * Theme.gap
-
-            PlainText {
-                id: progress
-                anchors.horizontalCenter: parent.horizontalCenter
-                visible: text !== ""
-                text: view.form.progress
-                font.pixelSize: Theme.small
-                color: Theme.faintInk
-            }
-            FocusScope {
-                id: home
-                width: parent.width
-                height: pane.height
-                // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
-                focus: true
-                Accessible.role: Accessible.Form
-                Accessible.name: view.form.progress || (view.form.items[0]?.text ?? "")
-                ScrollPane {
-                    id: pane
-                    width: parent.width
-                    room: place.height - (progress.visible ? progress.height + group.spacing : 0) - go.height - group.spacing - 2 * Theme.gap
-                    more: view.words["scroll-more"]
-                    spacing: (view.dense ? 10 : 14) * Theme.unit
-                    Repeater {
-                        id: boxes
-                        model: view.form.items
-                        FormItem {
-                            required property int index
-                            required property var modelData
-                            width: parent?.width ?? 0
-                            item: modelData
-                            form: view.form
-                            kiosk: view.kiosk
-                            words: view.words
-                            alone: view.alone
-                            dense: view.dense
-                            onEntered: field => keyboard.field = field
-                        }
-                    }
+        TapHandler { onTapped: view.way.button.forceActiveFocus() }
+    }
+    // Which page this is: a dot for each, or where there are many, in words.
+    Item {
+        id: progress
+        readonly property bool dotted: view.form.pages <= 12
+        visible: view.form.progress !== ""
+        width: dotted ? dots.width : told.width
+        height: Math.max(dots.height, told.height)
+        x: Theme.across(Math.min(view.titleWidth + 1.6 * Theme.gap, view.column - width), width, view.column)
+        // In the title's line.
+        y: -height - Theme.gap - 0.5 * (Theme.pageTitle * 1.36 - height)
+        Accessible.role: Accessible.StaticText
+        Accessible.name: view.form.progress
+        Row {
+            id: dots
+            anchors.verticalCenter: parent.verticalCenter
+            visible: progress.dotted
+            spacing: 10 * Theme.unit
+            Repeater {
+                model: progress.dotted ? view.form.pages : 0
+                Rectangle {
+                    required property int index
+                    width: (index + 1 === view.form.page ? 42 : 18) * Theme.unit
+                    height: 18 * Theme.unit
+                    radius: height / 2
+                    color: index < view.form.page ? Theme.sea : Theme.paper
+                    border { color: Theme.sea; width: 2 * Theme.unit }
                 }
             }
-            WayOn {
-                id: go
-                width: parent.width
-                kiosk: view.kiosk
-                words: view.words
-                quiet: view.form.skips
-                label: view.words[quiet ? "form-skip" : "form-next"]
-                onWent: view.form.proceed()
-                onActiveFocusChanged: if (activeFocus) keyboard.field = null
+        }
+        Text {
+            id: told
+            textFormat: Text.PlainText
+            visible: !progress.dotted
+            text: view.form.progress
+            font.pixelSize: Theme.small
+            color: Theme.faintInk
+            Accessible.ignored: true
+        }
+    }
+    FocusScope {
+        id: home
+        y: view.alone ? view.sink(height) : 0
+        width: parent?.width ?? 0
+        height: pane.height
+        // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
+        focus: true
+        Accessible.role: Accessible.Form
+        Accessible.name: view.form.progress || (view.form.items[0]?.text ?? "")
+        ScrollPane {
+            id: pane
+            width: parent.width
+            room: view.room
+            more: view.words["scroll-more"]
+            spacing: (view.dense || view.tight ? 8 : 12) * Theme.unit
+            Repeater {
+                id: boxes
+                model: view.form.items
+                FormItem {
+                    required property int index
+                    required property var modelData
+                    width: parent?.width ?? 0
+                    item: modelData
+                    form: view.form
+                    kiosk: view.kiosk
+                    words: view.words
+                    alone: view.alone
+                    dense: view.dense
+                    tight: view.tight
+                    onEntered: field => keyboard.field = field
+                }
             }
         }
     }
     ScreenKeyboard {
         id: keyboard
+        parent: view
         form: view.form
-        wayOn: group.y + group.height - go.height
+        place: view.padPlace(width, height)
         words: view.words
-        onDone: go.button.forceActiveFocus(Qt.MouseFocusReason)
+        onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)
+    }
+    Connections {
+        target: view.way
+        function onActiveFocusChanged() {
+            if (view.way.activeFocus)
+                keyboard.field = null
+        }
     }
     Connections {
         target: view.form

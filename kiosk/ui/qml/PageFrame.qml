@@ -23,9 +23,13 @@ FocusScope {
     signal went()
     signal turnedDown()
 
-    readonly property real column: Math.min((width > 1600 * Theme.unit ? 1340 : 1240) * Theme.unit, width - 4 * Theme.gap)
+    readonly property real column: Math.min((width > 1600 * Theme.unit ? 1300 : 1240) * Theme.unit, width - 4 * Theme.gap)
     // The height that there is for the content.
-    readonly property real room: ways.y - body.y - Theme.gap
+    readonly property real room: foot - begin - Theme.gap
+    // Where the content begins and the ways are, while nothing is moved up.
+    readonly property alias begin: body.y
+    readonly property alias foot: ways.y
+    readonly property real titleWidth: heading.contentWidth
     readonly property real above: 2 * Theme.gap
     readonly property real below: 1.6 * Theme.gap
 
@@ -37,7 +41,8 @@ FocusScope {
     PlainText {
         id: heading
         x: body.x
-        y: frame.above - frame.lift
+        y: frame.above
+        transform: Translate { y: -frame.lift }
         width: frame.column - (frame.beside?.visible ? frame.beside.width + Theme.gap : 0)
         visible: text !== ""
         text: frame.title
@@ -51,11 +56,13 @@ FocusScope {
         y: heading.y + (heading.visible ? Math.max(heading.height, frame.beside?.visible ? frame.beside.height : 0) + Theme.gap : 0)
         width: frame.column
         height: frame.room
+        transform: Translate { y: -frame.lift }
     }
     WayOn {
         id: ways
         x: body.x
-        y: frame.height - height - frame.below - frame.lift
+        y: frame.height - height - frame.below
+        transform: Translate { y: -frame.lift }
         width: frame.column
         kiosk: frame.kiosk
         words: frame.words

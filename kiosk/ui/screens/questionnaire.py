@@ -160,6 +160,16 @@ class FormScreen(QObject):
             return ""
         return self._catalogue.text("form-progress", number=self._number, all=self._of)
 
+    @Property(int, notify=changed)
+    def page(self) -> int:
+        """Which page this is, from 1."""
+        return self._number
+
+    @Property(int, notify=changed)
+    def pages(self) -> int:
+        """How many pages the form has."""
+        return self._of
+
     @Property("QVariantMap", notify=marked)  # type: ignore[arg-type]  # the stubs know no names of Qt's types
     def answers(self) -> dict[str, Any]:
         """Return the chosen answers, by their items."""

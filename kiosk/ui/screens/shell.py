@@ -37,6 +37,7 @@ FIXED = (
     "result-hints-label",
     "result-line",
     "result-continue",
+    "form-title",
     "form-next",
     "form-not-applicable",
     "form-skip",

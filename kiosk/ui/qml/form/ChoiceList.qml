@@ -13,6 +13,7 @@ Flow {
     required property bool several
     required property bool alone
     required property bool dense
+    required property real tall         // how high an option is at least
     signal picked(string option)
 
     readonly property bool stacked: alone && options.length <= 6
@@ -50,6 +51,7 @@ Flow {
             on: list.chosen.includes(modelData.id)
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
+            height: Math.max(implicitHeight, list.tall)
             width: list.stacked ? list.width : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.alone ? Theme.body : Theme.reading

@@ -13,12 +13,13 @@ Rectangle {
     required property var words
     required property bool alone
     required property bool dense
+    required property bool tight        // whether there is little height for the page
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (dense ? 12 : 20) * Theme.unit
+    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : form.items.length > 3 ? 18 : 16) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -58,19 +59,16 @@ Rectangle {
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
-        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 12) * Theme.unit
+        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 8) * Theme.unit
 
         PlainText {
-            x: (parent.width - width) / 2
-            // A page of text is as narrow as it can be, and stands in the middle as a whole.
-            width: box.item.kind === "page" ? Math.min(implicitWidth, parent.width) : parent.width
+            width: parent.width
             text: box.item.text
             font {
-                pixelSize: box.item.kind === "page" ? Theme.body : box.alone ? Theme.heading : box.dense ? Theme.reading : Theme.body
+                pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading : box.dense ? Theme.reading : Theme.body
                 bold: box.item.kind !== "page"
             }
             lineHeight: box.item.kind === "page" ? 1.15 : 1
-            horizontalAlignment: box.alone && box.item.kind !== "page" ? Text.AlignHCenter : Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.ink
         }
@@ -79,14 +77,13 @@ Rectangle {
             visible: box.missed
             text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
                 : box.words[box.item.required ? "form-missing" : "form-skipped"]
-            horizontalAlignment: box.alone ? Text.AlignHCenter : Text.AlignLeft
             font { pixelSize: Theme.small; bold: true }
             wrapMode: Text.Wrap
             color: Theme.deepAmber
         }
         Loader {
             id: way
-            x: box.alone ? (parent.width - width) / 2 : Theme.across(0, width, parent.width)
+            x: Theme.across(0, width, parent.width)
             active: (box.ways[box.item.kind] ?? null) !== null
             visible: active
             sourceComponent: box.ways[box.item.kind] ?? null
@@ -107,7 +104,7 @@ Rectangle {
             id: nothing
             objectName: `not-applicable-${box.item.id}`
             visible: box.item.exempts
-            anchors.horizontalCenter: parent.horizontalCenter
+            x: Theme.across(0, width, parent.width)
             on: box.form.exempt.includes(box.item.id)
             words: box.words["form-not-applicable"]
             font.pixelSize: Theme.small
@@ -163,6 +160,7 @@ Rectangle {
             value: box.answer ?? 0
             alone: box.alone
             dense: box.dense
+            tight: box.tight
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }
@@ -194,6 +192,7 @@ Rectangle {
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
             alone: box.alone
             dense: box.form.items.length > 3
+            tall: (box.tight || box.dense ? 62 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

@@ -15,38 +15,47 @@ Item {
     required property int value         // the chosen point, 0 for none
     required property bool alone        // whether the page belongs to it
     required property bool dense
+    required property bool tight
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : dense ? 58 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : dense ? 58 : tight ? 66 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
-    readonly property real gap: size * (pictured ? 0.25 : alone ? 0.25 : 0.42)
-    readonly property real span: points * size + (points - 1) * gap
     // The ends stand beside the points, where there is room for that, and else below them.
-    readonly property real beside: (width - span) / 2 - Theme.gap
-    readonly property bool below: alone || beside < 210 * Theme.unit * Theme.textSize
+    readonly property real most: 250 * Theme.unit * Theme.textSize
+    readonly property bool roomy: lowest.implicitWidth + highest.implicitWidth + 2 * Theme.gap + points * size + least <= width
+    readonly property real leftRoom: roomy ? lowest.implicitWidth : Math.min(lowest.implicitWidth, most)
+    readonly property real rightRoom: roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
+    readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
+    readonly property real least: 0.42 * size * (points - 1)
+    readonly property bool below: alone || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
+    readonly property real gap: pictured ? 0.4 * size : alone ? 0.25 * size
+        : Math.min(0.9 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
+    readonly property real span: points * size + (points - 1) * gap
 
     readonly property real words: Math.max(lowest.height, highest.height)
+    // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
+    readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
     height: below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
 
+    // Under the first point; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
-        x: Theme.across(scale.below ? scale.width / 2 - Theme.gap - width : 0, width, scale.width)
+        x: Theme.across(0, width, scale.width)
         y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
-        // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
-        width: scale.below ? Math.max(scale.span / 2, Math.min(scale.width / 2, 280 * Theme.unit * Theme.textSize)) - Theme.gap : scale.beside
+        width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
         color: Theme.faintInk
     }
     PlainText {
         id: highest
-        x: Theme.across(scale.below ? scale.width / 2 + Theme.gap : scale.width - width, width, scale.width)
+        readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
+        x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
         y: scale.below ? lowest.y : (scale.height - height) / 2
-        width: lowest.width
+        width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
@@ -55,7 +64,7 @@ Item {
     }
     Row {
         id: row
-        anchors.horizontalCenter: parent.horizontalCenter
+        x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {

@@ -3,6 +3,7 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
+import QtQuick.Shapes
 import Recollect
 import ".."
 
@@ -12,8 +13,8 @@ Rectangle {
     property TypedField field: null
     required property FormScreen form
     required property var words
-    // Where the way on is, which a number's keys leave free.
-    property real wayOn: Infinity
+    // Where a number's keys stand.
+    required property point place
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -23,19 +24,17 @@ Rectangle {
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    readonly property var rows: numbers ? ["123", "456", "789", field?.minus ? "-0" : "0"] : form.keys[shown]
+    readonly property var rows: numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
-    readonly property real keyWidth: numbers ? 84 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? 72 : 60) * Theme.unit
-    // Where the field is, to stand beside it.
-    readonly property real beside: field === null ? 0 : field.mapToItem(parent, 0, field.height / 2).y - height / 2
+    readonly property real keyWidth: numbers ? 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? 68 : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
-    x: Theme.across(parent.width - width, width, parent.width)
-    y: numbers ? Math.max(0, Math.min(parent.height - height, wayOn - height - Theme.gap, beside)) : parent.height - height
+    x: numbers ? place.x : 0
+    y: numbers ? place.y : parent.height - height
     radius: numbers ? Theme.radius : 0
     color: Theme.sand
     visible: field !== null
@@ -52,16 +51,19 @@ Rectangle {
         id: key
         required property string words
         property bool pressedIn: false
+        // Whether it has the drawing of a key that deletes instead of its word.
+        property bool drawn: false
         Accessible.name: words
+        Accessible.ignored: opacity === 0
         focusPolicy: Qt.NoFocus
         autoRepeat: objectName === "key-delete"
-        width: Math.max(keyboard.keyWidth, implicitWidth)
+        width: drawn || keyboard.numbers ? keyboard.keyWidth : Math.max(keyboard.keyWidth, implicitWidth)
         height: keyboard.keyHeight
         horizontalPadding: (keyboard.longest > 11 && words.length === 1 ? 2 : 14) * Theme.unit
         scale: down ? 0.94 : 1
         contentItem: Text {
             textFormat: Text.PlainText
-            text: key.words
+            text: key.drawn ? "" : key.words
             font { pixelSize: Math.min(Theme.body, 0.56 * keyboard.keyHeight); bold: key.pressedIn }
             color: key.pressedIn ? Theme.white : Theme.ink
             horizontalAlignment: Text.AlignHCenter
@@ -71,6 +73,21 @@ Rectangle {
             radius: 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
+            Shape {
+                visible: key.drawn
+                anchors.centerIn: parent
+                width: 24
+                height: 24
+                scale: 1.5 * Theme.unit
+                ShapePath {
+                    strokeColor: Theme.ink
+                    strokeWidth: 2
+                    capStyle: ShapePath.RoundCap
+                    joinStyle: ShapePath.RoundJoin
+                    fillColor: "transparent"
+                    PathSvg { path: "M8 5 H21 V19 H8 L2.5 12 Z M11.5 9 L17 15 M17 9 L11.5 15" }
+                }
+            }
         }
     }
     component LayerKey: ScreenKey {
@@ -99,9 +116,18 @@ Rectangle {
                     model: Array.from(row.modelData)
                     ScreenKey {
                         required property string modelData
-                        objectName: "key-" + modelData
-                        words: keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
+                        readonly property bool wipes: modelData === "⌫"
+                        objectName: wipes ? "key-delete" : "key-" + modelData
+                        // An empty place.
+                        opacity: modelData === " " ? 0 : 1
+                        enabled: opacity > 0
+                        drawn: wipes
+                        words: wipes ? keyboard.words["keyboard-delete"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
                         onClicked: {
+                            if (wipes) {
+                                keyboard.field.wipe()
+                                return
+                            }
                             keyboard.field.type(keyboard.numbers ? modelData : words)
                             keyboard.capitals = false
                         }
@@ -154,8 +180,8 @@ Rectangle {
                 onClicked: keyboard.field.type(".")
             }
             ScreenKey {
+                visible: !keyboard.numbers
                 objectName: "key-delete"
-                width: keyboard.numbers ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
                 words: keyboard.words["keyboard-delete"]
                 onClicked: keyboard.field.wipe()
             }

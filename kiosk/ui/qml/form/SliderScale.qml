@@ -19,8 +19,11 @@ Item {
     required property bool alone
     signal chosen(int value)
 
-    readonly property real beside: 230 * Theme.unit * Theme.textSize
-    readonly property bool below: alone || width < 4 * beside
+    readonly property real most: 250 * Theme.unit * Theme.textSize
+    readonly property real leftRoom: Math.min(lower.implicitWidth, most)
+    readonly property real rightRoom: Math.min(upper.implicitWidth, most)
+    // The ends stand beside the line, where there is room for that, and else below it.
+    readonly property bool below: alone || width < 4 * most
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
     readonly property real thickness: (alone ? 68 : 56) * Theme.unit
@@ -32,10 +35,9 @@ Item {
     PlainText {
         id: lower
         y: scale.below ? slider.height + 0.3 * Theme.gap : (scale.height - height) / 2
-        x: Theme.across(scale.below ? slider.x : 0, width, scale.width)
-        width: scale.below ? slider.width / 2 - Theme.gap : scale.beside
+        x: Theme.across(0, width, scale.width)
+        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom
         text: scale.leftEnd
-        horizontalAlignment: scale.below ? Text.AlignLeft : Text.AlignRight
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
         color: Theme.faintInk
@@ -43,8 +45,8 @@ Item {
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: Theme.across(scale.below ? slider.x + slider.width - width : scale.width - width, width, scale.width)
-        width: lower.width
+        x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + 2 * Theme.gap, width, scale.width)
+        width: scale.below ? lower.width : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
@@ -62,9 +64,9 @@ Item {
             tell(scale.answered || Math.abs(by) === scale.range ? value + by : value)
         }
         objectName: `slider-${scale.item}`
-        anchors.horizontalCenter: parent.horizontalCenter
+        x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
-        width: scale.below ? Math.min(scale.width, 900 * Theme.unit) : scale.width - 2 * scale.beside - 2 * Theme.gap
+        width: Math.min(900 * Theme.unit, scale.below ? scale.width : scale.width - scale.leftRoom - scale.rightRoom - 2 * Theme.gap)
         height: scale.thickness
         padding: 0
         from: scale.lowest
@@ -94,10 +96,23 @@ Item {
             x: 0
             y: (slider.height - height) / 2
             width: slider.width
-            height: 14 * Theme.unit
+            height: 26 * Theme.unit
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
+            // A tenth of the way each, or a step where there are fewer.
+            Repeater {
+                model: Math.min(10, scale.range) - 1
+                Rectangle {
+                    required property int index
+                    x: (index + 1) * slider.width / Math.min(10, scale.range) - width / 2
+                    y: (26 * Theme.unit - height) / 2
+                    width: 3 * Theme.unit
+                    height: 12 * Theme.unit
+                    radius: width / 2
+                    color: Theme.lightSea
+                }
+            }
             FocusRing {
                 around: slider
                 reach: 22 * Theme.unit
