@@ -101,6 +101,8 @@ class UiDriver:
             place = item_point(item, across)
             if _in_view(item, place):
                 return place
+            if _scroll_back_to(item):
+                continue
             further = find_item(self._window.contentItem(), "more")
             if further is None or not further.isEnabled():
                 raise UiTimeout(f"{name!r} lies where it cannot be clicked")
@@ -204,6 +206,19 @@ def _scroller(item: QQuickItem) -> QQuickItem | None:
     while above and not (above.inherits("QQuickFlickable") and above.property("interactive")):
         above = above.parentItem()
     return above
+
+
+def _scroll_back_to(item: QQuickItem) -> bool:
+    """Scroll up to an item that lies above what is seen, as a finger drags a page; tell whether it did."""
+    scroller = _scroller(item)
+    if scroller is None:
+        return False
+    above = -item.mapToItem(scroller, QPointF(0, 0)).y()
+    here = float(scroller.property("contentY"))
+    if above <= 0 or here <= 0:
+        return False
+    scroller.setProperty("contentY", max(0.0, here - above))
+    return True
 
 
 def _in_view(item: QQuickItem, place: QPoint) -> bool:

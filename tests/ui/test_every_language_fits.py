@@ -30,7 +30,7 @@ from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui.screens.registry import ScreenSet
-from kiosk.ui.simulated_visitor import find_item, lay_out
+from kiosk.ui.simulated_visitor import UiDriver, find_item, lay_out
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 from tests import pseudo
 
@@ -386,6 +386,95 @@ def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layou
             )
             assert may_scroll or find_item(shown.contentItem(), "more") is None, told
         screens.avatar.leave(away=False)
+
+
+FRAMED = ("about", "consent", "age", "introduction", "about you", "debrief", "thanks")
+"""Pages with a title, a way back and a way on; the age is answered by its own buttons."""
+
+
+def shown_in(kiosk: tuple[Window, StudyConfig], layout: Layout, wanted: Sequence[str]) -> Iterator[str]:
+    """Show these pages in English in a layout, one after the other."""
+    window, study = kiosk
+    plan = next(plan for plan in study.plans if plan.language == "en")
+    screens = window.screens
+    screens.set_language(plan.catalogue)
+    screens.kiosk.begin(SHIPPED, "en", plan.settings.consent)
+    screens.kiosk.offer_back(offered=True)
+    screens.kiosk.set_text_size(TextSize.NORMAL)
+    screens.avatar.appear(present=not layout.robot)
+    screens.kiosk.show("attract")
+    window.shown.resize(layout.width, layout.height)
+    QCoreApplication.processEvents()
+    for moment, screen, fill in moments(screens, replace(study, plans=(plan,))):
+        if moment in wanted:
+            fill()
+            screens.kiosk.show(screen)
+            lay_out(window.shown)
+            yield moment
+
+
+@pytest.mark.parametrize("layout", [Layout(1920, 1080), Layout(1366, 768, robot=True)], ids=str)
+def test_title_and_ways_stand_at_the_same_places_on_all_pages(
+    kiosk: tuple[Window, StudyConfig], layout: Layout
+) -> None:
+    ground = kiosk[0].shown.contentItem()
+    titles, back, on = set(), set(), set()
+    pages_seen = []
+    for moment in shown_in(kiosk, layout, FRAMED):
+        pages_seen.append(moment)
+        title, leave = find_item(ground, "page-title"), find_item(ground, "back")
+        assert title is not None
+        assert leave is not None
+        titles.add((round(whole(title).left()), round(whole(title).top()), title.property("font").pixelSize()))
+        back.add(round(whole(leave).left()))
+        go = find_item(ground, "agree" if moment == "consent" else "continue")
+        if go is not None:
+            # A page on which the helper says something is lower where the sentence stands below it.
+            speaks = layout.robot and moment in SPEAKING
+            on.add((round(whole(go).right()), None if speaks else round(whole(go).bottom())))
+    assert sorted(pages_seen) == sorted(FRAMED)
+    assert len(titles) == len(back) == 1
+    assert len({right for right, _ in on}) == 1
+    assert len({bottom for _, bottom in on} - {None}) == 1
+
+
+@pytest.mark.parametrize(
+    "layout", [Layout(1920, 1080), Layout(1280, 800), Layout(1080, 1920), Layout(1366, 768, robot=True)], ids=str
+)
+def test_the_keys_of_a_number_cover_no_text_and_no_button(kiosk: tuple[Window, StudyConfig], layout: Layout) -> None:
+    window = kiosk[0]
+    window.shown.setProperty("screenKeys", "always")
+    try:
+        assert list(shown_in(kiosk, layout, ("about you",))) == ["about you"]
+        window.screens.kiosk.end_input_guard()
+        UiDriver(window.shown).click("number-age")
+        lay_out(window.shown)
+        ground = window.shown.contentItem()
+        key = find_item(ground, "key-1")
+        assert key is not None
+        keys: QQuickItem = key
+        while not keys.metaObject().className().startswith("ScreenKeyboard"):
+            above = keys.parentItem()
+            assert above is not None
+            keys = above
+        assert QRectF(0, 0, layout.width, layout.height).contains(whole(keys))
+        others = [*texts(ground), *controls(ground)]
+        assert [
+            str(item.property("text") or item.objectName())
+            for item in others
+            if not belongs(item, keys) and whole(item).intersects(whole(keys))
+        ] == []
+    finally:
+        window.shown.setProperty("screenKeys", "touch")
+
+
+def test_an_option_is_high_enough_for_a_finger(kiosk: tuple[Window, StudyConfig]) -> None:
+    assert list(shown_in(kiosk, Layout(1920, 1080), ("about you",))) == ["about you"]
+    options = [
+        item for item in controls(kiosk[0].shown.contentItem()) if item.objectName().startswith("option-gender-")
+    ]
+    assert len(options) > 1
+    assert min(option.height() for option in options) >= 76
 
 
 def said(screen: str, plan: SessionConfig) -> str:

@@ -20,14 +20,13 @@ PageFrame {
     label: words[form.skips ? "form-skip" : "form-next"]
     beside: progress
     onWent: form.proceed()
+    covered: keyboard.field === null || keyboard.numbers ? 0 : keyboard.height
     lift: {
-        if (keyboard.field === null || keyboard.numbers)
+        if (covered === 0)
             return 0
-        const above = height - keyboard.height - Theme.gap
         const at = begin + home.y + keyboard.field.mapToItem(home, 0, 0).y
-        const needed = Math.max(0, at + keyboard.field.height - above)
-        // The way on as well, as far as the field stays in view.
-        return Math.max(needed, Math.min(Math.max(0, at - Theme.gap), foot + way.height - above))
+        const free = height - covered - way.height - 2 * Theme.gap
+        return Math.max(0, Math.min(at - Theme.gap, at + keyboard.field.height - free))
     }
 
     // One press of a digit answers the scale that has the keyboard, or else the first that is not answered, and goes on

@@ -216,7 +216,7 @@ Window {
     SidePanel {
         id: helper
         // The keys of a number stand in its place.
-        z: root.kiosk.screen === "form" ? -1 : 0
+        z: root.kiosk.screen === "form" && !root.kiosk.paused ? -1 : 0
         readonly property bool below: !root.wide || root.whole
         x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
         // A whole number: edges that move by fractions do not come back to the last bit.

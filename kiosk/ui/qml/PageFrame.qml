@@ -15,8 +15,10 @@ FocusScope {
     property alias quiet: ways.quiet
     property alias other: ways.other
     property alias way: ways
-    // How far all of it is moved up, for a keyboard at the bottom.
+    // How far title and content are moved up, for a keyboard at the bottom.
     property real lift: 0
+    // How much of the bottom that keyboard covers; the ways then stand above it.
+    property real covered: 0
     // What stands at the end of the title's line, if anything.
     property Item beside: null
     default property alias content: body.data
@@ -40,12 +42,14 @@ FocusScope {
 
     PlainText {
         id: heading
+        objectName: "page-title"
         x: body.x
         y: frame.above
         transform: Translate { y: -frame.lift }
         width: frame.column - (frame.beside?.visible ? frame.beside.width + Theme.gap : 0)
         visible: text !== ""
         text: frame.title
+        horizontalAlignment: Text.AlignLeft
         font { pixelSize: Theme.pageTitle; bold: true }
         wrapMode: Text.Wrap
         color: Theme.ink
@@ -58,11 +62,23 @@ FocusScope {
         height: frame.room
         transform: Translate { y: -frame.lift }
     }
+    // What lies under the ways while they stand above a keyboard is neither seen nor pressed.
+    Rectangle {
+        visible: frame.covered > 0
+        width: frame.width
+        y: frame.foot + rise.y - 0.5 * Theme.gap
+        height: frame.height - y
+        color: Theme.paper
+        MouseArea { anchors.fill: parent; Accessible.ignored: true }
+    }
     WayOn {
         id: ways
         x: body.x
         y: frame.height - height - frame.below
-        transform: Translate { y: -frame.lift }
+        transform: Translate {
+            id: rise
+            y: frame.covered > 0 ? frame.below - 0.5 * Theme.gap - frame.covered : 0
+        }
         width: frame.column
         kiosk: frame.kiosk
         words: frame.words

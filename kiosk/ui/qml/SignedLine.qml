@@ -62,6 +62,7 @@ Item {
         y: mark.visible ? Math.max(0, (mark.height - height) / 2) : 0
         width: line.width - indent
         text: line.text
+        horizontalAlignment: Text.AlignLeft
         font { pixelSize: line.size; bold: line.strong }
         lineHeight: 1.08
         wrapMode: Text.Wrap

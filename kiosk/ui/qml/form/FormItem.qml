@@ -19,7 +19,7 @@ Rectangle {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : form.items.length > 3 ? 18 : 16) * Theme.unit
+    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : 13) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -69,6 +69,7 @@ Rectangle {
                 bold: box.item.kind !== "page"
             }
             lineHeight: box.item.kind === "page" ? 1.15 : 1
+            horizontalAlignment: Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.ink
         }
@@ -78,6 +79,7 @@ Rectangle {
             text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
                 : box.words[box.item.required ? "form-missing" : "form-skipped"]
             font { pixelSize: Theme.small; bold: true }
+            horizontalAlignment: Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.deepAmber
         }
@@ -192,7 +194,7 @@ Rectangle {
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
             alone: box.alone
             dense: box.form.items.length > 3
-            tall: (box.tight || box.dense ? 62 : 76) * Theme.unit
+            tall: (box.tight || box.form.items.length > 3 ? 62 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }

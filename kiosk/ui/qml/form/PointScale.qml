@@ -46,6 +46,7 @@ Item {
         y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
+        horizontalAlignment: Text.AlignLeft
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
         color: Theme.faintInk

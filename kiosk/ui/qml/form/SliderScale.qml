@@ -38,6 +38,7 @@ Item {
         x: Theme.across(0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom
         text: scale.leftEnd
+        horizontalAlignment: Text.AlignLeft
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
         color: Theme.faintInk
