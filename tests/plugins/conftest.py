@@ -1,4 +1,4 @@
-"""One virtual environment with the three packages of a lab, one study that uses all of them, and one session of it."""
+"""One virtual environment with the packages of a lab, a study that uses all of them, and a session of it."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from kiosk import UserInputError
 from kiosk.assistance.policy import find_action
 from kiosk.extensions import installed
 from kiosk.study.new import TEMPLATES
+from tests.shared import made_once
 
 PLUGINS = Path(__file__).parent
 PACKAGES = {
@@ -76,14 +77,23 @@ class Lab:
         return json.loads(called.stdout)
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
     """Return the environment with the three packages, installed as pip does it without a network."""
-    folder = tmp_path_factory.mktemp("lab")
-    venv.create(folder / "venv", with_pip=False, symlinks=os.name != "nt")
+    return lab_in(made_once(tmp_path_factory, "lab", make_lab))
+
+
+def lab_in(folder: Path) -> Lab:
+    """Return the environment of a folder."""
     scripts = folder / "venv" / ("Scripts" if os.name == "nt" else "bin")
     found = sysconfig.get_path("purelib", "venv", {"base": str(folder / "venv"), "platbase": str(folder / "venv")})
-    made = Lab(scripts / "python", Path(found))
+    return Lab(scripts / "python", Path(found))
+
+
+def make_lab(folder: Path) -> None:
+    """Make the environment in a folder, and install the packages."""
+    venv.create(folder / "venv", with_pip=False, symlinks=os.name != "nt")
+    made = lab_in(folder)
     beneath = (str(PLUGINS.parents[1]), sysconfig.get_path("purelib"))
     lines = "".join(f"import site; site.addsitedir({place!r})\n" for place in beneath)
     (made.site / "beneath.pth").write_text(lines, "utf-8")
@@ -92,7 +102,6 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
     pip = [sys.executable, "-m", "pip", "--python", str(made.python), "install", "--quiet"]
     offline = ["--no-index", "--no-deps", "--no-build-isolation"]
     subprocess.run([*pip, *offline, *(str(folder / name) for name in PACKAGES)], check=True, timeout=240)
-    return made
 
 
 @dataclass(frozen=True)
@@ -119,13 +128,20 @@ class Day:
         return file.read_text("utf-8")
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
-    """Provide a day of the template that needs packages, with a table that was trained with the action.
+    """Provide a day of the template that needs packages, with a table that was trained with the action."""
+    folder = made_once(tmp_path_factory, "day", lambda empty: make_day(lab, empty))
+    played = json.loads((folder / "played.json").read_text("utf-8"))
+    said = tuple(json.loads((folder / "said.json").read_text("utf-8")))
+    return Day(folder / "own" / "study.toml", folder / "data", folder / "set", played, said)
 
-    After so few games it still takes it often.
+
+def make_day(lab: Lab, folder: Path) -> None:
+    """Train a table, play a session with it, and export the session.
+
+    After so few games the table still takes the action often.
     """
-    folder = tmp_path_factory.mktemp("day")
     study, data, dataset = folder / "own" / "study.toml", folder / "data", folder / "set"
     made = lab.recollect("study", "new", study.parent, "--template", "packages")
     assert made.returncode == 0, made.stderr
@@ -137,15 +153,21 @@ def day(lab: Lab, tmp_path_factory: pytest.TempPathFactory) -> Day:
     assert rehearsed.returncode == 0, rehearsed.stderr
     exported = lab.recollect("export", "--out", dataset, "--data", data, "--with-rehearsals")
     assert exported.returncode == 0, exported.stderr
-    said = tuple(line for line in rehearsed.stderr.splitlines() if line.startswith("robot: "))
-    return Day(study, data, dataset, json.loads(rehearsed.stdout), said)
+    said = [line for line in rehearsed.stderr.splitlines() if line.startswith("robot: ")]
+    (folder / "played.json").write_text(rehearsed.stdout, "utf-8")
+    (folder / "said.json").write_text(json.dumps(said), "utf-8")
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def added(lab: Lab, day: Day, tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[str, str]]:
     """Return what `recollect check` says of everything that it lists: how it is, and in which words."""
-    checked = lab.recollect("check", "--json", "--study", day.study, "--data", tmp_path_factory.mktemp("checked"))
-    results = json.loads(checked.stdout)["results"]
+
+    def check(folder: Path) -> None:
+        checked = lab.recollect("check", "--json", "--study", day.study, "--data", folder / "data")
+        (folder / "checked.json").write_text(checked.stdout, "utf-8")
+
+    told = made_once(tmp_path_factory, "checked", check) / "checked.json"
+    results = json.loads(told.read_text("utf-8"))["results"]
     return {result["name"]: (result["severity"], result["message"]) for result in results}
 
 
@@ -217,7 +239,7 @@ def refusal(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
     return refused
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def documented() -> Callable[[str, str], bool]:
     """Whether docs/extend.md shows a file of a package as it is installed here."""
     page = (PLUGINS.parents[1] / "docs" / "extend.md").read_text("utf-8")
