@@ -24,7 +24,9 @@ PageFrame {
     ScrollPane {
         id: pane
         width: parent?.width ?? 0
-        room: view.room - (keepsake.visible ? keepsake.height + Theme.gap : 0)
+        y: view.sink(height)
+        room: view.room
+        spacing: Theme.gap
         more: view.words["scroll-more"]
         // Short lines are read with less effort than long ones: in two columns where there is room.
         Grid {
@@ -44,92 +46,91 @@ PageFrame {
                 }
             }
         }
-    }
-    Rectangle {
-        id: keepsake
-        width: parent?.width ?? 0
-        y: pane.height + Theme.gap + view.sink(pane.height + height + Theme.gap)
-        height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
-        // Who is not stored has no code, and may have questions all the same.
-        visible: view.debrief.code !== "" || view.debrief.questions !== ""
-        radius: Theme.radius
-        color: Theme.white
-        border { color: Theme.amber; width: 4 * Theme.unit }
-
-        // On white even where the theme is dark: a camera needs it.
         Rectangle {
-            id: qr
-            objectName: "qr"
-            visible: view.debrief.code !== ""
-            anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
-            width: view.square * view.debrief.squares
-            height: width
-            color: "white"
-            Image {
-                anchors.fill: parent
-                source: view.debrief.picture
-                smooth: false
-                cache: false
-                Accessible.ignored: true
-            }
-        }
-        Column {
-            id: told
-            anchors {
-                left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
-                right: parent.right; rightMargin: Theme.gap
-                verticalCenter: parent.verticalCenter
-            }
-            spacing: 0.3 * Theme.gap
-            SignedLine {
-                width: parent.width
-                text: view.words["debrief-take-home"] + (view.labName === "" ? "" : " · " + view.labName)
-                sign: "camera"
-                strong: true
-            }
-            PlainText {
-                width: parent.width
+            id: keepsake
+            width: pane.width
+            height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
+            // Who is not stored has no code, and may have questions all the same.
+            visible: view.debrief.code !== "" || view.debrief.questions !== ""
+            radius: Theme.radius
+            color: Theme.white
+            border { color: Theme.amber; width: 4 * Theme.unit }
+
+            // On white even where the theme is dark: a camera needs it.
+            Rectangle {
+                id: qr
+                objectName: "qr"
                 visible: view.debrief.code !== ""
-                text: view.words["debrief-code"]
-                font.pixelSize: Theme.small
-                wrapMode: Text.Wrap
-                color: Theme.faintInk
+                anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
+                width: view.square * view.debrief.squares
+                height: width
+                color: "white"
+                Image {
+                    anchors.fill: parent
+                    source: view.debrief.picture
+                    smooth: false
+                    cache: false
+                    Accessible.ignored: true
+                }
             }
-            PlainText {
-                objectName: "code"
-                width: parent.width
-                visible: text !== ""
-                text: view.debrief.code
-                font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
-                fontSizeMode: Text.HorizontalFit
-                minimumPixelSize: Theme.body
-                color: Theme.sea
-            }
-            PlainText {
-                width: parent.width
-                visible: text !== ""
-                text: view.debrief.withdrawing
-                font.pixelSize: Theme.small
-                wrapMode: Text.Wrap
-                color: Theme.ink
-            }
-            PlainText {
-                objectName: "questions"
-                width: parent.width
-                visible: text !== ""
-                text: view.debrief.questions
-                font.pixelSize: Theme.small
-                wrapMode: Text.Wrap
-                color: Theme.ink
-            }
-            PlainText {
-                objectName: "summary"
-                width: parent.width
-                visible: text !== ""
-                text: view.debrief.summary
-                font.pixelSize: Theme.small
-                wrapMode: Text.Wrap
-                color: Theme.faintInk
+            Column {
+                id: told
+                anchors {
+                    left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
+                    right: parent.right; rightMargin: Theme.gap
+                    verticalCenter: parent.verticalCenter
+                }
+                spacing: 0.3 * Theme.gap
+                SignedLine {
+                    width: parent.width
+                    text: view.words["debrief-take-home"] + (view.labName === "" ? "" : " · " + view.labName)
+                    sign: "camera"
+                    strong: true
+                }
+                PlainText {
+                    width: parent.width
+                    visible: view.debrief.code !== ""
+                    text: view.words["debrief-code"]
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.faintInk
+                }
+                PlainText {
+                    objectName: "code"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.code
+                    font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                    fontSizeMode: Text.HorizontalFit
+                    minimumPixelSize: Theme.body
+                    color: Theme.sea
+                }
+                PlainText {
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.withdrawing
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
+                PlainText {
+                    objectName: "questions"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.questions
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
+                PlainText {
+                    objectName: "summary"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.summary
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.faintInk
+                }
             }
         }
     }
