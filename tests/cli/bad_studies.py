@@ -322,8 +322,8 @@ STUDIES: dict[str, Bad] = {
     ),
     "sheets of two versions": Bad(
         TOLD,
-        ("the information sheets in {here}/sheets have different versions: en: 1; it: 2; es: 1",),
-        told("it", 'version = "1"', 'version = "2"'),
+        ("the information sheets in {here}/sheets have different versions: en: 2; it: 3; es: 2",),
+        told("it", 'version = "2"', 'version = "3"'),
     ),
     "sheets with other purposes": Bad(
         TOLD,
