@@ -8,6 +8,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from datetime import time
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -643,6 +644,31 @@ class ExperimenterConfig(ConfigModel):
         ),
     ] = 60
     backups: Annotated[int, Field(ge=1, le=1000, description="How many backups are kept.")] = 24
+    opening_hours: Annotated[
+        str,
+        Field(description="When visitors can come, such as '10:00-18:00'; for the alarm that none does. Empty: none."),
+    ] = ""
+    alone_alarm: Annotated[
+        int,
+        Unit("minutes"),
+        Field(ge=1, le=1440, description="After how many of those minutes without a visitor it comes."),
+    ] = 30
+    alarm_sound: Annotated[
+        Literal["between", "always", "never"],
+        Field(description="When alarms sound: between sessions only, always, or never; they are shown in any case."),
+    ] = "between"
+
+    @field_validator("opening_hours")
+    @classmethod
+    def _open_before_closing(cls, hours: str) -> str:
+        form = re.fullmatch(r"(\d\d:\d\d) ?- ?(\d\d:\d\d)", hours, re.ASCII)
+        try:
+            opened = form is not None and time.fromisoformat(form[1]) < time.fromisoformat(form[2])
+        except ValueError:
+            opened = False
+        if hours and not opened:
+            raise ValueError(f"{hours!r} is not of the form '10:00-18:00', with the opening first")
+        return hours
 
     @field_validator("pin_hash")
     @classmethod

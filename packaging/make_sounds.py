@@ -55,6 +55,8 @@ SOUNDS: dict[str, tuple[Note, ...]] = {
     ),
     "nudge": (Note(A4 / 2, 0.0, 0.09, mallet=0.012), Note(G4 / 2, 0.09, 0.11, 0.9, mallet=0.012)),
     "button": (Note(C5, 0.0, 0.09), Note(G4, 0.0, 0.08, 0.5)),
+    # Twice a falling fourth, as at a counter: like nothing that the game plays.
+    "alarm": (Note(C5, 0.0, 0.2), Note(G4, 0.13, 0.2), Note(C5, 0.34, 0.2), Note(G4, 0.47, 0.25)),
 }
 """For each sound its notes."""
 

@@ -179,3 +179,15 @@ def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str
     for sentence in validation_messages(error.value, given, Settings):
         assert sentence.startswith(".".join(place))
         assert re.search(r"must be (a whole number|from \S+ to \S+)", sentence), sentence
+
+
+@pytest.mark.parametrize("hours", ["10-18", "18:00-10:00", "10:00-25:00", "10:00+01:00-18:00", "ten to six"])
+def test_opening_hours_that_are_none_are_refused_with_the_form_they_have(tmp_path: Path, hours: str) -> None:
+    told = refusal(written(tmp_path, f'[experimenter]\nopening_hours = "{hours}"'))
+    assert f"experimenter.opening_hours: '{hours}' is not of the form '10:00-18:00'" in told
+
+
+def test_opening_hours_may_have_spaces_and_may_be_left_out(tmp_path: Path) -> None:
+    for hours in ("", "09:30-17:00", "09:30 - 17:00"):
+        read = Settings.read(written(tmp_path, f'[experimenter]\nopening_hours = "{hours}"'))
+        assert read.experimenter.opening_hours == hours

@@ -53,6 +53,16 @@ class PartStatus:
 
 
 @dataclass(frozen=True)
+class AlarmStatus:
+    """An alarm: its kind, since when (UTC), whether the experimenter has seen it, and when it passed, if it has."""
+
+    kind: str
+    since: str
+    seen: bool
+    passed: str | None
+
+
+@dataclass(frozen=True)
 class BoothStatus:
     """The whole of status.json; times are UTC in ISO 8601."""
 
@@ -73,6 +83,8 @@ class BoothStatus:
     parts: tuple[PartStatus, ...]
     disk_free_mib: int | None
     last_backup_at: str | None
+    alarms: tuple[AlarmStatus, ...] = ()
+    """Those that hold, the most urgent first, then the last that have passed."""
 
     def to_json(self) -> str:
         """Return the text of the file."""
@@ -89,6 +101,7 @@ class BoothStatus:
                     "today": DayCounts(**given["today"]),
                     "ended": tuple(EndedSession(**each) for each in given["ended"]),
                     "parts": tuple(PartStatus(**each) for each in given["parts"]),
+                    "alarms": tuple(AlarmStatus(**each) for each in given.get("alarms", ())),
                 }
             )
         except (AttributeError, KeyError, TypeError, ValueError, RecursionError) as error:

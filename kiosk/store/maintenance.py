@@ -10,13 +10,14 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
+from math import ceil
 from pathlib import Path
 
 from filelock import FileLock, Timeout
 
 from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
-from kiosk.store.database import open_as_it_is
+from kiosk.store.database import FILE, open_as_it_is
 from kiosk.units import MIB
 
 WARN_MIB = 512
@@ -41,6 +42,8 @@ class FreeSpace:
     """The room that is left on the disk of a data folder, in MiB."""
 
     free_mib: int
+    hour_mib: int = REFUSE_MIB
+    """What the next hour may need, the room below which no session begins included."""
 
     @property
     def level(self) -> SpaceLevel:
@@ -50,11 +53,18 @@ class FreeSpace:
         return SpaceLevel.WARN if self.free_mib < WARN_MIB else SpaceLevel.ENOUGH
 
 
-def free_space(folder: Path) -> FreeSpace:
+SESSIONS_PER_HOUR = 20
+"""More do not fit into an hour; with the way of the pointer each may take a MiB."""
+
+
+def free_space(folder: Path, copies_per_hour: int = 1) -> FreeSpace:
     """Return the free space of a data folder, whether or not it exists yet; raise UserInputError if it is unknown."""
     there = next((place for place in (folder, *folder.absolute().parents) if place.is_dir()), folder)
     try:
-        return FreeSpace(shutil.disk_usage(there).free // MIB)
+        database = folder / FILE
+        copy_mib = ceil(database.stat().st_size / MIB) if database.exists() else 0
+        need = REFUSE_MIB + SESSIONS_PER_HOUR + copies_per_hour * copy_mib
+        return FreeSpace(shutil.disk_usage(there).free // MIB, need)
     except OSError as error:
         raise UserInputError(f"the room that is left for {folder} cannot be told: {error.strerror}") from error
 

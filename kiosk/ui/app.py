@@ -124,6 +124,7 @@ class App:
         if not virtual:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
+            self.experimenter.alarms.begin()
 
     def __enter__(self) -> Self:
         """Return the kiosk itself."""

@@ -29,6 +29,8 @@ class SoundEffect(Enum):
     NUDGE = "nudge"
     """A card was touched that cannot be turned."""
     BUTTON = "button"
+    ALARM = "alarm"
+    """The experimenter is called."""
 
     @property
     def file(self) -> Path:

@@ -159,3 +159,17 @@ console-resume-none = There is none
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Make a copy
 console-quit = Leave the kiosk
+
+## Alarms
+
+console-alarms = Alarms
+console-alarms-none = None
+console-alarm-until = {" "}(over at { $time })
+console-alarm-robot-lost = The robot is lost; the avatar helps
+console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings
+console-alarm-disk-low = The disk has not enough room for another hour
+console-alarm-early-exits = Three visitors in a row have left early
+console-alarm-restarted = The kiosk was started again after it had failed
+console-alarm-clock-changed = The clock was changed
+console-alarm-backup-old = The last copy is older than a day
+console-alarm-no-visitor = No visitor for a long time

@@ -159,3 +159,17 @@ console-resume-none = No hay ninguna
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Hacer una copia
 console-quit = Salir del quiosco
+
+## Alarmas
+
+console-alarms = Alarmas
+console-alarms-none = Ninguna
+console-alarm-until = {" "}(terminó a las { $time })
+console-alarm-robot-lost = El robot no responde; ayuda el avatar
+console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido
+console-alarm-disk-low = En el disco no hay sitio para otra hora
+console-alarm-early-exits = Tres visitantes seguidos se han ido antes del final
+console-alarm-restarted = El programa arrancó de nuevo después de un fallo
+console-alarm-clock-changed = Se ha cambiado el reloj
+console-alarm-backup-old = La última copia tiene más de un día
+console-alarm-no-visitor = Ningún visitante desde hace mucho tiempo

@@ -159,3 +159,17 @@ console-resume-none = Non ce n’è
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Fai una copia
 console-quit = Esci dal chiosco
+
+## Allarmi
+
+console-alarms = Allarmi
+console-alarms-none = Nessuno
+console-alarm-until = {" "}(finito alle { $time })
+console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
+console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio
+console-alarm-disk-low = Il disco non basta per un’altra ora
+console-alarm-early-exits = Tre visitatori di fila sono andati via prima della fine
+console-alarm-restarted = Il programma è ripartito dopo un guasto
+console-alarm-clock-changed = L’orologio è stato cambiato
+console-alarm-backup-old = L’ultima copia ha più di un giorno
+console-alarm-no-visitor = Nessun visitatore da molto tempo

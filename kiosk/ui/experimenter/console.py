@@ -16,6 +16,7 @@ from PySide6.QtQuick import QQuickWindow
 
 from kiosk import UserInputError, __version__
 from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.alarms import Alarm, BoothSigns
 from kiosk.experiment.booth_status import BoothStatus, DayCounts, utc
 from kiosk.experiment.events import EmbodimentName, PauseEnded, Stage
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
@@ -31,6 +32,7 @@ from kiosk.store.snapshot import (
 )
 from kiosk.ui.event_loop import Executor, TimerWait
 from kiosk.ui.experimenter.actions import AUTOMATIC, LOUDNESS, ActionController, AuditLog, Services
+from kiosk.ui.experimenter.alarms import AlarmBell, alarm_rows, alarm_status
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow, PinVerifier
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler, MaintenanceTasks
 from kiosk.ui.experimenter.status import (
@@ -45,8 +47,10 @@ from kiosk.ui.experimenter.status import (
     health_summary,
     is_pack_changed,
     session_rows,
+    was_cut_off,
 )
 from kiosk.ui.experimenter.view_model import PanelScreen, Row
+from kiosk.ui.renderer import SoundEffect
 from kiosk.units import MS_PER_SECOND
 
 _KEYS = (QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride)
@@ -136,6 +140,8 @@ class Panel:
         """``state`` tells how everything is now; ``look`` reads the records, and hands over what it found, soon."""
         self.changed: Callable[[], None] = lambda: None
         """Called when the panel comes or goes."""
+        self.seen: Callable[[], None] = lambda: None
+        """Called when the experimenter looks at it."""
         self._screen = screen
         self._booth = booth
         self._actions = actions
@@ -185,6 +191,10 @@ class Panel:
         """Note that the experimenter is at the panel."""
         self._stirred_at = self._booth.clock.now_ms()
 
+    def show_alarms(self, alarms: tuple[Alarm, ...]) -> None:
+        """Show these alarms."""
+        self._screen.show_alarms(alarm_rows(alarms, self._catalogue))
+
     def _open(self) -> None:
         self._write.record(AuditEvent.PANEL_OPENED, {"stage": self._actions.stage.value})
         self._asking.unlocked = True
@@ -196,6 +206,7 @@ class Panel:
         self._screen.show_choices(self._choices())
         self._screen.open(True)  # noqa: FBT003 - it is what is set
         self._see()
+        self.seen()
         self.changed()
 
     def _wish(self, action: str, choice: str) -> None:
@@ -354,7 +365,7 @@ class ExperimenterConsole:
         self._lock = PinVerifier(settings.experimenter.pin_hash, wrong_pins(folder), now_ms, work, self._write.record)
         self._asking = AuthorisationFlow(card, self._lock, booth.clock, catalogue)
         self.upkeep = MaintenanceScheduler(
-            MaintenanceTasks.of(folder, settings.experimenter.backups),
+            MaintenanceTasks.of(folder, settings.experimenter.backups, settings.experimenter.backup_every),
             settings.experimenter.backup_every,
             booth.clock,
             now_ms,
@@ -379,6 +390,19 @@ class ExperimenterConsole:
         self._keyboard = InputCapture(window, self._asking, self.panel.stir, screen)
         self._asking.changed = self.panel.changed = self._stand_by
         self._stage_since = ("", now_ms())
+        self._backup_ms = now_ms()
+        self._cut_off = was_cut_off(folder)
+        self._alone_from_ms = booth.clock.now_ms()
+        self.alarms = AlarmBell(
+            settings.experimenter,
+            self._signs,
+            lambda: self.actions.resting,
+            self._sound_alarm,
+            booth.clock,
+            now_ms,
+        )
+        self.panel.seen = self.alarms.see
+        self.alarms.changed = self._alarms_changed
         self.status_file = StatusFile(
             folder,
             self._booth_status,
@@ -393,6 +417,7 @@ class ExperimenterConsole:
 
     def close(self) -> None:
         """Listen no more, and write down what is left to be."""
+        self.alarms.close()
         self.status_file.close()
         self._keyboard.set_enabled(False)
         self._write.close()
@@ -407,6 +432,36 @@ class ExperimenterConsole:
 
     def _stand_by(self) -> None:
         self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
+
+    def _sound_alarm(self) -> None:
+        if not self._booth.embodiments.is_silent:
+            self._booth.voice.play(SoundEffect.ALARM.file)
+
+    def _alarms_changed(self) -> None:
+        """Show a mark without words on the visitor's screen, and the words in the panel."""
+        self._booth.screens.experimenter.call(calls=self.alarms.calls)
+        self.panel.show_alarms(self.alarms.alarms)
+
+    def _signs(self) -> BoothSigns:
+        """Return what alarms follow from."""
+        booth, state = self._booth, self._state()
+        run_ms = booth.clock.now_ms()
+        if not self.actions.resting:
+            self._alone_from_ms = run_ms
+        if state.last_backup and state.last_backup.file:
+            self._backup_ms = state.last_backup.at_ms
+        return BoothSigns(
+            now=datetime.fromtimestamp(self._now_ms() / MS_PER_SECOND).astimezone(),
+            robot_well=state.robot is None or state.robot.is_ok,
+            voice_well=state.voice.is_ok or state.muted,
+            disk_free_mib=state.free_space.free_mib if state.free_space else None,
+            disk_hour_mib=state.free_space.hour_mib if state.free_space else 0,
+            clock_jump_ms=state.clocks.wrong_ms,
+            since_backup_ms=self._now_ms() - self._backup_ms,
+            ended=[ended.status for ended in self.status_file.day[1]],
+            restarted=self._cut_off,
+            alone_ms=run_ms - self._alone_from_ms,
+        )
 
     def _booth_status(self) -> BoothStatus:
         """Return what status.json says, but for the day's sessions."""
@@ -434,6 +489,7 @@ class ExperimenterConsole:
             parts=tuple(health_parts(state, self._catalogue)),
             disk_free_mib=state.free_space.free_mib if state.free_space else None,
             last_backup_at=utc(backup.at_ms) if backup and backup.file else None,
+            alarms=alarm_status(self.alarms.alarms),
         )
 
     def _state(self) -> HealthInputs:

@@ -9,6 +9,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from math import ceil
 from pathlib import Path
 from typing import Protocol
 
@@ -19,6 +20,7 @@ from kiosk.ui.event_loop import Clock, Executor
 from kiosk.ui.experimenter.authorisation import Write
 from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 
+MINUTES_PER_HOUR = 60
 BEAT_MS = 60_000
 """How often the disk is looked at, and whether a copy is due."""
 
@@ -46,13 +48,13 @@ class MaintenanceTasks:
     """Raises UserInputError."""
 
     @classmethod
-    def of(cls, folder: Path, keep: int) -> MaintenanceTasks:
-        """Take care of a data folder; of its copies so many are kept."""
+    def of(cls, folder: Path, keep: int, every_minutes: int) -> MaintenanceTasks:
+        """Take care of a data folder, of which a copy is made every so many minutes; so many copies are kept."""
         into = folder / FOLDER
         return cls(
             partial(back_up, folder, into, keep),
             lambda: next(reversed(list_backups(into)), None) if into.is_dir() else None,
-            partial(free_space, folder),
+            partial(free_space, folder, min(keep, ceil(MINUTES_PER_HOUR / every_minutes))),
         )
 
 

@@ -67,6 +67,14 @@ class Clocks:
         """How far the clock was set since the program began."""
         return self.now_ms - self.began_ms - self.run_ms
 
+    @property
+    def wrong_ms(self) -> int:
+        """How far the clock was set, or stood behind the records at the start; 0 if that is no more than drift."""
+        for wrong_ms in (self.set_back_ms, self.jump_ms):
+            if abs(wrong_ms) > DRIFT_MS:
+                return wrong_ms
+        return 0
+
 
 @dataclass(frozen=True)
 class HealthInputs:
@@ -357,6 +365,9 @@ def _kebab_of(note: AuditEvent) -> str:
 LOOK_MS = 1_000
 """How often it is seen whether anything has changed."""
 
+READ_EVERY_MS = 60_000
+"""How often the records are read again within a stage: the last hour goes on, and so does the day."""
+
 Day = tuple[DayCounts, tuple[EndedSession, ...]]
 
 _log = logging.getLogger(__name__)
@@ -384,6 +395,7 @@ class StatusFile:
         self._work = work
         self._day: Day = (DayCounts(), ())
         self._stage = ""
+        self._read_at = 0
         self._written: BoothStatus | None = None
         self._written_at = 0
         self._failed = False
@@ -392,6 +404,11 @@ class StatusFile:
     def begin(self) -> None:
         """Write it now, and go on writing it."""
         self._look()
+
+    @property
+    def day(self) -> Day:
+        """The sessions of today, as they were last read."""
+        return self._day
 
     def close(self) -> None:
         """Write for the last time: the kiosk is closed."""
@@ -403,9 +420,9 @@ class StatusFile:
 
     def _look(self) -> None:
         status = self._status()
-        if status.stage != self._stage:
+        if status.stage != self._stage or self._clock.now_ms() - self._read_at >= READ_EVERY_MS:
             # Sessions begin and end with a change of stage, and the hour goes on: the records are read again.
-            self._stage = status.stage
+            self._stage, self._read_at = status.stage, self._clock.now_ms()
             self._work(self._read_day, self._take_day)
         since_ms = self._clock.now_ms() - self._written_at
         if status.changed_from(self._written) or since_ms >= WRITE_EVERY_S * MS_PER_SECOND:
@@ -424,6 +441,15 @@ class StatusFile:
         if why and not self._failed:
             _log.warning("%s cannot be written: %s", self._file, why)
         self._failed = bool(why)
+
+
+def was_cut_off(folder: Path) -> bool:
+    """Tell from status.json whether the kiosk before ended without being left."""
+    try:
+        before = BoothStatus.from_json((folder / FILE).read_text("utf-8"))
+    except (OSError, ValueError):
+        return False
+    return before.stage != CLOSED
 
 
 def write_status(file: Path, status: BoothStatus) -> str:

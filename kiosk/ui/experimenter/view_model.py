@@ -145,6 +145,7 @@ class PanelScreen(QObject):
     health_changed = Signal()
     records_changed = Signal()
     choices_changed = Signal()
+    alarms_changed = Signal()
     wished = Signal(str, str)
     """Something was chosen: which action, and what of it."""
 
@@ -155,6 +156,7 @@ class PanelScreen(QObject):
         self._health: Row = {"well": True, "summary": "", "lines": []}
         self._records: Row = {"cells": [], "visits": "", "sessions": [], "deviations": [], "more": "", "resumable": []}
         self._choices: Row = {}
+        self._alarms: list[Row] = []
 
     def set_language(self, words: dict[str, str]) -> None:
         """Show the fixed texts in these words."""
@@ -183,6 +185,12 @@ class PanelScreen(QObject):
         if choices != self._choices:
             self._choices = choices
             self.choices_changed.emit()
+
+    def show_alarms(self, alarms: list[Row]) -> None:
+        """Show the alarms: ``when``, ``words``, and whether each still ``holds``."""
+        if alarms != self._alarms:
+            self._alarms = alarms
+            self.alarms_changed.emit()
 
     @property
     def is_open(self) -> bool:
@@ -214,6 +222,11 @@ class PanelScreen(QObject):
         """Return what can be chosen."""
         return self._choices
 
+    @Property(list, notify=alarms_changed)
+    def alarms(self) -> list[Row]:
+        """Return the alarms, those that hold first."""
+        return self._alarms
+
     @Slot(str, str)
     def wish(self, action: str, choice: str) -> None:
         """Ask for an action with a choice."""
@@ -225,12 +238,14 @@ class ExperimenterScreen(QObject):
     """All that the experimenter sees, and the shortcuts that are listened for."""
 
     shortcuts_changed = Signal()
+    calls_changed = Signal()
     pressed = Signal(str)
     """The shortcut of the action of this name was pressed."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._shortcuts: list[Row] = []
+        self._calls = False
         self._card, self._note, self._panel = CardScreen(self), NoteScreen(self), PanelScreen(self)
 
     @property
@@ -242,6 +257,17 @@ class ExperimenterScreen(QObject):
         """Listen for these shortcuts, by the names of their actions."""
         self._shortcuts = [{"action": action, "shortcut": shortcut} for action, shortcut in shortcuts.items()]
         self.shortcuts_changed.emit()
+
+    def call(self, *, calls: bool) -> None:
+        """Show or hide the mark that calls the experimenter; it has no words, for a visitor may be looking."""
+        if calls is not self._calls:
+            self._calls = calls
+            self.calls_changed.emit()
+
+    @Property(bool, notify=calls_changed)
+    def calls(self) -> bool:
+        """Whether the experimenter is called."""
+        return self._calls
 
     @Property(list, notify=shortcuts_changed)
     def shortcuts(self) -> list[Row]:

@@ -28,6 +28,17 @@ Item {
         focus: active
         sourceComponent: PanelView { panel: desk.experimenter.panel }
     }
+    // Calls the experimenter without a word: a visitor may be looking.
+    Text {
+        objectName: "alarm-mark"
+        anchors { top: parent.top; horizontalCenter: parent.horizontalCenter; topMargin: 8 * Theme.unit }
+        visible: desk.experimenter.calls && !desk.experimenter.panel.shown
+        textFormat: Text.PlainText
+        text: "▲"
+        font.pixelSize: Theme.denser
+        color: Theme.deepAmber
+        Accessible.ignored: true
+    }
     PanelNote {
         anchors { horizontalCenter: parent.horizontalCenter; top: parent.top; topMargin: 14 * Theme.unit }
         note: desk.experimenter.note
