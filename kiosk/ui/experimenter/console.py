@@ -303,6 +303,8 @@ class Panel:
 WORDS = (
     "console-title",
     "console-close",
+    "console-alarms",
+    "console-alarms-none",
     "console-health",
     "console-counts",
     "console-counts-done",

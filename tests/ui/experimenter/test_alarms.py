@@ -55,6 +55,9 @@ def test_an_alarm_sounds_once_is_marked_without_words_and_read_in_the_panel(assi
     assert [(row["words"], row["holds"]) for row in alarms(assigner)] == [
         (alarm_words(AlarmKind.DISK_LOW, CATALOGUES["en"]), True)
     ]
+    shown = find_item(assigner.app.window.contentItem(), "alarm-words")
+    assert shown is not None
+    assert shown.property("text") == alarm_words(AlarmKind.DISK_LOW, CATALOGUES["en"])
     assigner.shortcut(Action.PANEL)
     assert not is_marked(assigner)
     fill_disk(assigner, ROOM)

@@ -109,6 +109,7 @@ FocusScope {
                         delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
                     }
                 }
+                PanelAlarms { width: parent.width; panel: view.panel }
                 PanelResume {
                     width: parent.width
                     panel: view.panel
