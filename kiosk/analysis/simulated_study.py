@@ -191,7 +191,8 @@ def _tables(people: Sequence[SimulatedRecord], policy: QTable) -> dict[str, list
             scored = item_scores(int(total), np.random.default_rng([*f"{person.name}/{scale}".encode()]))
             for number, score in enumerate(scored, 1):
                 answer = {"item": f"{scale}{number}", "kind": "likert", "value": score, "number": score}
-                tables["answers"].append(asked | answer | {"scored": score, "reversed": False, "not_applicable": False})
+                asked_for = {"reversed": False, "not_applicable": False, "not_shown": False}
+                tables["answers"].append(asked | answer | {"scored": score} | asked_for)
     if people:
         tables["flow"].append({"quantity": "exported", "group": "", "count": len(people)})
     return tables

@@ -191,6 +191,15 @@ class ShowItems:
     number: int
     of: int
     rates: bool = False
+    hidden: tuple[str, ...] = ()
+    """Those of the items that are not to be seen for now."""
+
+
+@dataclass(frozen=True)
+class HideItems:
+    """Of the items of the page that is shown, hide these and no others."""
+
+    items: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -305,6 +314,7 @@ Effect = (
     | SetExpression
     | ShowResult
     | ShowItems
+    | HideItems
     | ShowAnswer
     | ShowValidationErrors
     | ShowDebrief

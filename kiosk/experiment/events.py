@@ -474,6 +474,19 @@ class QuestionnairePageShown(SessionEvent):
 
 
 @dataclass(frozen=True, kw_only=True)
+class HiddenItemsChanged(SessionEvent):
+    """The answers changed which items are hidden by their conditions.
+
+    ``hidden`` are all that are hidden on the pages of the questionnaire up to the furthest that came; ``withdrawn`` are
+    those that lost an answer by it.
+    """
+
+    questionnaire: str
+    hidden: tuple[str, ...]
+    withdrawn: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class SkippedItemsShown(SessionEvent):
     """Items that the visitor had left out were pointed out.
 

@@ -183,6 +183,11 @@ class BaseItem(ConfigModel):
 
     id: Name
     text: Words
+    relevant: Annotated[str, Field(max_length=2_000, exclude_if=lambda condition: not condition)] = ""
+    """The condition to show it, as kiosk.experiment.relevance reads it; empty if it is always shown.
+
+    An empty one stays out of dumps, so that the hash of a questionnaire without conditions is what it always was.
+    """
 
     def view(self, language: str) -> dict[str, Any]:  # noqa: ARG002 - for the kinds that have words
         """Return what QML draws besides the text, as JSON values in a language."""

@@ -25,6 +25,7 @@ from kiosk.experiment.questionnaire import (
     ItemOrder,
     Questionnaire,
 )
+from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import Translation
 from kiosk.experiment.session_state import effective_answer
 
@@ -358,7 +359,10 @@ class QuestionnaireStage(StageHandler):
         self._rates = rates
         self._language = language
         self._sheets = tuple(sheet for asked in questionnaires for sheet in item_pages(asked, chance))
-        self._number = 0
+        self._asked = {asked.id: asked for asked in questionnaires}
+        self._number = self._furthest = 0
+        self._hidden: dict[str, tuple[str, ...]] = {}
+        """What the conditions hide, by questionnaire, on the pages up to the furthest."""
         self._answers: dict[tuple[str, str], Response] = {}
         self._pointed_out: set[tuple[str, str]] = set()
 
@@ -372,7 +376,8 @@ class QuestionnaireStage(StageHandler):
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the first page; nothing is answered."""
-        self._number = 0
+        self._number = self._furthest = 0
+        self._hidden.clear()
         self._answers.clear()
         self._pointed_out.clear()
         self._show(outcome)
@@ -395,7 +400,7 @@ class QuestionnaireStage(StageHandler):
         match event:
             case happened.ResponseGiven(item=name, value=value):
                 item = next((item for item in self._sheet.items if item.id == name), None)
-                return isinstance(item, Question) and (value is None or item.takes(value))
+                return isinstance(item, Question) and self._is_seen(item) and (value is None or item.takes(value))
         return True
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
@@ -404,10 +409,12 @@ class QuestionnaireStage(StageHandler):
             case happened.ResponseGiven(item=item, value=value):
                 self._keep(item, value)
                 outcome.effect(do.ShowAnswer(item, value))
+                if self._hide(outcome):
+                    outcome.effect(do.HideItems(self._hidden_here))
             case happened.ContinuePressed():
                 self._go_on(outcome)
             case happened.BackPressed() if self.goes_back:
-                self._number -= 1
+                self._number = next(number for number in reversed(range(self._number)) if self._is_asked(number))
                 self._show(outcome)
 
     def _keep(self, item: str, value: Response | None) -> None:
@@ -426,28 +433,67 @@ class QuestionnaireStage(StageHandler):
             self._pointed_out |= {(self._sheet.questionnaire, item) for item in missing}
             outcome.emit(happened.SkippedItemsShown(at_ms=outcome.at_ms, items=missing))
             outcome.effect(do.ShowValidationErrors(missing))
-        elif self._number + 1 < len(self._sheets):
-            self._number += 1
-            self._show(outcome)
-        else:
-            outcome.emit(happened.QuestionnairesCompleted(at_ms=outcome.at_ms))
+            return
+        for number in range(self._number + 1, len(self._sheets)):
+            self._furthest = max(self._furthest, number)
+            if self._is_asked(number):
+                self._number = number
+                self._show(outcome)
+                return
+            self._hide(outcome, number)
+        outcome.emit(happened.QuestionnairesCompleted(at_ms=outcome.at_ms))
 
     def _lacks(self, item: Item) -> bool:
         """Whether an item is still to be answered: it is required, or it was not pointed out yet."""
-        if isinstance(item, TextPage) or effective_answer(self._answer(item)) is not None:
+        if isinstance(item, TextPage) or not self._is_seen(item) or effective_answer(self._answer(item)) is not None:
             return False
         if item.required == "once":
             return (self._sheet.questionnaire, item.id) not in self._pointed_out
         return item.required
 
     def _show(self, outcome: OutcomeBuilder) -> None:
-        names = tuple(item.id for item in self._sheet.items)
+        self._hide(outcome)
+        names = tuple(item.id for item in self._sheet.items if self._is_seen(item))
         outcome.emit(
             happened.QuestionnairePageShown(at_ms=outcome.at_ms, questionnaire=self._sheet.questionnaire, items=names)
         )
-        outcome.effect(do.ShowItems(self._sheet.items, self._number + 1, len(self._sheets), self._rates))
+        number, of = self._number + 1, len(self._sheets)
+        outcome.effect(do.ShowItems(self._sheet.items, number, of, self._rates, self._hidden_here))
         given = ((item.id, self._answer(item)) for item in self._sheet.items)
         outcome.effect(*(do.ShowAnswer(item, value) for item, value in given if value is not None))
+
+    def _hidden_of(self, questionnaire: str) -> tuple[str, ...]:
+        given = {item: value for (of, item), value in self._answers.items() if of == questionnaire}
+        return hidden_items(self._asked[questionnaire].items, given)
+
+    def _is_asked(self, number: int) -> bool:
+        """Whether any item of a page is to be seen."""
+        sheet = self._sheets[number]
+        return not {item.id for item in sheet.items} <= set(self._hidden_of(sheet.questionnaire))
+
+    def _is_seen(self, item: Item) -> bool:
+        return item.id not in self._hidden.get(self._sheet.questionnaire, ())
+
+    @property
+    def _hidden_here(self) -> tuple[str, ...]:
+        return tuple(item.id for item in self._sheet.items if not self._is_seen(item))
+
+    def _hide(self, outcome: OutcomeBuilder, number: int | None = None) -> bool:
+        """Hide what the answers hide by now in the questionnaire of a page; return whether that is something else."""
+        of = self._sheets[self._number if number is None else number].questionnaire
+        hidden = self._hidden_of(of)
+        withdrawn = tuple(item for item in hidden if self._answers.pop((of, item), None) is not None)
+        reached = {
+            item.id for sheet in self._sheets[: self._furthest + 1] if sheet.questionnaire == of for item in sheet.items
+        }
+        hidden = tuple(item for item in hidden if item in reached)
+        if hidden == self._hidden.get(of, ()):
+            return False
+        self._hidden[of] = hidden
+        outcome.emit(
+            happened.HiddenItemsChanged(at_ms=outcome.at_ms, questionnaire=of, hidden=hidden, withdrawn=withdrawn)
+        )
+        return True
 
     @property
     def _sheet(self) -> ItemPage:

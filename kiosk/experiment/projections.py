@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
@@ -17,9 +17,10 @@ from kiosk.experiment.session_state import CARDS_IN_A_MOVE, Interval, ItemRespon
 def item_responses(state: SessionState, questionnaires: Sequence[Questionnaire]) -> tuple[ItemResponse, ...]:
     """Tell what became of every item that can be answered, in the order in which they are declared."""
     return tuple(
-        state.responses.get((asked.id, item.id), ItemResponse(asked.id, item.id))
+        replace(state.responses.get(key, ItemResponse(*key)), hidden=key in state.hidden_items)
         for asked in questionnaires
         for item in asked.questions
+        for key in [(asked.id, item.id)]
     )
 
 
@@ -29,7 +30,7 @@ class ScaleScore:
 
     ``total`` is the sum, None unless all ``items`` are answered; ``mean`` is that of the ``answered`` ones, None if
     they are fewer than ``needed``. Items that the visitor said do not apply are not among the answered ones; they are
-    counted as ``not_applicable``.
+    counted as ``not_applicable``. So are those that their condition hid, as ``hidden``.
     """
 
     questionnaire: str
@@ -40,6 +41,7 @@ class ScaleScore:
     needed: int
     total: int | None
     mean: float | None
+    hidden: int = 0
 
 
 def scale_scores(answers: Iterable[ItemResponse], questionnaires: Iterable[Questionnaire]) -> tuple[ScaleScore, ...]:
@@ -64,6 +66,7 @@ def _score(
         items=len(items),
         answered=len(counted),
         not_applicable=sum(response.does_not_apply for _, response in given),
+        hidden=sum(response.hidden for _, response in given),
         needed=needed,
         total=sum(counted) if len(counted) == len(items) else None,
         mean=sum(counted) / len(counted) if len(counted) >= needed else None,

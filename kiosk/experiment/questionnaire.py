@@ -10,7 +10,8 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field, TypeAdapter, field_validator, model_validator
+from pydantic import Field, TypeAdapter, ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from kiosk import UserInputError
 from kiosk.config import ConfigModel
@@ -33,6 +34,7 @@ from kiosk.experiment.items import (
     in_language,
     refuse_twice,
 )
+from kiosk.experiment.relevance import condition_faults
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
 
 
@@ -84,6 +86,9 @@ class ItemOrder(Enum):
     FIXED = "fixed"
     SHUFFLED = "shuffled"
     """Anew for every session; text pages keep their places."""
+
+
+_SHUFFLED = "the items are shuffled, so what the condition asks about may come later; a condition needs a fixed order"
 
 
 class Questionnaire(ConfigModel):
@@ -151,6 +156,29 @@ class Questionnaire(ConfigModel):
         refuse_twice("item", (item.id for item in items))
         return items
 
+    @field_validator("items")
+    @classmethod
+    def _show_items_on_conditions_that_can_be(cls, items: tuple[Item, ...], info: ValidationInfo) -> tuple[Item, ...]:
+        shuffled = info.data.get("order") is ItemOrder.SHUFFLED
+        faults = (
+            [(at, _SHUFFLED) for at, item in enumerate(items) if item.relevant]
+            if shuffled
+            else list(condition_faults(items))
+        )
+        if faults:
+            raise ValidationError.from_exception_data(
+                cls.__name__,
+                [
+                    InitErrorDetails(
+                        type=PydanticCustomError("condition", "{what}", {"what": what}),
+                        loc=(at, "relevant"),
+                        input=items[at].relevant,
+                    )
+                    for at, what in faults
+                ],
+            )
+        return items
+
     @model_validator(mode="after")
     def _sum_only_what_can_be_summed(self) -> Self:
         for item in self.items:
@@ -214,4 +242,6 @@ def facts(item: Item, language: str) -> str:
             answer = "a text"
     if isinstance(item, Question) and item.not_applicable:
         answer += ", or that it does not apply"
+    if item.relevant and language:
+        answer += f", asked if {item.relevant}"
     return f'"{in_language(item.text, language).strip()}" {answer}' if language else answer

@@ -22,6 +22,7 @@ from kiosk.experiment.events import (
     EmbodimentName,
     Event,
     GameFinished,
+    HiddenItemsChanged,
     HintGiven,
     HintHighlighted,
     InputDevice,
@@ -219,6 +220,8 @@ class ItemResponse:
     first_ms: int | None = None
     last_ms: int | None = None
     changes: int = 0
+    hidden: bool = False
+    """Whether the item's condition did not hold, so that it was not asked, or its answer was withdrawn."""
 
     @property
     def value(self) -> Answer | None:
@@ -266,6 +269,8 @@ class SessionState:
     resumptions: tuple[SessionResumed, ...]
     status: Status | None
     setup: SessionSetup | None = None
+    hidden_items: frozenset[tuple[str, str]] = frozenset()
+    """The items that their conditions hid in the end, by questionnaire and item."""
 
     @classmethod
     def from_events(cls, events: Iterable[Event], embodiment: EmbodimentName | None = None) -> SessionState:
@@ -296,6 +301,7 @@ class SessionState:
             resumptions=tuple(course.resumptions),
             status=course.status,
             setup=course.setup,
+            hidden_items=asked.hidden,
         )
 
     @property
@@ -334,7 +340,9 @@ _OF_BOARDS: frozenset[type[Event]] = frozenset(
         BoardUnlocked,
     }
 )
-_OF_RESPONSES: frozenset[type[Event]] = frozenset({StageEntered, QuestionnairePageShown, ResponseGiven, BackPressed})
+_OF_RESPONSES: frozenset[type[Event]] = frozenset(
+    {StageEntered, HiddenItemsChanged, QuestionnairePageShown, ResponseGiven, BackPressed}
+)
 _OF_SPEECH: frozenset[type[Event]] = frozenset(
     {
         *(HintGiven, RemarkGiven, SentenceRequested, SentenceRepeated),
@@ -488,7 +496,14 @@ class _Responses:
         self._questionnaire = ""
         self._shown_ms: dict[tuple[str, str], int] = {}
         self._shown_by_stage: dict[Stage, dict[tuple[str, str], int]] = {}
+        self._hidden_by_stage: dict[Stage, dict[str, tuple[str, ...]]] = {}
+        self._hidden: dict[str, tuple[str, ...]] = {}
         self.goes_back = False
+
+    @property
+    def hidden(self) -> frozenset[tuple[str, str]]:
+        by_questionnaire = (pair for hidden in self._hidden_by_stage.values() for pair in hidden.items())
+        return frozenset((questionnaire, item) for questionnaire, items in by_questionnaire for item in items)
 
     @property
     def given(self) -> dict[tuple[str, str], ItemResponse]:
@@ -499,10 +514,15 @@ class _Responses:
             case StageEntered(stage=stage):
                 # A visitor who goes back finds the answers given there; a stage that begins anew has none.
                 if not self.goes_back:
-                    self._by_stage[stage], self._shown_by_stage[stage] = {}, {}
+                    self._by_stage[stage], self._shown_by_stage[stage], self._hidden_by_stage[stage] = {}, {}, {}
                 self._here = self._by_stage.setdefault(stage, {})
                 self._shown_ms = self._shown_by_stage.setdefault(stage, {})
+                self._hidden = self._hidden_by_stage.setdefault(stage, {})
                 self._questionnaire = ""
+            case HiddenItemsChanged(questionnaire=questionnaire, hidden=hidden, withdrawn=withdrawn):
+                self._hidden[questionnaire] = hidden
+                lost = {(questionnaire, item) for item in withdrawn} & self._here.keys()
+                self._here |= {key: replace(self._here[key], response=None) for key in lost}
             case QuestionnairePageShown(questionnaire=questionnaire, items=items, at_ms=at_ms):
                 self._questionnaire = questionnaire
                 for item in items:

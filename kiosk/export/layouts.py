@@ -35,13 +35,15 @@ from kiosk.export.columns import (
 )
 from kiosk.export.participants import (
     ParticipantFlow,
+    can_be_hidden,
     can_be_not_applicable,
     exported_items,
     item_variable,
     not_applicable_variable,
+    not_shown_variable,
 )
 from kiosk.export.records import StudyMaterials
-from kiosk.export.responses import NOT_APPLICABLE
+from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN
 from kiosk.export.tables import DatasetTables
 from kiosk.store.connecting import atomic_directory
 from kiosk.store.plans import FrozenPlan
@@ -429,11 +431,19 @@ class Bids(Layout):
         items = {
             (item, "value"): item_variable(columns[item], asked_as, study, extras) for item, asked_as in asked.items()
         }
-        exempt = (item for item, asked_as in asked.items() if can_be_not_applicable(asked_as))
-        marked = {item: f"{columns[item]}_{NOT_APPLICABLE.name}" for item in exempt}
-        others = distinct(marked.values(), (PARTICIPANT.name, _TOOL, *columns.values()))
-        for item, other in marked.items():
-            items[item, NOT_APPLICABLE.name] = not_applicable_variable(others[other], columns[item])
+        kinds = (
+            (NOT_APPLICABLE.name, can_be_not_applicable, not_applicable_variable),
+            (NOT_SHOWN.name, can_be_hidden, not_shown_variable),
+        )
+        marked = {
+            (item, kind): (f"{columns[item]}_{kind}", variable)
+            for kind, can_be, variable in kinds
+            for item, asked_as in asked.items()
+            if can_be(asked_as)
+        }
+        others = distinct((other for other, _ in marked.values()), (PARTICIPANT.name, _TOOL, *columns.values()))
+        for (item, kind), (other, variable) in marked.items():
+            items[item, kind] = variable(others[other], columns[item])
         path = self.root / "phenotype" / f"{self._files[name]}.tsv"
         return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
 
@@ -460,7 +470,7 @@ class Bids(Layout):
         answers: dict[str, dict[tuple[str, str], str]] = {}
         for row, cells in zip(self._answers.rows(kept), _named_cells(self._answers, kept), strict=True):
             of = answers.setdefault(row.questionnaire.id, {})
-            of |= {(row.item.id, name): cells[name] for name in ("value", NOT_APPLICABLE.name)}
+            of |= {(row.item.id, name): cells[name] for name in ("value", NOT_APPLICABLE.name, NOT_SHOWN.name)}
         for name, given in answers.items():
             tool = self._tools[name]
             tool.file.write([[label, *(given.get(item, "") for item in tool.items)]])

@@ -46,7 +46,7 @@ from kiosk.export.columns import (
     who_sat_there,
 )
 from kiosk.export.records import TELLS_THE_ORDER, AgeBands, Asked, Scale, StudyMaterials
-from kiosk.export.responses import NOT_APPLICABLE, scores_table, session_questionnaires
+from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN, scores_table, session_questionnaires
 from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
@@ -343,6 +343,9 @@ def _about_you_columns(
         if can_be_not_applicable(asked_as):
             other = _free(f"{name}_{NOT_APPLICABLE.name}", "about_you", taken)
             columns[item] += (Column(not_applicable_variable(other, name), partial(_is_not_applicable, item)),)
+        if can_be_hidden(asked_as):
+            other = _free(f"{name}_{NOT_SHOWN.name}", "about_you", taken)
+            columns[item] += (Column(not_shown_variable(other, name), partial(_is_not_shown, item)),)
     return columns
 
 
@@ -361,6 +364,21 @@ def not_applicable_variable(name: str, of: str) -> Variable:
     )
 
 
+def can_be_hidden(asked_as: Asked) -> bool:
+    """Whether an item, in any of its forms, has a condition to show it."""
+    return any(item.relevant for _, item in asked_as)
+
+
+def not_shown_variable(name: str, of: str) -> Variable:
+    """Return the column that tells an item that its condition hid from one that was not answered."""
+    return Variable(
+        name,
+        f"Whether the condition of {of} did not hold in the end; {of} is then empty.",
+        ColumnKind.TRUTH,
+        empty=f"{of} was not asked",
+    )
+
+
 def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption]) -> bool:
     """Whether an item asks for an age that is exported in bands."""
     return ExportOption.AGES not in extras and item in study.age_bands.items
@@ -368,6 +386,10 @@ def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption])
 
 def _is_not_applicable(item: str, row: Person) -> Cell:
     return row.about_you[item].does_not_apply if item in row.about_you else None
+
+
+def _is_not_shown(item: str, row: Person) -> Cell:
+    return row.about_you[item].hidden if item in row.about_you else None
 
 
 def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) -> dict[str, Asked]:
@@ -423,7 +445,9 @@ def item_variable(name: str, asked_as: Asked, study: StudyMaterials, extras: fro
         f"The answer to {question}.{banded}{_item_called(name, newest)}{_versions(asked_as, study)}",
         kind,
         levels=tuple(levels.values()),
-        empty="nothing was answered" + (", or it does not apply" if can_be_not_applicable(asked_as) else ""),
+        empty="nothing was answered"
+        + (", or it does not apply" if can_be_not_applicable(asked_as) else "")
+        + (", or its condition did not hold" if can_be_hidden(asked_as) else ""),
         least=least,
         most=most,
     )

@@ -35,11 +35,17 @@ VERSION = Variable("version", "The version of the questionnaire.")
 SCALE = Variable("scale", "The scale that items are summed to.", empty="the item is not summed with others")
 
 _UNANSWERED = "nothing was answered"
-_UNANSWERED_OR_NOT_APPLICABLE = "nothing was answered, or not_applicable is true"
+_UNANSWERED_OR_NOT_APPLICABLE = "nothing was answered, or not_applicable or not_shown is true"
 
 NOT_APPLICABLE = Variable(
     "not_applicable",
     "Whether the visitor said that the item does not apply. The answer is then empty and is in no sum or mean.",
+    ColumnKind.TRUTH,
+)
+NOT_SHOWN = Variable(
+    "not_shown",
+    "Whether the item's condition did not hold in the end. The item was then never shown, or its answer was withdrawn; "
+    "it is empty and in no sum or mean.",
     ColumnKind.TRUTH,
 )
 _ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
@@ -122,6 +128,7 @@ def answers_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tab
             value,
         ),
         (NOT_APPLICABLE, lambda row: row.answered.does_not_apply),
+        (NOT_SHOWN, lambda row: row.answered.hidden),
         (
             Variable(
                 "number", "The answer as a number.", ColumnKind.WHOLE, empty="the answer is none, or no number" + aged
@@ -205,7 +212,7 @@ _SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
             "sum",
             "The sum of the scale's items, reversed ones turned round.",
             ColumnKind.WHOLE,
-            empty="not all of them were answered, or some did not apply",
+            empty="not all of them were answered, some did not apply, or some were hidden",
         ),
         lambda row: row.score.total,
     ),
@@ -226,6 +233,10 @@ _SCORE_COLUMNS: tuple[Column[_Score], ...] = make_columns(
     (
         Variable("items_not_applicable", "How many of them the visitor said do not apply.", ColumnKind.WHOLE),
         lambda row: row.score.not_applicable,
+    ),
+    (
+        Variable("items_not_shown", "How many of them their condition hid.", ColumnKind.WHOLE),
+        lambda row: row.score.hidden,
     ),
     (
         Variable("least_answered", "How many of them had to be answered for the mean.", ColumnKind.WHOLE),

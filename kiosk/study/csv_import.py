@@ -252,9 +252,16 @@ def read_items(file: Path, heading: Heading) -> Questionnaire:
     try:
         return Questionnaire.model_validate(given)
     except ValidationError as error:
-        raise UserInputError(
-            *(f"{table.name}: {each}" for each in validation_messages(error, given, Questionnaire))
-        ) from error
+        raise UserInputError(*_whole_faults(error, table, given)) from error
+
+
+def _whole_faults(error: ValidationError, table: CsvTable, given: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what is wrong between the items; of a condition, with its row."""
+    conditions = [fault for fault in error.errors() if fault["loc"][::2] == ("items", "relevant")]
+    for fault in conditions:
+        yield f"{table.name}, row {table.rows[int(fault['loc'][1])].number}, column relevant: {fault['msg']}"
+    if not conditions:
+        yield from (f"{table.name}: {each}" for each in validation_messages(error, given, Questionnaire))
 
 
 @dataclass

@@ -22,7 +22,8 @@ from pydantic import ValidationError
 
 from kiosk import UserInputError
 from kiosk.errors import validation_messages
-from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
+from kiosk.experiment.relevance import read_condition
 from kiosk.language_codes import is_right, standard
 from kiosk.study.csv_import import Heading, text_of_table
 
@@ -41,6 +42,9 @@ class Survey:
     language: str
     items: list[dict[str, Any]] = field(default_factory=list)
     left: list[str] = field(default_factory=list)
+    _since: int = 0
+    conditions: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    """What the file says of when an item is shown: where, in its own words, and in ours; by the item's name."""
 
     def leave(self, where: str, what: str) -> None:
         """Note that something was not taken."""
@@ -69,6 +73,37 @@ class Survey:
             self.leave(where, f"{name!r} has no text, so it is not taken")
             return
         self.items.append({"id": ident, "kind": kind, "text": dict(text)} | more)
+
+    def show_if(self, where: str, what: str, condition: str | None) -> None:
+        """Show what was added there on a condition; None if it cannot be said here."""
+        added = [item for item in self.items[self._since :] if item["id"] not in self.conditions]
+        if condition is None or not added:
+            self.leave(where, what)
+            return
+        for item in added:
+            item["relevant"] = condition
+            self.conditions[item["id"]] = (where, what, condition)
+
+    def begin(self) -> None:
+        """Begin a question of the file, which may be several items here."""
+        self._since = len(self.items)
+
+    def drop_what_cannot_be(self, order: ItemOrder) -> None:
+        """Leave out the conditions that cannot be here, such as those about what was not taken."""
+        while True:
+            given = {"id": "survey", "version": "1", "note": "-", "order": order, "items": self.items}
+            try:
+                Questionnaire.model_validate(given)
+            except ValidationError as error:
+                places = {fault["loc"][1] for fault in error.errors() if fault["loc"][::2] == ("items", "relevant")}
+                if not places:
+                    return
+                for item in (self.items[int(place)] for place in places):
+                    del item["relevant"]
+                    where, what, _ = self.conditions[item["id"]]
+                    self.leave(where, what)
+            else:
+                return
 
 
 def _ident(name: str) -> str:
@@ -119,6 +154,7 @@ def read_survey(file: Path, heading: Heading, language: str = "en") -> tuple[Que
         take(survey, list(csv.DictReader(io.StringIO(text, newline=""), delimiter=dialect)))
     if not survey.items:
         raise UserInputError(f"{survey.name} has nothing that can be asked here", *survey.left)
+    survey.drop_what_cannot_be(heading.order)
     given = {**vars(heading), "items": survey.items}
     try:
         return Questionnaire.model_validate(given), list(dict.fromkeys(survey.left))
@@ -136,6 +172,72 @@ def _json(name: str, file: Path) -> Any:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
         raise UserInputError(f"{name} is not a QSF file: it is not JSON") from error
+
+
+# Conditions
+
+_VALUE = r"""(?:'[^']*'|"[^"]*"|-?\d+)"""
+_Rule = tuple[str, str]
+_SHARED: tuple[_Rule, ...] = ((r"(?i)\b(and|or|not)\b", "{0}"), (r"[()]", "{0}"), (r"\s+", " "))
+_SIGN = r"\s*(!=|<>|<=|>=|==?|<|>|\beq\b|\bne\b|\blt\b|\ble\b|\bgt\b|\bge\b)\s*"
+_SIGNS = {"<>": "!=", "==": "=", "eq": "=", "ne": "!=", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
+_XLSFORM_CONDITION: tuple[_Rule, ...] = (
+    (rf"selected\(\s*\$\{{([\w.-]+)\}}\s*,\s*({_VALUE})\s*\)", "selected({1}, {2})"),
+    (r"\$\{([\w.-]+)\}\s*!=\s*(?:''|\"\")", "answered({1})"),
+    (r"\$\{([\w.-]+)\}\s*=\s*(?:''|\"\")", "not answered({1})"),
+    (rf"\$\{{([\w.-]+)\}}{_SIGN}({_VALUE})", "{1} {2} {3}"),
+    *_SHARED,
+)
+_REDCAP_CONDITION: tuple[_Rule, ...] = (
+    (r"\[(\w+)\((\w+)\)\]\s*=\s*['\"]?1['\"]?", "selected({1}, '{2}')"),
+    (r"\[(\w+)\((\w+)\)\]\s*(?:=\s*['\"]?0['\"]?|(?:<>|!=)\s*['\"]?1['\"]?)", "not selected({1}, '{2}')"),
+    (r"\[(\w+)\]\s*(?:<>|!=)\s*(?:''|\"\")", "answered({1})"),
+    (r"\[(\w+)\]\s*=\s*(?:''|\"\")", "not answered({1})"),
+    (rf"\[(\w+)\]{_SIGN}({_VALUE})", "{1} {2} {3}"),
+    *_SHARED,
+)
+_LIME_CONDITION: tuple[_Rule, ...] = (
+    (r"!\s*is_empty\(\s*(\w+?)(?:\.(?:NAOK|value))?\s*\)", "answered({1})"),
+    (r"is_empty\(\s*(\w+?)(?:\.(?:NAOK|value))?\s*\)", "not answered({1})"),
+    (rf"\b(?!and\b|or\b|not\b)([A-Za-z]\w*)(?:\.(?:NAOK|value))?{_SIGN}({_VALUE})", "{1} {2} {3}"),
+    (r"&&", " and "),
+    (r"\|\|", " or "),
+    (r"!(?!=)", "not "),
+    *_SHARED,
+)
+
+
+def _condition(text: str, rules: Sequence[_Rule]) -> str | None:
+    """Return the condition of another program in our words; None if something in it cannot be said."""
+    said, place = "", 0
+    while place < len(text):
+        for pattern, here in rules:
+            found = re.compile(pattern).match(text, place)
+            if found:
+                said += here.format(found[0].lower(), *map(_in_our_words, found.groups()))
+                place = found.end()
+                break
+        else:
+            return None
+    return _readable(" ".join(said.split()))
+
+
+def _in_our_words(part: str) -> str:
+    if part.lower() in _SIGNS:
+        return _SIGNS[part.lower()]
+    # Numbers stand in quotes in some programs, also where they are compared as numbers.
+    bare = re.fullmatch(r"""(['"])(-?\d{1,9})\1""", part)
+    if bare:
+        return bare[2]
+    return _ident(part) if re.fullmatch(r"[A-Za-z][\w.-]*", part) else part
+
+
+def _readable(condition: str) -> str | None:
+    try:
+        read_condition(condition)
+    except ValueError:
+        return None
+    return condition
 
 
 # XLSForm
@@ -243,7 +345,6 @@ def _xlsform(survey: Survey, sheets: Mapping[str, Rows]) -> None:
 
 _GROUPS = ("begin group", "end group", "begin_group", "end_group", "begin repeat", "end repeat", "begin_repeat")
 _NOT_TAKEN = {
-    "relevant": "its condition ({}) is not taken: it is always asked",
     "hint": "its hint is not taken",
     "default": "its default is not taken: nothing is chosen beforehand",
     "choice_filter": "its choice filter is not taken",
@@ -254,9 +355,12 @@ _NOT_TAKEN = {
 def _xlsform_row(  # noqa: C901 - a case for each type of that program
     survey: Survey, where: str, row: Mapping[str, str], choices: Mapping[str, list[dict[str, Any]]]
 ) -> None:
+    survey.begin()
     kind, _, rest = row["type"].strip().partition(" ")
     if row["type"].strip().lower() in (*_GROUPS, "end_repeat"):
         survey.leave(where, f"{row['type']} is not taken; what is in it stands one after another")
+        if row.get("relevant"):
+            survey.leave(where, f"its condition ({row['relevant']}) is not taken: what is in it is always asked")
         return
     texts, name = _labels(survey, where, row), row.get("name", "")
     more: dict[str, Any] = {}
@@ -280,6 +384,9 @@ def _xlsform_row(  # noqa: C901 - a case for each type of that program
         case _:
             survey.leave(where, f"the type {row['type']!r} is not taken")
             return
+    if row.get("relevant"):
+        told = f"its condition ({row['relevant']}) is not taken: it is always asked"
+        survey.show_if(where, told, _condition(row["relevant"], _XLSFORM_CONDITION))
     for column, what in _NOT_TAKEN.items():
         if row.get(column):
             survey.leave(where, what.format(row[column]))
@@ -319,6 +426,7 @@ def _redcap(survey: Survey, rows: Rows) -> None:  # noqa: C901 - a case for each
     for number, raw in enumerate(rows, 2):
         row = {key: next((raw[each] or "" for each in names if raw.get(each)), "") for key, names in _REDCAP.items()}
         where = f"row {number}, {row['name']}"
+        survey.begin()
         text = survey.words(where, row["label"])
         more: dict[str, Any] = {"required": True} if row["required"].lower() == "y" else {}
         kind = row["type"].lower()
@@ -346,7 +454,8 @@ def _redcap(survey: Survey, rows: Rows) -> None:  # noqa: C901 - a case for each
                 survey.leave(where, f"the field type {row['type']!r} is not taken")
                 continue
         if row["branching"]:
-            survey.leave(where, f"its branching logic ({row['branching']}) is not taken: it is always asked")
+            told = f"its branching logic ({row['branching']}) is not taken: it is always asked"
+            survey.show_if(where, told, _condition(row["branching"], _REDCAP_CONDITION))
 
 
 def _redcap_options(survey: Survey, where: str, choices: str) -> list[dict[str, Any]]:
@@ -404,6 +513,7 @@ _LIME_POINTS = {"5": 5, "A": 5, "B": 10}
 
 
 def _lime_question(survey: Survey, name: str, question: _Lime) -> None:  # noqa: C901 - a case for each type of that program
+    survey.begin()
     more: dict[str, Any] = {"required": True} if question.required else {}
     where, kind, text = question.where, question.kind, question.text
     answers = [{"id": _option(key), "text": words} for key, words in question.answers.items()]
@@ -435,7 +545,8 @@ def _lime_question(survey: Survey, name: str, question: _Lime) -> None:  # noqa:
             survey.leave(where, f"the type {kind!r} is not taken")
             return
     if question.relevance not in {"", "1"}:
-        survey.leave(where, f"its relevance ({question.relevance}) is not taken: it is always asked")
+        told = f"its relevance ({question.relevance}) is not taken: it is always asked"
+        survey.show_if(where, told, _condition(question.relevance, _LIME_CONDITION))
 
 
 def _joined(text: Mapping[str, str], words: Mapping[str, str]) -> dict[str, str]:
@@ -449,19 +560,26 @@ def _qualtrics(survey: Survey, document: Any) -> None:
     elements = document.get("SurveyElements") if isinstance(document, Mapping) else None
     if not isinstance(elements, list):
         raise UserInputError(f"{survey.name} is not a QSF file: it has no SurveyElements")
+    names: dict[str, tuple[str, Mapping[str, Any]]] = {}
     for element in elements:
         if isinstance(element, Mapping) and element.get("Element") == "SQ" and isinstance(element.get("Payload"), dict):
             payload = element["Payload"]
             name = str(payload.get("DataExportTag") or element.get("PrimaryAttribute") or "q")
+            names[str(element.get("PrimaryAttribute") or payload.get("QuestionID"))] = (name, payload)
             try:
-                _qualtrics_question(survey, f"the question {name}", name, payload)
+                _qualtrics_question(survey, f"the question {name}", name, payload, names)
             except (KeyError, TypeError, ValueError, AttributeError) as error:
                 raise UserInputError(f"{survey.name}: the question {name} is not as Qualtrics writes it") from error
 
 
 def _qualtrics_question(  # noqa: C901 - a case for each type of that program
-    survey: Survey, where: str, name: str, payload: Mapping[str, Any]
+    survey: Survey,
+    where: str,
+    name: str,
+    payload: Mapping[str, Any],
+    names: Mapping[str, tuple[str, Mapping[str, Any]]],
 ) -> None:
+    survey.begin()
     text = survey.words(where, str(payload.get("QuestionText", "")))
     settings = payload.get("Validation") or {}
     told = settings.get("Settings") if isinstance(settings, Mapping) else None
@@ -493,7 +611,8 @@ def _qualtrics_question(  # noqa: C901 - a case for each type of that program
             survey.leave(where, f"the question type {kind!r} {selector} is not taken".replace("  ", " "))
             return
     if payload.get("DisplayLogic"):
-        survey.leave(where, "its display logic is not taken: it is always asked")
+        told = "its display logic is not taken: it is always asked"
+        survey.show_if(where, told, _display_logic(payload["DisplayLogic"], names))
 
 
 def _qualtrics_options(survey: Survey, where: str, choices: Any, order: Any) -> list[dict[str, Any]]:
@@ -501,3 +620,41 @@ def _qualtrics_options(survey: Survey, where: str, choices: Any, order: Any) -> 
         return []
     keys = [str(key) for key in order] if isinstance(order, list) and order else list(choices)
     return [{"id": _option(key), "text": survey.words(where, str(choices[key]["Display"]))} for key in keys]
+
+
+def _display_logic(logic: Any, names: Mapping[str, tuple[str, Mapping[str, Any]]]) -> str | None:
+    """Return a display logic in our words; None if something in it cannot be said."""
+    if not isinstance(logic, Mapping) or logic.get("Type") != "BooleanExpression":
+        return None
+    groups = [group for key, group in sorted(logic.items()) if key.isdigit()]
+    said = ""
+    for group in groups:
+        if not isinstance(group, Mapping):
+            return None
+        inner = ""
+        for number, part in enumerate(each for key, each in sorted(group.items()) if key.isdigit()):
+            simple = _logic_expression(part, names)
+            if simple is None:
+                return None
+            joint = {"AndIf": " and ", "And": " and ", "OrIf": " or ", "Or": " or "}.get(part.get("Conjuction", ""))
+            if number and joint is None:
+                return None
+            # That program goes from left to right, whatever the conjunction is.
+            inner = f"({inner}){joint}{simple}" if number else simple
+        joint = " or " if group.get("Type") == "ElseIf" else " and "
+        said = f"({said}){joint}({inner})" if said else inner
+    return _readable(said)
+
+
+def _logic_expression(part: Any, names: Mapping[str, tuple[str, Mapping[str, Any]]]) -> str | None:
+    """Return one line of a display logic: a choice that is selected or not."""
+    if not isinstance(part, Mapping) or part.get("LogicType") != "Question":
+        return None
+    place = re.fullmatch(r"q://(\w+)/SelectableChoice/(\w+)", str(part.get("LeftOperand") or part.get("ChoiceLocator")))
+    if place is None or place[1] not in names:
+        return None
+    name, payload = names[place[1]]
+    if payload.get("QuestionType") != "MC":
+        return None
+    chosen = f"selected({_ident(name)}, '{_option(place[2])}')"
+    return {"Selected": chosen, "NotSelected": f"not {chosen}"}.get(str(part.get("Operator")))

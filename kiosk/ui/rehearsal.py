@@ -207,6 +207,7 @@ _NAMES: dict[type[Effect], str] = {
     do.MarkMatched: "pair",
     do.ShowResult: "result",
     do.ShowAnswer: "answer",
+    do.HideItems: "other-items",
     do.ShowDebrief: "debrief",
     do.ShowThanks: "thanks",
     do.AskStillThere: "still-there",
@@ -280,7 +281,9 @@ class Rehearsal:
         self._hand = hand(app.window, self.pulse.aside)
         self._filling = FormFiller(self._hand, chance, hasty=visitor.manner is BehaviourKind.HASTY)
         self._page: object = None
-        self._errands: deque[Errand] = deque()
+        self._errands: deque[tuple[str, Errand]] = deque()
+        self._begun: set[str] = set()
+        """The items of the page that were begun; an item that was hidden and comes again is answered again."""
         self._shots = shots
         self._stage = Stage.ATTRACT
         self._acts = 0
@@ -387,12 +390,22 @@ class Rehearsal:
             self._click("agree")
 
     def _fill_in(self) -> None:
-        items = self._app.screens.form.shown
-        if items is not self._page:
-            self._page = items
-            self._errands = deque(self._filling.errands(self._wanted()))
+        form = self._app.screens.form
+        if form.page_items is not self._page:
+            self._page = form.page_items
+            self._errands.clear()
+            self._begun.clear()
+        shown = {item.id for item in form.shown}
+        self._begun &= shown
+        self._errands = deque(errand for errand in self._errands if errand[0] in shown)
+        fresh = tuple(item for item in self._wanted() if item.id not in self._begun)
+        if fresh:
+            conditional = any(item.relevant for item in form.page_items)
+            self._errands.extend(self._filling.errands(fresh, more=conditional))
+            self._begun |= {item.id for item in fresh}
         if self._errands:
-            self._errands.popleft()()
+            _, errand = self._errands.popleft()
+            errand()
         else:
             self._click("continue")
 

@@ -167,10 +167,12 @@ class Renderer:
                 case do.ShowResult(pairs=pairs, moves=moves, time_ms=time_ms, hints=hints):
                     screens.result.show(pairs, moves, time_ms, hints, screens.board.found)
                     screens.kiosk.show("result")
-                case do.ShowItems(items=items, number=number, of=pages, rates=rates):
-                    screens.form.show(items, number, pages)
+                case do.ShowItems(items=items, number=number, of=pages, rates=rates, hidden=hidden):
+                    screens.form.show(items, number, pages, hidden)
                     self._let_be_rated(rated=rates)
                     screens.kiosk.show("form")
+                case do.HideItems(items=hidden):
+                    screens.form.hide(hidden)
                 case do.ShowAnswer(item=item, value=value):
                     screens.form.show_answer(item, value)
                 case do.ShowValidationErrors(names=names):

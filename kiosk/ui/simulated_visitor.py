@@ -245,13 +245,17 @@ class FormFiller:
         self._click = hand.double_click if hasty else hand.click
         self._chance = chance
 
-    def errands(self, items: tuple[Item, ...]) -> Iterator[Errand]:
-        """Yield what is to be done for these items, in their order."""
+    def errands(self, items: tuple[Item, ...], *, more: bool = False) -> Iterator[tuple[str, Errand]]:
+        """Yield what is to be done for these items, in their order, each with the item's name.
+
+        ``more``: other items may come to be seen on the page.
+        """
         for number, item in enumerate(items):
             if isinstance(item, Question) and item.not_applicable and self._chance.random() < NOT_APPLICABLE_SHARE:
-                yield self._do(Tap(f"not-applicable-{item.id}"))
+                yield item.id, self._do(Tap(f"not-applicable-{item.id}"))
             else:
-                yield from map(self._do, item.simulate(self._chance, last=number == len(items) - 1))
+                last = number == len(items) - 1 and not more
+                yield from ((item.id, self._do(act)) for act in item.simulate(self._chance, last=last))
 
     def _do(self, act: Act) -> Errand:
         match act:

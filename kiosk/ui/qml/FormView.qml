@@ -41,12 +41,15 @@ PageFrame {
                 at = i
         if (at < 0 || !(boxes.itemAt(at) as FormItem).takes(digit))
             return false
-        const next = boxes.itemAt(at + 1) as FormItem
-        if (next)
-            next.take()
+        // The answer may show or hide the items after it.
+        view.form.rate(view.form.items[at].id, digit)
+        let next = at + 1
+        while (next < boxes.count && !boxes.itemAt(next).visible)
+            next++
+        if (next < boxes.count)
+            (boxes.itemAt(next) as FormItem).take()
         else
             way.button.forceActiveFocus(Qt.TabFocusReason)
-        view.form.rate(view.form.items[at].id, digit)
         return true
     }
 
@@ -171,6 +174,11 @@ PageFrame {
     }
     Connections {
         target: view.form
+        // A field that is hidden while something is typed takes its keyboard along.
+        function onMarked() {
+            if (keyboard.field !== null && !keyboard.field.visible)
+                keyboard.field = null
+        }
         // A new page begins at its top, for eyes and for the keyboard.
         function onTurned() {
             keyboard.field = null

@@ -85,6 +85,8 @@ class FormScreen(QObject):
         self._catalogue = catalogue
         self._scale = scale
         self._items: tuple[Item, ...] = ()
+        self._hidden: frozenset[str] = frozenset()
+        self._shown: tuple[Item, ...] = ()
         self._number = self._of = 0
         self._answers: dict[str, Response] = {}
         self._given: dict[str, Response | None] = {}
@@ -104,14 +106,34 @@ class FormScreen(QObject):
         for item, text in typed.items():
             self.filled.emit(item, text)
 
-    def show(self, items: tuple[Item, ...], number: int, of: int) -> None:
-        """Show a page, ``number`` ``of`` so many; nothing is answered."""
+    def show(self, items: tuple[Item, ...], number: int, of: int, hidden: tuple[str, ...] = ()) -> None:
+        """Show a page, ``number`` ``of`` so many, but for its hidden items; nothing is answered."""
         self._items, self._number, self._of = items, number, of
+        self._set_hidden(hidden)
         self._answers, self._given, self._drafts, self._missing = {}, {}, {}, ()
         self._keystrokes = 0
         self.changed.emit()
         self.turned.emit()
         self.marked.emit()
+
+    def hide(self, hidden: tuple[str, ...]) -> None:
+        """Hide these items of the page and no others; what was answered and typed in them is gone."""
+        self._set_hidden(hidden)
+        for item in hidden:
+            self._answers.pop(item, None)
+            self._given.pop(item, None)
+        self._missing = tuple(name for name in self._missing if name not in self._hidden)
+        typed = [item for item in hidden if self._drafts.pop(item, "")]
+        self.marked.emit()
+        for item in typed:
+            self.filled.emit(item, "")
+        for item in typed:
+            # The emptied field reports its text like one that was typed in.
+            self._drafts.pop(item, None)
+
+    def _set_hidden(self, hidden: tuple[str, ...]) -> None:
+        self._hidden = frozenset(hidden)
+        self._shown = tuple(item for item in self._items if item.id not in self._hidden)
 
     def show_answer(self, item: str, value: Response | None) -> None:
         """Show which answer is chosen."""
@@ -141,6 +163,11 @@ class FormScreen(QObject):
     @property
     def shown(self) -> tuple[Item, ...]:
         """The items of the page, as anybody in front of the screen can see."""
+        return self._shown
+
+    @property
+    def page_items(self) -> tuple[Item, ...]:
+        """All items of the page, also those that are hidden."""
         return self._items
 
     @property
@@ -180,6 +207,11 @@ class FormScreen(QObject):
     def exempt(self) -> list[str]:
         """Return the items that the visitor said do not apply."""
         return [item for item, value in self._answers.items() if isinstance(value, NotApplicable)]
+
+    @Property(list, notify=marked)
+    def hidden(self) -> list[str]:
+        """Return the items of the page that are not to be seen."""
+        return sorted(self._hidden)
 
     @Property(list, notify=marked)
     def missing(self) -> list[str]:
@@ -301,10 +333,15 @@ class FormScreen(QObject):
     @Slot()
     def proceed(self) -> None:
         """Go on; what is typed is answered first, and what cannot be an answer has to be mended."""
+        hidden = self._hidden
         self.finish_typing()
+        came = [item.id for item in self._shown if item.id in hidden]
         wrong = tuple(item for item in self._drafts if self._is_wrong(item))
         if wrong:
             self.show_missing(wrong)
+        elif came:
+            # What was typed last brought items that nobody has seen yet.
+            self.missed.emit(came[0])
         else:
             self.continued.emit()
 

@@ -44,13 +44,14 @@ Rectangle {
     }
     // Whether nothing is said to it yet.
     function isOpen(): bool {
-        return (answer ?? null) === null && !form.exempt.includes(item.id)
+        return visible && (answer ?? null) === null && !form.exempt.includes(item.id)
     }
     function take() {
         (guest.active ? guest : way).forceActiveFocus(Qt.TabFocusReason)
     }
 
     objectName: `item-${item.id}`
+    visible: !form.hidden.includes(item.id)
     height: content.height + 2 * margin
     radius: Theme.radius
     color: alone ? "transparent" : Theme.white
