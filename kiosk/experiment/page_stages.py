@@ -407,9 +407,11 @@ class QuestionnaireStage(StageHandler):
         """Keep an answer, or go on to the next page."""
         match event:
             case happened.ResponseGiven(item=item, value=value):
+                hidden = self._hidden_here
                 self._keep(item, value)
                 outcome.effect(do.ShowAnswer(item, value))
-                if self._hide(outcome):
+                self._hide(outcome)
+                if hidden != self._hidden_here:
                     outcome.effect(do.HideItems(self._hidden_here))
             case happened.ContinuePressed():
                 self._go_on(outcome)
@@ -478,8 +480,8 @@ class QuestionnaireStage(StageHandler):
     def _hidden_here(self) -> tuple[str, ...]:
         return tuple(item.id for item in self._sheet.items if not self._is_seen(item))
 
-    def _hide(self, outcome: OutcomeBuilder, number: int | None = None) -> bool:
-        """Hide what the answers hide by now in the questionnaire of a page; return whether that is something else."""
+    def _hide(self, outcome: OutcomeBuilder, number: int | None = None) -> None:
+        """Hide what the answers hide by now in the questionnaire of a page, by default the one that is shown."""
         of = self._sheets[self._number if number is None else number].questionnaire
         hidden = self._hidden_of(of)
         withdrawn = tuple(item for item in hidden if self._answers.pop((of, item), None) is not None)
@@ -488,12 +490,11 @@ class QuestionnaireStage(StageHandler):
         }
         hidden = tuple(item for item in hidden if item in reached)
         if hidden == self._hidden.get(of, ()):
-            return False
+            return
         self._hidden[of] = hidden
         outcome.emit(
             happened.HiddenItemsChanged(at_ms=outcome.at_ms, questionnaire=of, hidden=hidden, withdrawn=withdrawn)
         )
-        return True
 
     @property
     def _sheet(self) -> ItemPage:

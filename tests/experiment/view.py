@@ -102,6 +102,9 @@ class View:
                 self.up, self.found, self.held, self.mark, self.progress = {}, set(), None, None, (0, 0)
             case do.ShowResult():
                 self.screen, self.result = "result", effect
+            case do.HideItems(items=hidden):
+                kept = {item: value for item, value in self.answers.items() if item not in hidden}
+                self.answers, self.missing = kept, tuple(item for item in self.missing if item not in hidden)
             case do.ShowItems():
                 self.screen, self.page, self.answers, self.missing = "questions", effect, {}, ()
             case do.ShowDebrief():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from xml.sax.saxutils import escape
 
@@ -13,7 +14,7 @@ from click.testing import CliRunner
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.items import Integer, Likert, Multiple, Single, Slider
-from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.study.csv_import import Heading, read_items
 from kiosk.study.survey_import import is_survey, read_survey
 
@@ -114,7 +115,8 @@ def test_a_redcap_dictionary_is_taken(tmp_path: Path) -> None:
     assert (mood.left, mood.right) == ({"en": "bad"}, {"en": "good"})
     assert "row 6, sum: the field type 'calc' is not taken" in left
     assert "row 2, sex: its markup is not taken; the words are" in left
-    assert any(each.startswith("row 3, age: its branching logic") for each in left)
+    assert age.relevant == "sex = 1"
+    assert not any("branching logic" in each for each in left)
 
 
 LIME = [
@@ -175,6 +177,118 @@ def test_a_qualtrics_file_is_taken(tmp_path: Path) -> None:
     assert first.ids == ("2", "1")
     assert "the question Q4: the question type 'Captcha' V2 is not taken" in left
     assert "the question Q3: its display logic is not taken: it is always asked" in left
+
+
+CONDITIONS = [
+    ["type", "name", "label::English (en)", "relevant"],
+    ["select_one yn", "liked", "Did you like it?"],
+    ["select_multiple yn", "both", "Which?", "selected(${liked}, '1') and not(${liked} = '0')"],
+    ["integer", "age", "How old?", "${both} != ''"],
+    ["text", "why", "Why?", "${age} >= 18 or ${liked} = '0'"],
+    ["text", "sum", "Sum?", "${age} + 1 > 18"],
+    ["text", "gone", "Gone?", "${nowhere} = 1"],
+    ["text", "never", "Never?", "${age} > 3 and ${age} < 2"],
+    ["begin group", "g", "", "${age} > 3"],
+]
+
+
+def test_conditions_of_an_xlsform_are_taken_as_far_as_they_can_be_said(tmp_path: Path) -> None:
+    file = workbook(tmp_path / "form.xlsx", {"survey": CONDITIONS, "choices": CHOICES})
+    read, left = read_survey(file, HEADING)
+    assert {item.id: item.relevant for item in read.items} == {
+        "liked": "",
+        "both": "selected(liked, 1) and not(liked = 0)",
+        "age": "answered(both)",
+        "why": "age >= 18 or liked = 0",
+        "sum": "",
+        "gone": "",
+        "never": "",
+    }
+    told = "its condition ({}) is not taken: it is always asked"
+    for row, condition in ((6, "${age} + 1 > 18"), (7, "${nowhere} = 1"), (8, "${age} > 3 and ${age} < 2")):
+        assert f"survey, row {row}: {told.format(condition)}" in left
+    assert "survey, row 9: its condition (${age} > 3) is not taken: what is in it is always asked" in left
+    assert sum("condition" in each for each in left) == 4
+
+
+def test_a_shuffled_import_takes_no_conditions_and_says_so(tmp_path: Path) -> None:
+    file = workbook(tmp_path / "form.xlsx", {"survey": CONDITIONS[:3], "choices": CHOICES})
+    read, left = read_survey(file, replace(HEADING, order=ItemOrder.SHUFFLED))
+    assert [item.relevant for item in read.items] == ["", ""]
+    assert any(each.startswith("survey, row 3: its condition") for each in left)
+
+
+@pytest.mark.parametrize(
+    ("logic", "condition"),
+    [
+        ("[sex] = '1'", "sex = 1"),
+        ('[sex] <> "1" and [age] >= 18', "sex != 1 and age >= 18"),
+        ("[seen(2)] = '1' or [seen(1)] = '0'", "selected(seen, '2') or not selected(seen, '1')"),
+        ("[age] <> ''", "answered(age)"),
+        ("[age] = ''", "not answered(age)"),
+        ("datediff([a], 'today', 'y') > 3", ""),
+        ("[arm_1][age] > 3", ""),
+    ],
+)
+def test_branching_logic_of_redcap_is_taken_as_far_as_it_can_be_said(
+    tmp_path: Path, logic: str, condition: str
+) -> None:
+    head, sex, age = (REDCAP.replace(",\"[sex] = '1'\",", ",,").splitlines()[line] for line in (0, 1, 2))
+    seen = 'seen,f,,checkbox,Seen,"1, Cat | 2, Dog",,,,,,,'
+    quoted = logic.replace('"', '""')
+    last = f'last,f,,text,Last,,,,,,,"{quoted}",'
+    file = tmp_path / "dictionary.csv"
+    file.write_text("\n".join((head, sex, age, seen, last)), "utf-8")
+    read, left = read_survey(file, HEADING)
+    assert read.items[-1].relevant == condition
+    assert any(logic in each for each in left) is (not condition)
+
+
+@pytest.mark.parametrize(
+    ("relevance", "condition"),
+    [
+        ("stars.NAOK > 2", "stars > 2"),
+        ("((stars.NAOK == 3) && !is_empty(stars))", "((stars = 3) and answered(stars))"),
+        ("stars == '1' or stars == 5", "stars = 1 or stars = 5"),
+        ("count(that.stars) > 2", ""),
+    ],
+)
+def test_relevance_of_limesurvey_is_taken_as_far_as_it_can_be_said(
+    tmp_path: Path, relevance: str, condition: str
+) -> None:
+    rows = [LIME[0], LIME[2], ["Q", "5", "stars", "1", "Sterne?", "de", "N"]]
+    rows.append(["Q", "S", "last", relevance, "Warum?", "de", "N"])
+    file = tmp_path / "survey.txt"
+    file.write_text("\n".join("\t".join(row) for row in rows), "utf-8")
+    read, left = read_survey(file, HEADING)
+    assert read.items[-1].relevant == condition
+    assert any(relevance in each for each in left) is (not condition)
+
+
+def test_display_logic_of_qualtrics_is_taken_where_it_asks_for_choices(tmp_path: Path) -> None:
+    def line(operator: str, choice: str, conjunction: str = "", of: str = "QID1") -> dict[str, str]:
+        place = f"q://{of}/SelectableChoice/{choice}"
+        return {"LogicType": "Question", "LeftOperand": place, "Operator": operator, "Conjuction": conjunction}
+
+    def logic(*lines: dict[str, str]) -> dict[str, object]:
+        group = {str(number): each for number, each in enumerate(lines)} | {"Type": "If"}
+        return {"0": group, "Type": "BooleanExpression", "inPage": False}
+
+    choices = {"1": {"Display": "Yes"}, "2": {"Display": "No"}}
+    first = question("Q1", "MC", "SAVR", Choices=choices) | {"PrimaryAttribute": "QID1"}
+    shown = logic(line("Selected", "1"), line("NotSelected", "2", "AndIf"))
+    elements = [
+        first,
+        question("Q2", "TE", "SL", DisplayLogic=shown),
+        question("Q3", "TE", "SL", DisplayLogic=logic(line("Selected", "1", of="QID9"))),
+        question("Q4", "TE", "SL", DisplayLogic=logic(line("GreaterThan", "1"))),
+    ]
+    file = tmp_path / "survey.qsf"
+    file.write_text(json.dumps({"SurveyElements": elements}), "utf-8")
+    read, left = read_survey(file, HEADING)
+    assert [item.relevant for item in read.items] == ["", "(selected(Q1, '1')) and not selected(Q1, '2')", "", ""]
+    told = "its display logic is not taken: it is always asked"
+    assert left == [f"the question Q3: {told}", f"the question Q4: {told}"]
 
 
 def bad_workbook(folder: Path, kind: str) -> Path:

@@ -116,6 +116,43 @@ def test_an_answer_takes_back_that_the_item_does_not_apply_and_the_other_way_rou
     assert exempt(booth) == []
 
 
+def test_hidden_items_take_no_room_no_digit_and_no_text(booth: Booth, given: Given) -> None:
+    form, likert, text = booth.app.screens.form, ITEMS["likert"], ITEMS["text"]
+    ask(booth, likert, text, likert.model_copy(update={"id": "third"}))
+    booth.click(f"text-{text.id}")
+    UiDriver(booth.app.window).type("abc")
+    height = booth.item(f"item-{likert.id}").parentItem().height()
+    form.hide((text.id, likert.id))
+    booth.settle()
+    assert [item.id for item in form.shown] == ["third"]
+    assert not booth.sees(f"item-{text.id}")
+    assert booth.item("item-third").parentItem().height() < height
+    booth.app.window.contentItem().forceActiveFocus()
+    press(booth, Qt.Key.Key_3)
+    form.proceed()
+    assert given[-2:] == [("third", 3), ("", "continued")]
+    form.hide(())
+    booth.settle()
+    assert booth.item(f"text-{text.id}").property("text") == ""
+    assert booth.sees(f"item-{likert.id}")
+
+
+def test_items_that_come_by_what_was_typed_last_are_seen_before_the_page_goes(booth: Booth, given: Given) -> None:
+    form, text, second = booth.app.screens.form, ITEMS["text"], ITEMS["likert"]
+    form.show((text, second), 1, 1, (second.id,))
+    booth.app.screens.kiosk.show("form")
+    form.answered.connect(lambda item, _: form.hide(()) if item == text.id else None)
+    booth.settle()
+    booth.click(f"text-{text.id}")
+    UiDriver(booth.app.window).type("abc")
+    form.proceed()
+    booth.settle()
+    assert given == [(text.id, "abc")]
+    assert booth.sees(f"item-{second.id}")
+    form.proceed()
+    assert given[-1] == ("", "continued")
+
+
 def test_a_digit_answers_the_next_item_after_one_that_does_not_apply(booth: Booth, given: Given) -> None:
     likert = ITEMS["likert"].model_copy(update={"not_applicable": True})
     ask(booth, likert, likert.model_copy(update={"id": "second"}))

@@ -41,8 +41,14 @@ PageFrame {
                 at = i
         if (at < 0 || !(boxes.itemAt(at) as FormItem).takes(digit))
             return false
-        // The answer may show or hide the items after it.
+        goOn(at)
         view.form.rate(view.form.items[at].id, digit)
+        // The answer may have shown or hidden the items after it.
+        goOn(at)
+        return true
+    }
+    // Give the keyboard to the next item that is to be seen, or to the way on.
+    function goOn(at: int) {
         let next = at + 1
         while (next < boxes.count && !boxes.itemAt(next).visible)
             next++
@@ -50,7 +56,6 @@ PageFrame {
             (boxes.itemAt(next) as FormItem).take()
         else
             way.button.forceActiveFocus(Qt.TabFocusReason)
-        return true
     }
 
     Keys.onPressed: event => {
