@@ -52,6 +52,13 @@ Rectangle {
 
     objectName: `item-${item.id}`
     visible: !form.hidden.includes(item.id)
+    // Qt would give the keyboard back to a field that is not to be seen.
+    onVisibleChanged: {
+        if (!visible) {
+            way.focus = false
+            guest.focus = false
+        }
+    }
     height: content.height + 2 * margin
     radius: Theme.radius
     color: alone ? "transparent" : Theme.white
