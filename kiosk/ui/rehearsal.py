@@ -349,10 +349,15 @@ class Rehearsal:
         self._acts += 1
         if kiosk.covered:
             self._answer_the_cover()
-        elif self._manner is BehaviourKind.HASTY and kiosk.shown not in _DECIDING and self._visitor.tosses():
+        elif self._is_restless() and self._visitor.tosses():
             self._hand.tap_anywhere(self._chance)
         else:
             self._go_on(kiosk.shown)
+
+    def _is_restless(self) -> bool:
+        """Whether the visitor may tap anywhere now; beside the keys on the screen, that would take them away."""
+        may = self._manner is BehaviourKind.HASTY and self._app.screens.kiosk.shown not in _DECIDING
+        return may and not self._hand.is_visible("key-done")
 
     def _answer_the_cover(self) -> None:
         if self._hand.is_visible("still-here"):
