@@ -73,6 +73,8 @@ class UiDriver:
             self.click(name, across)
             self.click(name, across)
             return
+        if name.startswith("key-"):
+            self._turn_to(name)
         QTest.mouseDClick(self._window, LEFT, NO_KEY, self._reach(name, across))
 
     def tap_anywhere(self, chance: Random) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import NotRecordedReason, Stage, Status, WorldEvent
 from kiosk.experiment.session import Session
+from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
@@ -89,6 +91,44 @@ def test_whoever_clicks_twice_and_taps_everywhere_comes_to_the_end_too(make_boot
     booth.rehearse(seed, BehaviourProfile(BehaviourKind.HASTY))
     with open_repository(booth.data) as stored:
         assert [session.status for session in stored.sessions()] == [Status.COMPLETED]
+
+
+CONDITIONAL = """
+id = "asked"
+version = "1"
+note = "ours"
+per_page = 3
+items = [
+    { id = "plays", kind = "single", required = true, text.en = "Do you play?", options = [
+        { id = "yes", text.en = "Yes" }, { id = "no", text.en = "No" } ] },
+    { id = "which", kind = "text", required = true, relevant = "plays = 'yes'", text.en = "What?" },
+    { id = "pity", kind = "page", relevant = "plays = 'no'", text.en = "A pity." },
+    { id = "why", kind = "text", required = true, relevant = "not answered(which)", text.en = "Why?" },
+]
+"""
+
+
+@pytest.mark.parametrize(("seed", "kind"), [(1, BehaviourKind.COMPLETES), (7, BehaviourKind.HASTY)])
+def test_a_visitor_answers_the_items_that_come_by_their_answers(
+    make_booth: MakeBooth, tmp_path: Path, seed: int, kind: BehaviourKind
+) -> None:
+    asked = tmp_path / "asked.toml"
+    asked.write_text(CONDITIONAL, "utf-8")
+    stages = ("consent", "about_you", "game")
+    booth = make_booth(
+        settings=SMALL.model_copy(
+            update={"about_you": str(asked), "questionnaires": (), "stages": stages, "languages": ("en",)}
+        )
+    )
+    booth.rehearse(seed, BehaviourProfile(kind))
+    with open_repository(booth.data) as stored:
+        assert [session.status for session in stored.sessions()] == [Status.COMPLETED]
+        state = SessionState.from_events(stored.events(1))
+    given = {item for (of, item), response in state.responses.items() if of == "asked" and response.value is not None}
+    hidden = {item for of, item in state.hidden_items if of == "asked"}
+    plays = state.responses["asked", "plays"].value
+    assert given == ({"plays", "which"} if plays == "yes" else {"plays", "why"})
+    assert hidden == ({"pity", "why"} if plays == "yes" else {"which"})
 
 
 def test_every_flip_in_the_database_is_a_card_that_was_clicked_just_before(booth: Booth) -> None:
