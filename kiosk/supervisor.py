@@ -241,7 +241,10 @@ def _processor_s(process: int) -> float:
 
 
 def _is_ready(process: int) -> bool:
-    """Whether a process works, or would if it had a processor: on a busy machine, silence is no fault of its own."""
+    """Whether a process works, or would if it had a processor.
+
+    On a busy machine, silence is no fault of its own.
+    """
     try:
         return psutil.Process(process).status() == psutil.STATUS_RUNNING
     except psutil.Error:

@@ -187,7 +187,7 @@ def rehearse(
 
 
 def _pictures(app: App, mode: RunMode, shots: Path | None, layout: str | None) -> Screenshots | None:
-    """Give what takes the pictures of a session, if they are wanted; the window gets the size of a layout, if any."""
+    """Give what takes the pictures of a session, if they are wanted, and size the window to the layout."""
     if shots is None:
         return None
     if layout is not None:
@@ -235,7 +235,10 @@ def _shoot_covers(
     before: Screenshots,
     seed: int,
 ) -> None:
-    """Play up to the first pair once more, for pictures of what may lie over a game; it is not kept."""
+    """Play up to the first pair once more for pictures of what may lie over a game.
+
+    The session is not kept.
+    """
     if "game" not in study.settings.stages:
         return
     with (

@@ -1,4 +1,4 @@
-"""What the booth calls its experimenter for: eight alarms that follow from how it is, and which of them sound when."""
+"""Eight alarms that call the experimenter, and when each of them sounds."""
 
 from __future__ import annotations
 
@@ -130,7 +130,10 @@ class Alarm:
 
 @dataclass
 class _Held:
-    """An alarm that holds: which time it is, since when by a clock that cannot be set, and when it sounded last."""
+    """An alarm that holds.
+
+    It says which time it is, since when by a clock that cannot be set, and when it sounded last.
+    """
 
     number: int
     from_ms: int

@@ -340,7 +340,7 @@ def _can_hold(condition: Condition, items: Sequence[BaseItem], conditions: Mappi
 
 
 def _samples(item: Question, parts: Sequence[Compared | Selected | Answered]) -> list[Answer]:
-    """Return answers to an item of which each condition on it is true or false for one at least, in each mixture."""
+    """Return answers to an item that make each condition on it true once and false once, in each mixture."""
     form = item.answer_format
     if form.several:
         named = [option.id for option in form.options]

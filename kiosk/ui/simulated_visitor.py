@@ -211,7 +211,7 @@ def _scroller(item: QQuickItem) -> QQuickItem | None:
 
 
 def _scroll_back_to(item: QQuickItem) -> bool:
-    """Scroll up to an item that lies above what is seen, as a finger drags a page; tell whether it did."""
+    """Scroll up to an item above what is seen, as a finger drags a page; tell whether it did."""
     scroller = _scroller(item)
     if scroller is None:
         return False

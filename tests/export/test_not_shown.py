@@ -1,4 +1,4 @@
-"""An item that its condition hid is told from one that was left out and from one that does not apply."""
+"""The data set tells a hidden item apart from one that was left out and from one that does not apply."""
 
 from __future__ import annotations
 

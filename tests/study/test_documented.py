@@ -9,8 +9,12 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Settings
+from kiosk.experiment.information import Page
 from kiosk.experiment.questionnaire import ITEM_KINDS, Questionnaire
 from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
+
+ELSEWHERE = ("[[items]]", "[project]", "points =")
+"""What tells the blocks of other files: questionnaires, packages and information sheets."""
 
 PAGE = (Path(__file__).parents[2] / "docs" / "extend.md").read_text("utf-8")
 
@@ -27,11 +31,15 @@ def test_the_questionnaire_can_be_used() -> None:
     assert (read.unworded("en"), read.unworded("it")) == ((), ())
 
 
-@pytest.mark.parametrize(
-    "text", [block for block in shown("toml") if "[[items]]" not in block and "[project]" not in block]
-)
+@pytest.mark.parametrize("text", [block for block in shown("toml") if not any(part in block for part in ELSEWHERE)])
 def test_the_parts_of_a_study_file_can_be_used(text: str) -> None:
     Settings.model_validate(tomllib.loads(text))
+
+
+def test_the_points_of_an_information_sheet_can_be_used() -> None:
+    (text,) = (tomllib.loads(block) for block in shown("toml") if "points =" in block)
+    page = Page.model_validate({"title": "Taking part", "paragraphs": ["All of it."], **text["consent"]})
+    assert len(page.points) == len(page.signs)
 
 
 def test_the_table_can_be_brought_in(tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ class MaintenanceTasks:
 
     @classmethod
     def of(cls, folder: Path, keep: int, every_minutes: int) -> MaintenanceTasks:
-        """Take care of a data folder, of which a copy is made every so many minutes; so many copies are kept."""
+        """Take care of a data folder, copy it every so many minutes, and keep so many copies."""
         into = folder / FOLDER
         return cls(
             partial(back_up, folder, into, keep),

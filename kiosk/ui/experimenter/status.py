@@ -69,7 +69,7 @@ class Clocks:
 
     @property
     def wrong_ms(self) -> int:
-        """How far the clock was set, or stood behind the records at the start; 0 if that is no more than drift."""
+        """How far the clock was set, or stood behind the records at the start; 0 for mere drift."""
         for wrong_ms in (self.set_back_ms, self.jump_ms):
             if abs(wrong_ms) > DRIFT_MS:
                 return wrong_ms

@@ -340,7 +340,7 @@ class FormScreen(QObject):
         if wrong:
             self.show_missing(wrong)
         elif came:
-            # What was typed last brought items that nobody has seen yet.
+            # What was typed last brought items that the visitor has not seen yet.
             self.missed.emit(came[0])
         else:
             self.continued.emit()
