@@ -13,7 +13,7 @@ from kiosk.experiment.information import Page
 from kiosk.experiment.questionnaire import ITEM_KINDS, Questionnaire
 from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
 
-ELSEWHERE = ("[[items]]", "[project]", "points =")
+ELSEWHERE = ("[[items]]", "[project]", "signs =")
 """What tells the blocks of other files: questionnaires, packages and information sheets."""
 
 PAGE = (Path(__file__).parents[2] / "docs" / "extend.md").read_text("utf-8")
@@ -37,7 +37,7 @@ def test_the_parts_of_a_study_file_can_be_used(text: str) -> None:
 
 
 def test_the_points_of_an_information_sheet_can_be_used() -> None:
-    (text,) = (tomllib.loads(block) for block in shown("toml") if "points =" in block)
+    (text,) = (tomllib.loads(block) for block in shown("toml") if "signs =" in block)
     page = Page.model_validate({"title": "Taking part", "paragraphs": ["All of it."], **text["consent"]})
     assert len(page.points) == len(page.signs)
 
