@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QRectF
+from PySide6.QtCore import QCoreApplication, QEvent, QRectF
+from PySide6.QtQml import qmlEngine
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -386,6 +387,16 @@ def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layou
             )
             assert may_scroll or find_item(shown.contentItem(), "more") is None, told
         screens.avatar.leave(away=False)
+        let_go(shown)
+
+
+def let_go(window: QQuickWindow) -> None:
+    """Free what was shown before: a test has no event loop in which that would happen by itself."""
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    engine = qmlEngine(window.contentItem().childItems()[0])
+    assert engine is not None
+    engine.collectGarbage()
+    window.releaseResources()
 
 
 FRAMED = ("about", "consent", "age", "introduction", "about you", "debrief", "thanks")
