@@ -46,7 +46,11 @@ VIRTUAL_SOUND = "pulseaudio pulseaudio-utils"
 BUILD = "binutils" + (f" libpython{VERSION}" if sys.base_prefix == "/usr" else "")
 
 # A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
-PARALLEL = ("-n", "auto", "--dist", "loadfile", "--benchmark-disable")
+# Files keep their order, in which the longest come first; a process that dies ends the run instead of stalling it.
+PARALLEL = (
+    *("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
+    "--benchmark-disable",
+)
 
 CHECKS = (
     ("ruff", "check", "."),

@@ -25,6 +25,12 @@ SLOW = (
 )
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
+LONGEST = (
+    *("packaging/test_builds.py", "ui/test_every_language_fits.py", "ui/test_faults.py", "cli/test_readme.py"),
+    *("ui/test_whole_session.py", "ui/test_resume.py", "ui/test_without_a_mouse.py", "ui/test_nothing_is_left.py"),
+)
+"""Files that take longest. They begin first, so that no process works on alone at the end."""
+
 HOME = pytest.StashKey[TemporaryDirectory[str]]()
 
 
@@ -51,12 +57,13 @@ def _keep_bytecode() -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the slow tests, so that ``pytest -m "not slow"`` runs the other ones."""
+    """Mark the slow tests, so that ``pytest -m "not slow"`` runs the other ones, and put the longest first."""
     here = Path(__file__).parent
-    for item in items:
-        path = item.path.relative_to(here).as_posix()
+    paths = {item: item.path.relative_to(here).as_posix() for item in items}
+    for item, path in paths.items():
         if path in SLOW or path.partition("/")[0] in SLOW:
             item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: LONGEST.index(paths[item]) if paths[item] in LONGEST else len(LONGEST))
 
 
 def pytest_collection_finish() -> None:
