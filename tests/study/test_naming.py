@@ -21,7 +21,7 @@ def lab(tmp_path: Path) -> Path:
     for kind, name in (("consent", "study"), ("cards", "animals"), ("sentences", "en")):
         shutil.copytree(ASSETS / kind / name, tmp_path / name)
     sheet = tmp_path / "study" / "en.toml"
-    sheet.write_text(sheet.read_text("utf-8").replace('version = "1"', 'version = "approved"'), "utf-8")
+    sheet.write_text(sheet.read_text("utf-8").replace('version = "2"', 'version = "approved"'), "utf-8")
     shutil.copy(ASSETS / "cards" / "animals" / "cat.svg", tmp_path / "animals" / "zebra.svg")
     (tmp_path / "animals" / "en.ftl").write_text("card-zebra = zebra\n", "utf-8")
     cards = tmp_path / "en" / "cards.ftl"
