@@ -54,7 +54,7 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
 OPTIONAL = {
     "participants": ("site", "simulated", "trial"),
     "flow": ("simulated", "trial"),
-    "scores": ("version", "items_not_applicable"),
+    "scores": ("version", "items_not_applicable", "items_not_shown"),
 }
 """Columns that some data sets have."""
 
@@ -295,18 +295,21 @@ def scale_names(table: ExportTable) -> dict[tuple[str, str], str]:
 
 
 def scale_remarks(study: ExportedStudy, participants: Sequence[str]) -> tuple[str, ...]:
-    """Return a sentence for each scale that was asked in several versions, or whose items did not all apply."""
+    """Return sentences for scales that were asked in several versions, or whose items did not all apply or appear."""
     table = study.tables["scores"]
     named = scale_names(table)
     wanted = set(participants)
     versions: dict[str, set[str]] = {}
     exempt: Counter[str] = Counter()
+    hidden: Counter[str] = Counter()
     keys = zip(table.text("questionnaire"), table.text("scale"), strict=True)
     told = zip(keys, table.text("participant_id"), table.text("version"), strict=True)
-    for (key, who, version), items in zip(told, table.numbers("items_not_applicable"), strict=True):
+    counts = zip(table.numbers("items_not_applicable"), table.numbers("items_not_shown"), strict=True)
+    for (key, who, version), (not_applicable, not_shown) in zip(told, counts, strict=True):
         if who in wanted:
             versions.setdefault(named[key], set()).add(version)
-            exempt[named[key]] += 0 if np.isnan(items) else int(items)
+            exempt[named[key]] += 0 if np.isnan(not_applicable) else int(not_applicable)
+            hidden[named[key]] += 0 if np.isnan(not_shown) else int(not_shown)
     remarks = [
         f"{name} was asked in {len(found)} versions of its questionnaire ({', '.join(sorted(found))}). The codebook of "
         "the data set says what differs; sums of versions that differ are not to be compared."
@@ -317,6 +320,12 @@ def scale_remarks(study: ExportedStudy, participants: Sequence[str]) -> tuple[st
         f"Of the responses to items of {name}, {count} said that the item does not apply. They are in no sum, so "
         f"{name} has fewer people."
         for name, count in exempt.items()
+        if count
+    ]
+    remarks += [
+        f"Of the items of {name}, {count} were hidden by their condition, counted over all people. They are in no sum, "
+        f"so {name} has fewer people."
+        for name, count in hidden.items()
         if count
     ]
     return tuple(remarks)

@@ -125,16 +125,18 @@ def test_a_folder_that_is_none_and_one_of_something_else_get_a_sentence(tmp_path
         load_study(tmp_path)
 
 
-def test_scales_of_several_versions_and_items_that_do_not_apply_are_told() -> None:
+def test_scales_of_several_versions_and_items_that_do_not_apply_or_were_hidden_are_told() -> None:
     scores = {
         "participant_id": ["P1", "P2", "P3", "P4"],
         "questionnaire": ["own"] * 4,
         "scale": ["S", "S", "T", "T"],
         "version": ["1", "2", "1", "1"],
         "items_not_applicable": ["0", "1", "0", "2"],
+        "items_not_shown": ["0", "2", "0", "1"],
     }
     study = ExportedStudy(Path(), "", {"scores": ExportTable(Path("scores.csv"), scores)}, "")
-    mixed, exempt = scale_remarks(study, ["P1", "P2", "P3"])
+    mixed, exempt, hidden = scale_remarks(study, ["P1", "P2", "P3"])
     assert mixed.startswith("S was asked in 2 versions of its questionnaire (1, 2).")
     assert exempt.startswith("Of the responses to items of S, 1 said that the item does not apply.")
+    assert hidden.startswith("Of the items of S, 2 were hidden by their condition, counted over all people.")
     assert scale_remarks(study, ["P1", "P3"]) == ()
