@@ -133,8 +133,8 @@ CASES: dict[str, tuple[Edit, str, str, Impact]] = {
         Impact.NONE,
     ),
     "the sheet": (
-        ("sheets/en.toml", 'version = "1"', 'version = "2"'),
-        *("information sheet en", "version 1 becomes 2", Impact.DATA),
+        ("sheets/en.toml", 'version = "2"', 'version = "3"'),
+        *("information sheet en", "version 2 becomes 3", Impact.DATA),
     ),
 }
 
