@@ -35,6 +35,9 @@ FocusScope {
     height: beside ? tallest : (go.visible ? go.height : 0) + (no.visible ? no.height + step : 0)
                                + (back.visible && !paired ? back.height + step : 0)
 
+    // The next visitor begins at the way on, whichever button the last one used.
+    onVisibleChanged: go.focus = true
+
     BigButton {
         id: go
         objectName: ways.name
