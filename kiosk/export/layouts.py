@@ -34,16 +34,12 @@ from kiosk.export.columns import (
     distinct,
 )
 from kiosk.export.participants import (
+    EMPTY_MARKS,
     ParticipantFlow,
-    can_be_hidden,
-    can_be_not_applicable,
     exported_items,
     item_variable,
-    not_applicable_variable,
-    not_shown_variable,
 )
 from kiosk.export.records import StudyMaterials
-from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN
 from kiosk.export.tables import DatasetTables
 from kiosk.store.connecting import atomic_directory
 from kiosk.store.plans import FrozenPlan
@@ -431,19 +427,15 @@ class Bids(Layout):
         items = {
             (item, "value"): item_variable(columns[item], asked_as, study, extras) for item, asked_as in asked.items()
         }
-        kinds = (
-            (NOT_APPLICABLE.name, can_be_not_applicable, not_applicable_variable),
-            (NOT_SHOWN.name, can_be_hidden, not_shown_variable),
-        )
-        marked = {
-            (item, kind): (f"{columns[item]}_{kind}", variable)
-            for kind, can_be, variable in kinds
+        marked = [
+            (mark, item, f"{columns[item]}_{mark.name}")
+            for mark in EMPTY_MARKS
             for item, asked_as in asked.items()
-            if can_be(asked_as)
-        }
-        others = distinct((other for other, _ in marked.values()), (PARTICIPANT.name, _TOOL, *columns.values()))
-        for (item, kind), (other, variable) in marked.items():
-            items[item, kind] = variable(others[other], columns[item])
+            if mark.can_be(asked_as)
+        ]
+        others = distinct((other for *_, other in marked), (PARTICIPANT.name, _TOOL, *columns.values()))
+        for mark, item, other in marked:
+            items[item, mark.name] = mark.variable(others[other], columns[item])
         path = self.root / "phenotype" / f"{self._files[name]}.tsv"
         return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
 
@@ -470,7 +462,7 @@ class Bids(Layout):
         answers: dict[str, dict[tuple[str, str], str]] = {}
         for row, cells in zip(self._answers.rows(kept), _named_cells(self._answers, kept), strict=True):
             of = answers.setdefault(row.questionnaire.id, {})
-            of |= {(row.item.id, name): cells[name] for name in ("value", NOT_APPLICABLE.name, NOT_SHOWN.name)}
+            of |= {(row.item.id, name): cells[name] for name in ("value", *(mark.name for mark in EMPTY_MARKS))}
         for name, given in answers.items():
             tool = self._tools[name]
             tool.file.write([[label, *(given.get(item, "") for item in tool.items)]])

@@ -333,19 +333,17 @@ def about_you_columns(
 def _about_you_columns(
     study: StudyMaterials, extras: frozenset[ExportOption], taken: set[str]
 ) -> dict[str, tuple[Column[Person], ...]]:
-    """Return the columns of each item: its answer, and whether it does not apply where that could be said."""
+    """Return the columns of each item: its answer, and why it is empty where that can be told."""
     columns: dict[str, tuple[Column[Person], ...]] = {}
     for item, asked_as in exported_items(study.about_you, extras).items():
         name = _free(item, "about_you", taken)
         bands = study.age_bands if is_banded(item, study, extras) else None
         answer = partial(_answer_about_you, item, bands, with_texts=ExportOption.TEXTS in extras)
         columns[item] = (Column(item_variable(name, asked_as, study, extras), answer),)
-        if can_be_not_applicable(asked_as):
-            other = _free(f"{name}_{NOT_APPLICABLE.name}", "about_you", taken)
-            columns[item] += (Column(not_applicable_variable(other, name), partial(_is_not_applicable, item)),)
-        if can_be_hidden(asked_as):
-            other = _free(f"{name}_{NOT_SHOWN.name}", "about_you", taken)
-            columns[item] += (Column(not_shown_variable(other, name), partial(_is_not_shown, item)),)
+        for mark in EMPTY_MARKS:
+            if mark.can_be(asked_as):
+                other = _free(f"{name}_{mark.name}", "about_you", taken)
+                columns[item] += (Column(mark.variable(other, name), partial(_is_marked, mark, item)),)
     return columns
 
 
@@ -354,29 +352,41 @@ def can_be_not_applicable(asked_as: Asked) -> bool:
     return any(isinstance(item, Question) and item.not_applicable for _, item in asked_as)
 
 
-def not_applicable_variable(name: str, of: str) -> Variable:
-    """Return the column that tells an item that does not apply from one that was not answered."""
-    return Variable(
-        name,
-        f"Whether the visitor said that {of} does not apply; {of} is then empty.",
-        ColumnKind.TRUTH,
-        empty=f"{of} was not asked",
-    )
-
-
 def can_be_hidden(asked_as: Asked) -> bool:
     """Whether an item, in any of its forms, has a condition to show it."""
     return any(item.relevant for _, item in asked_as)
 
 
-def not_shown_variable(name: str, of: str) -> Variable:
-    """Return the column that tells an item that its condition hid from one that was not answered."""
-    return Variable(
-        name,
-        f"Whether the condition of {of} did not hold in the end; {of} is then empty.",
-        ColumnKind.TRUTH,
-        empty=f"{of} was not asked",
-    )
+@dataclass(frozen=True)
+class EmptyMark:
+    """A column beside an item's answer that tells one reason for an empty answer from all others."""
+
+    name: str
+    can_be: Callable[[Asked], bool]
+    """Whether the reason can be there for an item, in any of its forms."""
+    holds: Callable[[ItemResponse], bool]
+    meaning: str
+
+    def variable(self, name: str, of: str) -> Variable:
+        """Return the column, called ``name``, of the item whose column is ``of``."""
+        meaning = f"{self.meaning.format(of=of)}; {of} is then empty."
+        return Variable(name, meaning, ColumnKind.TRUTH, empty=f"{of} was not asked")
+
+
+EMPTY_MARKS = (
+    EmptyMark(
+        NOT_APPLICABLE.name,
+        can_be_not_applicable,
+        lambda response: response.does_not_apply,
+        "Whether the visitor said that {of} does not apply",
+    ),
+    EmptyMark(
+        NOT_SHOWN.name,
+        can_be_hidden,
+        lambda response: response.hidden,
+        "Whether the condition of {of} did not hold in the end",
+    ),
+)
 
 
 def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption]) -> bool:
@@ -384,12 +394,8 @@ def is_banded(item: str, study: StudyMaterials, extras: frozenset[ExportOption])
     return ExportOption.AGES not in extras and item in study.age_bands.items
 
 
-def _is_not_applicable(item: str, row: Person) -> Cell:
-    return row.about_you[item].does_not_apply if item in row.about_you else None
-
-
-def _is_not_shown(item: str, row: Person) -> Cell:
-    return row.about_you[item].hidden if item in row.about_you else None
+def _is_marked(mark: EmptyMark, item: str, row: Person) -> Cell:
+    return mark.holds(row.about_you[item]) if item in row.about_you else None
 
 
 def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) -> dict[str, Asked]:
