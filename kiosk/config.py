@@ -626,6 +626,21 @@ class Keys(ConfigModel):
         return self
 
 
+def read_hours(text: str) -> tuple[time, time]:
+    """Read hours such as ``10:00-18:00``: from when, and until when.
+
+    Raises ValueError for any other form, and where the end does not come after the beginning.
+    """
+    form = re.fullmatch(r"(\d\d:\d\d) ?- ?(\d\d:\d\d)", text, re.ASCII)
+    try:
+        opens, closes = map(time.fromisoformat, form.groups() if form is not None else ())
+    except ValueError:
+        opens = closes = time.min
+    if opens >= closes:
+        raise ValueError(f"{text!r} is not of the form '10:00-18:00', with the opening first")
+    return opens, closes
+
+
 class ExperimenterConfig(ConfigModel):
     """Who may change a running study."""
 
@@ -661,13 +676,8 @@ class ExperimenterConfig(ConfigModel):
     @field_validator("opening_hours")
     @classmethod
     def _open_before_closing(cls, hours: str) -> str:
-        form = re.fullmatch(r"(\d\d:\d\d) ?- ?(\d\d:\d\d)", hours, re.ASCII)
-        try:
-            opened = form is not None and time.fromisoformat(form[1]) < time.fromisoformat(form[2])
-        except ValueError:
-            opened = False
-        if hours and not opened:
-            raise ValueError(f"{hours!r} is not of the form '10:00-18:00', with the opening first")
+        if hours:
+            read_hours(hours)
         return hours
 
     @field_validator("pin_hash")

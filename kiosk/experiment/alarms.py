@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime, time
 from enum import Enum
 
+from kiosk.config import read_hours
 from kiosk.experiment.events import Status
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, MS_PER_SECOND
 
@@ -81,13 +82,8 @@ class OpeningHours:
     @classmethod
     def from_text(cls, text: str, alone_ms: int) -> OpeningHours:
         """Read hours such as ``10:00-18:00``; an empty text is never open. Raises ValueError for anything else."""
-        if not text:
-            return cls(alone_ms, time.min, time.min)
-        opens, dash, closes = text.partition("-")
-        hours = cls(alone_ms, time.fromisoformat(opens.strip()), time.fromisoformat(closes.strip()))
-        if not dash or hours.opens >= hours.closes:
-            raise ValueError(f"{text!r} does not open before it closes")
-        return hours
+        opens, closes = read_hours(text) if text else (time.min, time.min)
+        return cls(alone_ms, opens, closes)
 
     def alone_since_opening_ms(self, signs: BoothSigns) -> int:
         """Return for how long of the opening hours no visitor has been there; 0 outside of them."""

@@ -73,7 +73,7 @@ def test_each_cause_leads_to_its_alarm_and_to_no_other(kind: AlarmKind, cause: d
         {"alone_ms": 30 * MS_PER_MINUTE - 1},
         {"alone_ms": 300 * MS_PER_MINUTE, "now": NOON - timedelta(hours=3)},
         {"alone_ms": 300 * MS_PER_MINUTE, "now": NOON + timedelta(hours=6)},
-        # Since it opened at ten, nobody has been there for 29 minutes only.
+        # It opened at ten, 29 minutes ago, and no visitor has come since.
         {"alone_ms": 300 * MS_PER_MINUTE, "now": NOON - timedelta(minutes=91)},
     ],
 )
