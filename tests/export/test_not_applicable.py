@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import csv
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.events import ResponseGiven, Stage, from_record, to_record
+from kiosk.experiment.events import ResponseGiven, from_record, to_record
 from kiosk.experiment.items import NOT_APPLICABLE, Response
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs
-from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
-from tests.export.visitors import store, study_plan
+from tests.export.visitors import answered, store
 from tests.samples import likert, questionnaire
 
 ASKED = questionnaire(
@@ -32,14 +30,8 @@ _GIVEN = ResponseGiven.__name__
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a data folder with one session, in which an item was answered, one does not apply and two were left."""
-    driver = Driver(replace(study_plan(), about_you=ASKED), 1)
-    driver.to(Stage.ABOUT_YOU)
-    for item, response in GIVEN.items():
-        driver.answer(response, item)
-    driver.go_on()
-    driver.end()
     folder = tmp_path_factory.mktemp("exempt") / "data"
-    store(folder, [(driver, 1)])
+    store(folder, [(answered(ASKED, GIVEN.items()), 1)])
     return folder
 
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.events import Stage
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs
-from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
-from tests.export.visitors import store, study_plan
+from tests.export.visitors import answered, store
 from tests.samples import likert, questionnaire
 
 ASKED = questionnaire(
@@ -29,14 +26,8 @@ ASKED = questionnaire(
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a data folder with one session, in which an answer was withdrawn as its item was hidden."""
-    driver = Driver(replace(study_plan(), about_you=ASKED), 1)
-    driver.to(Stage.ABOUT_YOU)
-    for item, response in (("plays", 5), ("often", 2), ("plays", 3)):
-        driver.answer(response, item)
-    driver.go_on()
-    driver.end()
     folder = tmp_path_factory.mktemp("hidden") / "data"
-    store(folder, [(driver, 1)])
+    store(folder, [(answered(ASKED, (("plays", 5), ("often", 2), ("plays", 3))), 1)])
     return folder
 
 

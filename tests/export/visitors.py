@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -16,6 +16,7 @@ from kiosk.experiment.items import (
     Integer,
     Multiple,
     Rating,
+    Response,
     Single,
     TextPage,
 )
@@ -143,6 +144,17 @@ def unsharing(seed: int) -> Driver:
     driver.tick("store")
     driver.agree()
     driver.to(Stage.OVER)
+    return driver
+
+
+def answered(about_you: Questionnaire, given: Iterable[tuple[str, Response]]) -> Driver:
+    """Return a participant who was asked this about themselves, gave these answers in turn, and then ended."""
+    driver = Driver(replace(study_plan(), about_you=about_you), 1)
+    driver.to(Stage.ABOUT_YOU)
+    for item, response in given:
+        driver.answer(response, item)
+    driver.go_on()
+    driver.end()
     return driver
 
 
