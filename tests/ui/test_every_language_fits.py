@@ -333,25 +333,10 @@ def pages() -> Iterator[tuple[str, tuple[Item, ...]]]:
 
 @pytest.mark.parametrize("size", list(TextSize), ids=lambda size: str(size.value))
 @pytest.mark.parametrize("language", SHIPPED)
-def test_every_screen_fits_in_every_language_and_text_size(
-    kiosk: tuple[Window, StudyConfig], language: str, size: TextSize
-) -> None:
-    # Together, they have every layout once and half of them twice.
-    place = SHIPPED.index(language) + len(SHIPPED) * list(TextSize).index(size)
-    fits(kiosk, language, size, LAYOUTS[place % len(LAYOUTS) :][:1])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("size", list(TextSize), ids=lambda size: str(size.value))
-@pytest.mark.parametrize("language", SHIPPED)
 def test_every_screen_fits_in_every_language_layout_and_text_size(
     kiosk: tuple[Window, StudyConfig], language: str, size: TextSize
 ) -> None:
-    fits(kiosk, language, size, LAYOUTS)
-
-
-def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layouts: tuple[Layout, ...]) -> None:
-    """Assert that every screen fits; the text size changes least often, as it costs most."""
+    # The text size changes least often, as it costs most.
     window, study = kiosk
     shown, screens = window.shown, window.screens
     plan = next(plan for plan in study.plans if plan.language == language)
@@ -360,7 +345,7 @@ def fits(kiosk: tuple[Window, StudyConfig], language: str, size: TextSize, layou
     screens.kiosk.begin(SHIPPED, language, plan.settings.consent)
     screens.kiosk.offer_back(offered=True)
     screens.kiosk.set_text_size(size)
-    for layout in layouts:
+    for layout in LAYOUTS:
         screens.avatar.appear(present=not layout.robot)
         screens.kiosk.show("attract")
         shown.resize(layout.width, layout.height)
