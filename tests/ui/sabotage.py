@@ -56,7 +56,7 @@ class Sabotage(Rehearsal):
             case Moment.GAME:
                 return shown == "introduction"
             case Moment.MIDDLE:
-                return shown == "game" and len(board.closed) <= len(board.unmatched) + 12
+                return shown == "game" and len(board.closed) <= len(board.unmatched) + board.rowCount() // 2
             case Moment.RESULT:
                 return shown == "game" and len(board.closed) == 1
             case Moment.QUESTIONS:
@@ -76,6 +76,8 @@ class Result:
     """What became of a session."""
 
     session: StoredSession
+    pairs: int
+    """How many there were to be found."""
     events: list[Event]
     unseen: list[str]
     longest_gap_ms: float
@@ -95,7 +97,7 @@ class Result:
         counted = self.utterances
         wrong = {
             "the session did not end": self.session.status is not Status.COMPLETED,
-            "not all pairs were found": self.session.measures.pairs != 12,
+            "not all pairs were found": self.session.measures.pairs != self.pairs,
             "it began with another body": not self.session.embodiment.startswith("robot:"),
             "a sentence was neither heard nor shown": bool(self.unseen),
             "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,
@@ -107,7 +109,9 @@ class Result:
 def result_of(stored: SessionRepository, rehearsal: Sabotage) -> Result:
     """Return what became of the last session."""
     session = stored.sessions()[-1]
-    return Result(session, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
+    game = stored.plan(session.id).settings.game
+    pairs = game.rows * game.columns // 2
+    return Result(session, pairs, stored.events(session.id), rehearsal.unseen, rehearsal.pulse.longest_ms)
 
 
 def replayed(stored: SessionRepository, number: int) -> list[Event]:

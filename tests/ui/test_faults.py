@@ -11,6 +11,7 @@ from random import Random
 import pytest
 from pytestqt.qtbot import QtBot
 
+from kiosk.config import Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName
 from kiosk.robots.embodiment import SpokenClip
@@ -25,8 +26,15 @@ from tests.ui.headless import short
 from tests.ui.sabotage import Moment, Result, Sabotage, after_loss, replayed, result_of
 
 BROKEN = tuple(mode for mode in Broken if mode not in {Broken.WELL, Broken.NAMELESS})
+CLICKS = 22
+"""The helper still speaks after so many."""
 QUICK = dict.fromkeys(("connect_deadline_ms", "answer_deadline_ms", "speech_deadline_min_ms"), 2_000)
 """Short, but longer than the collector holds up every thread of a process that has run thousands of tests."""
+
+
+def quick(robot: dict[str, object]) -> Settings:
+    """Return a study with this robot, and a game half as long as the shipped one."""
+    return short(robot=robot, game={"rows": 3, "columns": 4})
 
 
 @pytest.fixture
@@ -40,7 +48,7 @@ def fake() -> Iterator[FurhatFake]:
 def booth(fake: FurhatFake, make_booth: MakeBooth) -> Booth:
     """Return a kiosk with this robot."""
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **QUICK}
-    return make_booth(settings=short(robot=robot))
+    return make_booth(settings=quick(robot))
 
 
 def sabotaged(booth: Booth, fake: FurhatFake, mode: Mode, at: int | Moment) -> Result:
@@ -83,7 +91,7 @@ def test_a_robot_plays_the_avatars_pack_until_it_cannot_fetch_it_and_the_record_
     by = {"engine": "pico", "engine_version": "0.1", "voice": "en-US", "pack": "f00d"}
     monkeypatch.setattr(PackClips, "__call__", lambda *_: SpokenClip(b"RIFF", 10, by))
     robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "pack": True, **QUICK}
-    booth = make_booth(settings=short(robot=robot))
+    booth = make_booth(settings=quick(robot))
     rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "fetches", False), 20)
     rehearsal.run()
     with open_repository(booth.data) as stored:
@@ -103,7 +111,7 @@ def test_a_robot_plays_the_avatars_pack_until_it_cannot_fetch_it_and_the_record_
 
 @pytest.mark.parametrize("mode", FAULTS, ids=lambda mode: mode.name.lower())
 def test_any_fault_at_any_moment_costs_nobody_anything(booth: Booth, fake: FurhatFake, mode: Mode) -> None:
-    at = Random(f"{mode.name}/1").randint(1, 50)
+    at = Random(f"{mode.name}/1").randint(1, CLICKS)
     result = sabotaged(booth, fake, mode, at)
     assert result.embodiment_changes == 1
     changed = next(event for event in result.events if isinstance(event, happened.EmbodimentChanged))
@@ -127,7 +135,7 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
             "speech_deadline_ms_per_char": 1,
             **QUICK,
         }
-        booth = make_booth(settings=short(robot=robot))
+        booth = make_booth(settings=quick(robot))
         rehearsal = Sabotage(booth.app, 1, lambda: setattr(fake, "mode", mode), Moment.MIDDLE)
         rehearsal.run()
         with open_repository(booth.data) as stored:
@@ -138,7 +146,10 @@ def test_over_the_other_interface_it_costs_nobody_anything_either(make_booth: Ma
     assert fake.refusals == []
 
 
-def test_the_avatar_says_the_same_sentence_in_the_same_moment(booth: Booth, fake: FurhatFake) -> None:
+def test_the_avatar_says_the_same_sentence_in_the_same_moment(fake: FurhatFake, make_booth: MakeBooth) -> None:
+    robot = {"kind": "furhat", "host": "127.0.0.1", "port": fake.port, "speech_deadline_ms_per_char": 1, **QUICK}
+    # The shipped game: it takes three hints.
+    booth = make_booth(settings=short(robot=robot))
     fake.arm(Mode.SERVER_ERROR, path="/furhat/say", after=3)
     rehearsal = Sabotage(booth.app, 1, lambda: None, 1)
     rehearsal.run()
@@ -169,4 +180,4 @@ def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     booth.rehearse(seed=1)
     with open_repository(booth.data) as stored:
         assert stored.sessions()[0].embodiment == "avatar"
-        assert stored.sessions()[0].measures.pairs == 12
+        assert stored.sessions()[0].measures.pairs == 6
