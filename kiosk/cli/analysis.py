@@ -46,9 +46,9 @@ def analysis(module: str) -> Any:
 def calibrate_command(
     dataset: Path, player: str, out: Path | None, page: Path | None, seed: int, *, as_json: bool
 ) -> None:
-    """Estimate forgetting, following and lapses of the people in an exported DATASET.
+    """Estimate how the people in a DATASET forget and follow.
 
-    Mean and spread of forgetting, with intervals; see docs/calibrate.md.
+    It gives forgetting, following and lapses; of forgetting the mean and the spread, with intervals.
     """
     calibrate, checks = analysis("calibrate"), analysis("calibration_checks")
     for file in (out, page):
@@ -109,14 +109,17 @@ seed_option = click.option("--seed", type=click.IntRange(0), default=1, show_def
 
 @click.group()
 def plan_group() -> None:
-    """Plan a study before its first participant; see docs/plan.md."""
+    """Plan a study before its first participant."""
 
 
 @plan_group.command("new")
 @click.argument("file", type=click.Path(path_type=Path, dir_okay=False))
 @json_option
 def plan_new(file: Path, *, as_json: bool) -> None:
-    """Write a plan to begin with: the paper's study with modern defaults."""
+    """Write a plan to begin with: the paper's study.
+
+    Its defaults are modern ones.
+    """
     if file.exists():
         raise UserInputError(f"{file} is there already; choose another name")
     write_file(file, analysis("plan").TEMPLATE)
@@ -146,7 +149,10 @@ def plan_check(plan: Path, *, as_json: bool) -> None:
 @plan_argument
 @json_option
 def plan_show(plan: Path, *, as_json: bool) -> None:
-    """Print the preregistration in Markdown, with the fields of OSF and AsPredicted."""
+    """Print the preregistration in Markdown.
+
+    It has the fields of OSF and AsPredicted.
+    """
     module = analysis("plan")
     text = module.preregistration(module.StudyPlan.read(plan), module.plan_sha256(plan))
     click.echo(json.dumps({"preregistration": text}) if as_json else text, nl=as_json)
@@ -157,7 +163,10 @@ def plan_show(plan: Path, *, as_json: bool) -> None:
 @data_option
 @json_option
 def plan_freeze(plan: Path, data: Path, *, as_json: bool) -> None:
-    """Write the plan's hash and the time into the database, before the first participant."""
+    """Write the plan's hash and the time into the database.
+
+    Do this before the first participant.
+    """
     module = analysis("plan")
     module.StudyPlan.read(plan)
     frozen = freeze_plan(data, module.plan_sha256(plan), plan.read_bytes().decode("utf-8"))
@@ -171,7 +180,10 @@ def plan_freeze(plan: Path, data: Path, *, as_json: bool) -> None:
 @data_option
 @json_option
 def plan_look(plan: Path, data: Path, *, as_json: bool) -> None:
-    """Record a declared look at the data; refused before its number of participants is reached."""
+    """Record a declared look at the data.
+
+    It is refused before its number of participants is reached.
+    """
     module = analysis("plan")
     read = module.StudyPlan.read(plan)
     sha256 = module.plan_sha256(plan)
@@ -198,7 +210,10 @@ def plan_look(plan: Path, data: Path, *, as_json: bool) -> None:
 def plan_simulate(
     plan: Path, out: Path, people: Path | None, policy: str, target: str, seed: int, *, as_json: bool
 ) -> None:
-    """Write the data set of a simulated study, which report and calibrate read."""
+    """Write the data set of a simulated study.
+
+    The commands report and calibrate read it.
+    """
     read = analysis("plan").StudyPlan.read(plan)
     study = analysis("simulated_study")
     table, rule = QTable.named(policy), TargetRule(target)
@@ -263,7 +278,10 @@ def plan_power(
     null: bool,
     as_json: bool,
 ) -> None:
-    """Simulate whole studies under the plan, and count how often each test finds an effect."""
+    """Simulate studies under the plan to find its power.
+
+    It counts how often each test finds an effect.
+    """
     read = analysis("plan").StudyPlan.read(plan)
     power = analysis("power")
     if curve is not None:
@@ -338,9 +356,9 @@ PAGE = Path("report.html")
 def report_command(
     export: Path | None, plan: Path | None, out: Path | None, exclude: Path | None, *, paper: bool, as_json: bool
 ) -> None:
-    """Analyse an exported data set: who took part, every test, figures, and tables for a paper.
+    """Analyse an exported data set: tests, figures and tables.
 
-    See docs/report.md.
+    It says who took part and gives every test, and tables for a paper.
     """
     if export is None and not paper:
         raise UserInputError("a report needs the folder of an exported data set, or --paper")

@@ -368,9 +368,9 @@ def check_command(
     say: bool,
     as_json: bool,
 ) -> None:
-    """Try everything that a booth needs; exit code 1 if no session can be held.
+    """Try everything that a booth needs, and say what to do.
 
-    Nothing is shown or kept, and nothing is heard without --say.
+    The exit code is 1 if no session can be held. Nothing is shown or kept, and nothing is heard without --say.
     """
     booth = _booth(data, checked_site(site), study, robot_host, robot_port)
     looks = tuple(all_checks(booth))

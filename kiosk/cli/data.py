@@ -62,9 +62,10 @@ def _disk_in_words() -> Iterator[None]:
 )
 @json_option
 def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...], *, as_json: bool) -> None:
-    """Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed.
+    """Copy the database, also while a kiosk is writing.
 
-    A copy that goes to another place is read back from there, and has its name only once it is whole.
+    The copy is checked, and the oldest copies are removed. A copy that goes to another place is read back from
+    there, and has its name only once it is whole.
     """
     if to is None and not keys:
         into = data / copies.FOLDER
@@ -93,9 +94,10 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
 @click.option("--port", type=click.IntRange(1, 65535), default=8001, show_default=True, help="On this machine only.")
 @click.option("--open", "opens", is_flag=True, help="Open the page in the browser.")
 def browse_command(data: Path, port: int, *, opens: bool) -> None:
-    """Look into a verified copy of the database with Datasette, read only, until Ctrl+C.
+    """Look into a copy of the database with Datasette.
 
-    The page is served to this machine alone; the copy is removed at the end. It needs the extra 'browse'.
+    It is verified and read only, and served until Ctrl+C. The page is served to this machine alone; the copy is
+    removed at the end. It needs the extra 'browse'.
     """
     if find_spec("datasette") is None:
         raise UserInputError("browsing needs Datasette: pip install 'recollect[browse]'")
@@ -119,7 +121,10 @@ def browse_command(data: Path, port: int, *, opens: bool) -> None:
 @database_data_option
 @json_option
 def verify_command(data: Path, *, as_json: bool) -> None:
-    """Check the database row by row; exit code 1 if anything is wrong. It is never changed."""
+    """Check the database row by row.
+
+    The exit code is 1 if anything is wrong. The database is never changed.
+    """
     with progress_bar("checking", hidden=as_json) as tell:
         flaws = checking.verify(data, tell)
     if as_json:
@@ -149,9 +154,9 @@ def _table(flaws: list[Flaw]) -> Table:
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @json_option
 def withdraw_command(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
-    """Delete all that is stored of the participant who has this CODE; only a count stays.
+    """Delete all that is stored of the participant with this CODE.
 
-    If a withdrawal was cut off, the same command finishes it.
+    Only a count stays. If a withdrawal was cut off, the same command finishes it.
     """
     going = withdrawing.find_withdrawal(data, code)
     if not yes and not going.cut_off:
@@ -200,7 +205,10 @@ class FolderAndSite(click.ParamType[tuple[Path, str]]):
 )
 @json_option
 def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path, str], ...], *, as_json: bool) -> None:
-    """Bring the data folders A, B and so on together in a new one; they stay as they are."""
+    """Bring the data folders A, B and so on together.
+
+    They are written to a new folder and stay as they are.
+    """
     with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
         sessions = merging.merge(folders, out, tell, sites)
     studies = merging.studies_in(folders)
@@ -229,7 +237,10 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
 @click.option("--shuffled-ids", is_flag=True, help="Let no name and no order of rows tell in which order people came.")
 @json_option
 def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_json: bool, **also: bool) -> None:
-    """Write a data set for publishing: every table with a codebook, as Psych-DS asks for."""
+    """Write a data set for publishing, with a codebook.
+
+    It has every table, as Psych-DS asks for.
+    """
     extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
     with progress_bar("sessions", hidden=as_json) as bar:
         exported = write(data, out, Bids if bids else PsychDs, extras, bar, shuffled_ids=shuffled_ids)

@@ -58,9 +58,9 @@ _P95 = 0.95
 @click.option("--with-rehearsals", is_flag=True, help="Also rehearsals.")
 @json_option
 def day_command(data: Path, day: datetime | None, out: Path | None, *, with_rehearsals: bool, as_json: bool) -> None:
-    """Write one page about a day: time lines, dropouts, faults, and what to look at tomorrow.
+    """Write one page about a day at the booth.
 
-    It tells no condition, no code and no answer.
+    It has time lines, dropouts, faults, and what to look at tomorrow. It tells no condition, no code and no answer.
     """
     chosen = day.date() if day else datetime.now().astimezone().date()
     kinds = {SessionKind.STUDY, SessionKind.TRIAL} | ({SessionKind.SIMULATED} if with_rehearsals else set())

@@ -72,7 +72,7 @@ def robot_command(
     *,
     as_json: bool,
 ) -> None:
-    """Try a robot step by step, and say what it has and what it does."""
+    """Try a robot step by step and say what it has and does."""
     settings = read_settings(study, host or (None if study or kind else "localhost"), port)
     language = language or settings.language_codes[0]
     asked = settings.robot.model_copy(update={"kind": kind} if kind else {})
@@ -178,7 +178,10 @@ one_language_option = click.option("--language", default="en", show_default=True
 
 @click.group("voice")
 def voice_group() -> None:
-    """Make voice packs from an engine or from a person's recordings, and look at them."""
+    """Make voice packs and look at them.
+
+    They come from an engine or from a person's recordings.
+    """
 
 
 def spoken_texts(plan: SessionConfig) -> tuple[str, ...]:
@@ -255,7 +258,10 @@ def _engine(language: str, rate: int, name: str) -> SpeechEngine:
 def render_command(
     study: Path | None, language: str | None, name: str | None, out: Path | None, *, as_json: bool
 ) -> None:
-    """Render every sentence of a study once, so that the kiosk only plays it; texts that are there are kept."""
+    """Render every sentence of a study once.
+
+    The kiosk then only plays them. Texts that are there are kept.
+    """
     plans = _plans(study, language)
     if out is not None and len(plans) > 1:
         raise UserInputError("a pack has one language: name it with --language")
@@ -280,12 +286,20 @@ def render_command(
 @voice_group.command("script")
 @study_option
 @one_language_option
-def script_command(study: Path | None, language: str) -> None:
-    """Print what a person is to read aloud, numbered as the recordings are to be named."""
+@json_option
+def script_command(study: Path | None, language: str, *, as_json: bool) -> None:
+    """Print what a person is to read aloud for a pack.
+
+    The lines are numbered as the recordings are to be named.
+    """
     plan = _plan(study, language)
+    lines = {recording_name(number): text for number, text in enumerate(spoken_texts(plan), 1)}
+    if as_json:
+        click.echo(json.dumps({"language": language, "lines": lines}))
+        return
     click.echo(f"Read each line as one calm sentence; store it under its name as a WAV file ({language}).\n")
-    for number, text in enumerate(spoken_texts(plan), 1):
-        click.echo(f"{recording_name(number)}  {text}")
+    for name, text in lines.items():
+        click.echo(f"{name}  {text}")
 
 
 @voice_group.command("import")
@@ -295,37 +309,62 @@ def script_command(study: Path | None, language: str) -> None:
 @click.option("--licence", default="all rights reserved", show_default=True, help="How the recordings may be used.")
 @study_option
 @one_language_option
-def import_command(recordings: Path, out: Path, speaker: str, licence: str, study: Path | None, language: str) -> None:
-    """Make a pack of a person's RECORDINGS, named as 'voice script' numbers them; they are trimmed and levelled."""
+@json_option
+def import_command(
+    recordings: Path, out: Path, speaker: str, licence: str, study: Path | None, language: str, *, as_json: bool
+) -> None:
+    """Make a pack of a person's RECORDINGS.
+
+    'voice script' numbers their names. They are trimmed and levelled.
+    """
     texts = spoken_texts(_plan(study, language))
     pack = import_recordings(recordings, out, language=language, speaker=speaker, licence=licence, texts=texts)
     missing = len(pack.missing(texts))
+    if as_json:
+        made = {"folder": str(out), "clips": len(pack.clips), "missing": missing, "sha256": pack.sha256}
+        click.echo(json.dumps(made))
+        return
     click.echo(f"{pack.described} in {out}; {missing} texts are missing" if missing else f"{pack.described} in {out}")
 
 
 @voice_group.command("missing")
 @click.argument("folder", type=click.Path(path_type=Path))
 @study_option
+@json_option
 @click.pass_context
-def missing_command(context: click.Context, folder: Path, study: Path | None) -> None:
-    """Print every text of the study that the pack in FOLDER cannot say; exit code 1 if there is any."""
+def missing_command(context: click.Context, folder: Path, study: Path | None, *, as_json: bool) -> None:
+    """Print every text that the pack in FOLDER cannot say.
+
+    The exit code is 1 if there is any.
+    """
     pack = VoicePack.read(folder)
     missing = pack.missing(spoken_texts(_plan(study, pack.language)))
-    for text in missing:
-        click.echo(text)
+    if as_json:
+        click.echo(json.dumps({"language": pack.language, "missing": [*missing]}))
+    else:
+        for text in missing:
+            click.echo(text)
     context.exit(FAULTY if missing else 0)
 
 
 @voice_group.command("check")
 @click.argument("folder", type=click.Path(path_type=Path))
+@json_option
 @click.pass_context
-def check_pack_command(context: click.Context, folder: Path) -> None:
-    """Look at every clip of the pack in FOLDER: there, unchanged, neither silent nor clipped, equally loud."""
+def check_pack_command(context: click.Context, folder: Path, *, as_json: bool) -> None:
+    """Look at every clip of the pack in FOLDER.
+
+    Each must be there, unchanged, neither silent nor clipped, and as loud as the others. The exit code is 1 if one
+    is not.
+    """
     pack = VoicePack.read(folder)
     faults = tuple(pack.faults())
-    for fault in faults:
-        click.echo(fault)
-    click.echo(f"{pack.described}, licence {pack.licence}, sha256 {pack.sha256}: {len(faults) or 'no'} faults")
+    if as_json:
+        click.echo(json.dumps({"pack": pack.described, "sha256": pack.sha256, "faults": [*faults]}))
+    else:
+        for fault in faults:
+            click.echo(fault)
+        click.echo(f"{pack.described}, licence {pack.licence}, sha256 {pack.sha256}: {len(faults) or 'no'} faults")
     context.exit(FAULTY if faults else 0)
 
 
@@ -333,7 +372,8 @@ def check_pack_command(context: click.Context, folder: Path) -> None:
 @click.argument("text")
 @study_option
 @one_language_option
-def play_command(text: str, study: Path | None, language: str) -> None:
+@json_option
+def play_command(text: str, study: Path | None, language: str, *, as_json: bool) -> None:
     """Say TEXT on the study's sound device, as the kiosk would."""
     voice = read_settings(study).voice_from_here
     events: queue.Queue[dict[str, object] | None] = queue.Queue()
@@ -347,6 +387,9 @@ def play_command(text: str, study: Path | None, language: str) -> None:
             pass
     if event["event"] == "broken":
         raise UserInputError(f"nothing is heard: {event['why']}")
+    if as_json:
+        click.echo(json.dumps({"voice": by["voice"], "engine": by["engine"], "duration_ms": clip.duration_ms}))
+        return
     click.echo(f"{by['voice']} of {by['engine']} said it in {clip.duration_ms / 1000:.1f} s")
 
 

@@ -177,7 +177,10 @@ _LABEL = 11
 @json_option
 @click.option("--table", is_flag=True, help="Print the table of all reasons that docs/mentaliser.md shows.")
 def explain_command(case_or_session: str | None, flip: int | None, data: Path, *, as_json: bool, table: bool) -> None:
-    """Explain one decision: of a moment in a case file, or, with --flip, of a stored session."""
+    """Explain one decision of a stored session or a case file.
+
+    Name the flip of a session with --flip.
+    """
     if table:
         click.echo(reasons_table(), nl=False)
         return

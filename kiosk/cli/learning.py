@@ -158,7 +158,10 @@ def ctrl_c() -> Iterator[Callable[[], bool]]:
 )
 @as_json
 def train_command(out: Path, name: str | None, reward: str, json_: bool, **options: Any) -> None:  # noqa: FBT001 - click's flag
-    """Learn a table and freeze it. What is not said follows from the reward; see docs/learning.md."""
+    """Learn a table and freeze it.
+
+    What no option gives follows from the reward.
+    """
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
     check_writable(out)
@@ -278,7 +281,10 @@ def simulate_command(
     json_: bool,  # noqa: FBT001 - click's flag
     **options: Any,
 ) -> None:
-    """Play many games with a simulated player under a frozen table, and measure them as the study does."""
+    """Play games with a simulated player under a frozen table.
+
+    They are measured as the study measures them.
+    """
     where = target_rule(Condition(condition).known, TargetRule.MOST_FLIPPED)
     table = QTable.named(name) if where else QTable.blank()
     player = player_from_options(ChancePlayer(), **options)
@@ -316,7 +322,7 @@ def _share_told(measures: dict[str, Any], share: str) -> str:
 
 @click.group()
 def policy_group() -> None:
-    """Look at policy files."""
+    """Look at policy files and their evidence."""
 
 
 @policy_group.command("show")
@@ -324,7 +330,10 @@ def policy_group() -> None:
 @click.option("--figure", type=click.Path(path_type=Path, dir_okay=False), help="Draw a heat map here (.png or .svg).")
 @as_json
 def policy_show(file: str, figure: Path | None, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Print a table: what it does in each state, the values, and how often the state was met in training."""
+    """Print a table: what it does in each state.
+
+    It also gives the values, and how often each state was met in training.
+    """
     table = QTable.named(file)
     if figure is not None:
         write_file(figure, _drawn().heat_map(table, policies.visits(table), _ending(figure)))
@@ -369,7 +378,10 @@ def _drawn() -> Any:
 @click.argument("other")
 @as_json
 def policy_compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Say in which states two tables act differently, over the states that both have met in training."""
+    """Say in which states two tables act differently.
+
+    It compares the states that both have met in training.
+    """
     tables = QTable.named(one), QTable.named(other)
     found = policies.compare_policies(*tables)
     differences = {state.label: [table.action(state).label for table in tables] for state in found.different}
@@ -386,7 +398,10 @@ def policy_compare(one: str, other: str, json_: bool) -> None:  # noqa: FBT001 -
 @click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
 @as_json
 def policy_card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa: FBT001 - click's flag
-    """Measure a table with the players of the policy card, as rows of Markdown."""
+    """Measure a table with the players of the policy card.
+
+    It prints rows of Markdown.
+    """
     table = QTable.named(file)
     rows = []
     with progress_bar("playing", len(evidence.ARMS), hidden=json_) as progress:
@@ -408,7 +423,10 @@ def policy_card(file: str, games: int, seed: int, json_: bool) -> None:  # noqa:
 )
 @as_json
 def show_evidence(games: int, seeds: int, seed: int, figures: Path | None, json_: bool) -> None:  # noqa: FBT001
-    """Make every number that docs/learning.md gives, and say of each claim whether it holds."""
+    """Make every number of the page on learning again.
+
+    It says of each claim whether it holds.
+    """
     with progress_bar("checking", evidence.STEPS, hidden=json_) as progress:
         claims = evidence.gather_claims(games, seeds, seed, progress)
     if figures is not None:

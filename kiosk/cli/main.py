@@ -20,105 +20,49 @@ from kiosk import DISK_FULL, StorageError, UserInputError, __version__, why
 DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
 
-_COMMANDS = {
-    "run": (
-        "kiosk.cli.run:run_command",
-        "Open the kiosk for visitors; Ctrl+Shift+Q leaves it.",
-    ),
-    "rehearse": (
-        "kiosk.cli.rehearse:rehearse",
-        "Let a simulated visitor go through a session at the real window, or many of them through a day.",
-    ),
-    "check": (
-        "kiosk.cli.check:check_command",
-        "Try everything that a booth needs; exit code 1 if no session can be held.",
-    ),
-    "study": (
-        "kiosk.cli.study:study",
-        "Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN.",
-    ),
-    "robot": (
-        "kiosk.cli.devices:robot_command",
-        "Try a robot step by step, and say what it has and what it does.",
-    ),
-    "voice": (
-        "kiosk.cli.devices:voice_group",
-        "Make voice packs from an engine or from a person's recordings, and look at them.",
-    ),
-    "status": (
-        "kiosk.cli.sessions:status_command",
-        "Show how the booth is now: stage, today's sessions, robot, voice, disk, backup.",
-    ),
-    "sessions": (
-        "kiosk.cli.sessions:sessions_command",
-        "List the stored sessions: when, in which condition, how and where they ended.",
-    ),
-    "day": (
-        "kiosk.cli.day:day_command",
-        "Write one page about a day: time lines, dropouts, faults, and what to look at tomorrow.",
-    ),
-    "events": (
-        "kiosk.cli.sessions:events_command",
-        "List what happened in a SESSION, in the order in which it was written.",
-    ),
-    "replay": (
-        "kiosk.cli.run:replay_command",
-        "Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.",
-    ),
-    "explain": (
-        "kiosk.cli.explain:explain_command",
-        "Explain one decision: of a moment in a case file, or, with --flip, of a stored session.",
-    ),
-    "backup": (
-        "kiosk.cli.data:backup_command",
-        "Copy the database, also while a kiosk is writing; the copy is checked, and the oldest ones are removed.",
-    ),
-    "browse": (
-        "kiosk.cli.data:browse_command",
-        "Look into a verified copy of the database with Datasette, read only, until Ctrl+C.",
-    ),
-    "verify": (
-        "kiosk.cli.data:verify_command",
-        "Check the database row by row; exit code 1 if anything is wrong.",
-    ),
-    "withdraw": (
-        "kiosk.cli.data:withdraw_command",
-        "Delete all that is stored of the participant who has this CODE; only a count stays.",
-    ),
-    "merge": (
-        "kiosk.cli.data:merge_command",
-        "Bring the data folders A, B and so on together in a new one; they stay as they are.",
-    ),
-    "export": (
-        "kiosk.cli.data:export_command",
-        "Write a data set for publishing: every table with a codebook, as Psych-DS asks for.",
-    ),
-    "report": (
-        "kiosk.cli.analysis:report_command",
-        "Analyse an exported data set: who took part, every test, figures, and tables for a paper.",
-    ),
-    "calibrate": (
-        "kiosk.cli.analysis:calibrate_command",
-        "Estimate forgetting, following and lapses of the people in an exported DATASET.",
-    ),
-    "plan": (
-        "kiosk.cli.analysis:plan_group",
-        "Plan a study before its first participant; see docs/plan.md.",
-    ),
-    "train": (
-        "kiosk.cli.learning:train_command",
-        "Learn a table and freeze it.",
-    ),
-    "simulate": (
-        "kiosk.cli.learning:simulate_command",
-        "Play many games with a simulated player under a frozen table, and measure them as the study does.",
-    ),
-    "policy": (
-        "kiosk.cli.learning:policy_group",
-        "Look at policy files.",
-    ),
+_GROUPS = {
+    "Prepare a study": {
+        "study": ("kiosk.cli.study:study", "Set up a study: its file, cards, texts and PIN."),
+        "plan": ("kiosk.cli.analysis:plan_group", "Plan a study before its first participant."),
+        "voice": ("kiosk.cli.devices:voice_group", "Make voice packs and look at them."),
+    },
+    "Run a booth": {
+        "run": ("kiosk.cli.run:run_command", "Open the kiosk for visitors."),
+        "check": ("kiosk.cli.check:check_command", "Try everything that a booth needs, and say what to do."),
+        "rehearse": ("kiosk.cli.rehearse:rehearse", "Let simulated visitors go through sessions or a whole day."),
+        "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and say what it has and does."),
+        "status": ("kiosk.cli.sessions:status_command", "Show how the booth is now, while the kiosk runs."),
+    },
+    "Look at sessions": {
+        "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),
+        "events": ("kiosk.cli.sessions:events_command", "List what happened in a SESSION, in order."),
+        "replay": ("kiosk.cli.run:replay_command", "Play a stored SESSION on the screen again."),
+        "explain": ("kiosk.cli.explain:explain_command", "Explain one decision of a stored session or a case file."),
+        "day": ("kiosk.cli.day:day_command", "Write one page about a day at the booth."),
+    },
+    "Keep the data": {
+        "backup": ("kiosk.cli.data:backup_command", "Copy the database, also while a kiosk is writing."),
+        "verify": ("kiosk.cli.data:verify_command", "Check the database row by row."),
+        "browse": ("kiosk.cli.data:browse_command", "Look into a copy of the database with Datasette."),
+        "withdraw": ("kiosk.cli.data:withdraw_command", "Delete all that is stored of the participant with this CODE."),
+        "merge": ("kiosk.cli.data:merge_command", "Bring the data folders A, B and so on together."),
+    },
+    "Publish the results": {
+        "export": ("kiosk.cli.data:export_command", "Write a data set for publishing, with a codebook."),
+        "report": ("kiosk.cli.analysis:report_command", "Analyse an exported data set: tests, figures and tables."),
+        "calibrate": (
+            "kiosk.cli.analysis:calibrate_command",
+            "Estimate how the people in a DATASET forget and follow.",
+        ),
+    },
+    "The learning layer": {
+        "train": ("kiosk.cli.learning:train_command", "Learn a table and freeze it."),
+        "simulate": ("kiosk.cli.learning:simulate_command", "Play games with a simulated player under a frozen table."),
+        "policy": ("kiosk.cli.learning:policy_group", "Look at policy files and their evidence."),
+    },
 }
-"""Each command by its name: where it is, and the first sentence of its help, which loads none of them."""
+"""Each command by what it is for and its name: where it is, and the first sentence of its help, which loads none."""
+_COMMANDS = {name: entry for group in _GROUPS.values() for name, entry in group.items()}
 _WORKERS = {
     "_display": "kiosk.cli.workers:display_command",
     "_splash": "kiosk.cli.workers:splash_command",
@@ -132,27 +76,46 @@ _WITH_A_WINDOW = frozenset({"run", "rehearse", "replay"})
 class RootGroup(click.Group):
     """The group of all commands; without a command it opens the kiosk."""
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take options without a command for those of ``run``, as in ``recollect --study FILE``."""
+        own = {name for parameter in self.get_params(ctx) for name in parameter.opts}
+        if args and args[0].startswith("-") and args[0] not in own:
+            args = ["run", *args]
+        return super().parse_args(ctx, args)
+
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """Return the commands, in the order in which a person meets them."""
+        """Return the commands, in the order in which the help lists them."""
         return list(_COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
-        """Load one command."""
+        """Load one command, with its examples and the link to its page."""
         place = _COMMANDS[cmd_name][0] if cmd_name in _COMMANDS else _WORKERS.get(cmd_name)
         if place is None:
             return None
         module, name = place.split(":")
         command: click.Command = getattr(import_module(module), name)
+        if cmd_name in _COMMANDS:
+            from kiosk.cli.guide import add_guide  # noqa: PLC0415 - the list of commands does without
+
+            add_guide(cmd_name, command)
         return command
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find a command; a mistyped name gets a suggestion, also where it is the name of a subcommand."""
+        if args and self.get_command(ctx, args[0]) is None:
+            from kiosk.cli.guide import suggestion  # noqa: PLC0415 - only a mistyped name needs it
+
+            raise click.UsageError(f"there is no command {args[0]!r}; {suggestion(args[0])}", ctx)
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
-        """Write the list of commands as click does, from the table instead of the commands."""
-        room = formatter.width - 6 - max(map(len, _COMMANDS))
-        rows = [
-            (name, click.Command(name, help=told).get_short_help_str(room)) for name, (_, told) in _COMMANDS.items()
-        ]
-        with formatter.section("Commands"):
-            formatter.write_dl(rows)
+        """Write the commands in their groups, from the table instead of the commands."""
+        longest = max(map(len, _COMMANDS))
+        for title, group in _GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl([(name.ljust(longest), told) for name, (_, told) in group.items()])
 
 
 @click.group(cls=RootGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
@@ -161,7 +124,8 @@ class RootGroup(click.Group):
 def recollect(context: click.Context) -> None:
     """Recollect: a kiosk for studies in which a robot helps a person play Concentration.
 
-    Without a command it opens the kiosk.
+    Without a command it opens the kiosk; its options are those of run.
+    'recollect COMMAND --help' shows examples and where to read on.
     """
     if context.invoked_subcommand is None:
         context.invoke(recollect.get_command(context, "run"))  # type: ignore[arg-type]  # it is in the table
@@ -219,6 +183,6 @@ def _end_at_once_while_opening(arguments: Sequence[str]) -> None:
 
     Raised as an exception while Qt is loaded or the window is built, it would be lost in a callback, or end in a crash.
     """
-    command = next((argument for argument in arguments if not argument.startswith("-")), "run")
+    command = "run" if not arguments or arguments[0].startswith("-") else arguments[0]
     if command in _WITH_A_WINDOW and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

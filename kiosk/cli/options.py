@@ -101,7 +101,10 @@ def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterat
 @click.command()
 @json_option
 def set_pin_command(*, as_json: bool) -> None:
-    """Choose the experimenter's PIN, and print the line for the study file that keeps it."""
+    """Choose the experimenter's PIN and print its line.
+
+    The line belongs in the study file.
+    """
     from kiosk.experiment.experimenter import SALT_BYTES, hash_pin
 
     chosen = _ask("PIN (4 to 12 digits)")

@@ -141,9 +141,10 @@ def rehearse(
     headless: bool,
     as_json: bool,
 ) -> None:
-    """Let a simulated visitor go through a session at the real window, or many of them through a day.
+    """Let simulated visitors go through sessions or a whole day.
 
-    A robot takes its own time: while it is at work, even a rehearsal without a screen waits as long as a visitor would.
+    It clicks in the real window. With --sessions many visitors go through a day. A robot takes its own time: while
+    it is at work, even a rehearsal without a screen waits as long as a visitor would.
     """
     prepared = read_study(read_settings(study, robot_host, robot_port))
     check_robot(prepared.settings)

@@ -80,7 +80,10 @@ def run_command(
     unattended: bool,
     as_json: bool,
 ) -> None:
-    """Open the kiosk for visitors; Ctrl+Shift+Q leaves it."""
+    """Open the kiosk for visitors.
+
+    Ctrl+Shift+Q leaves it. Without a PIN in the study file it runs a trial, which is not exported.
+    """
     if supervise:
         _refuse_without_pin(study)
         given = {"--study": study, "--robot-host": robot_host, "--robot-port": robot_port}
@@ -193,10 +196,11 @@ def replay_command(
     headless: bool,
     as_json: bool,
 ) -> None:
-    """Play a stored SESSION again: Space stops it, the arrows step and change its speed, Escape leaves.
+    """Play a stored SESSION on the screen again.
 
-    Its events are handled again, and compared with the record; --study names a study file beside whose folder the
-    session's own pictures lie, if they do not come with Recollect.
+    Space stops it, the arrows step and change its speed, Escape leaves. Its events are handled again, and compared
+    with the record; --study names a study file beside whose folder the session's own pictures lie, if they do not
+    come with Recollect.
     """
     with open_repository(data) as stored:
         events, plan = stored.story(session), stored.plan(session)

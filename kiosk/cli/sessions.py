@@ -30,7 +30,10 @@ _COUNTS = ("pairs", "moves", "flips", "hints")
 @click.option("--codes", is_flag=True, help="Show the participants' codes as well; they are the visitors' own.")
 @json_option
 def sessions_command(data: Path, *, codes: bool, as_json: bool) -> None:
-    """List the stored sessions: when, in which condition, how and where they ended."""
+    """List the stored sessions and how they ended.
+
+    Each has its time, condition and stage.
+    """
     with open_repository(data) as stored:
         rows = [_row(session, with_code=codes) for session in stored.sessions()]
     if as_json:
@@ -62,7 +65,7 @@ def _word(value: object) -> str:
 @sessions_data_option
 @json_option
 def events_command(session: int, data: Path, *, as_json: bool) -> None:
-    """List what happened in a SESSION, in the order in which it was written."""
+    """List what happened in a SESSION, in order."""
     with open_repository(data) as stored:
         records = stored.records(session)
     if as_json:
@@ -85,9 +88,10 @@ NOT_ALIVE, TROUBLE = 3, 1
 @json_option
 @click.pass_context
 def status_command(context: click.Context, data: Path, *, as_json: bool) -> None:
-    """Show how the booth is now: stage, today's sessions, robot, voice, disk, backup.
+    """Show how the booth is now, while the kiosk runs.
 
-    Exit code 0 if the kiosk runs and all is well, 1 if something is not, 3 if no kiosk runs or it hangs.
+    It shows stage, today's sessions, robot, voice, disk and backup. Exit code 0 if the kiosk runs and all is well,
+    1 if something is not, 3 if no kiosk runs or it hangs.
     """
     status = _read_status(data)
     now = datetime.now(UTC)

@@ -46,7 +46,7 @@ SHORT_SHA = 12
 
 @click.group()
 def study() -> None:
-    """Set up a study: check its file, write one to begin with, bring in a questionnaire, choose a PIN."""
+    """Set up a study: its file, cards, texts and PIN."""
 
 
 study.add_command(set_pin_command)
@@ -74,7 +74,10 @@ study.add_command(preview_command)
 def study_check(
     context: click.Context, file: Path, allowed_signers: Path | None, *, pages: bool, as_json: bool
 ) -> None:
-    """Read a study FILE and everything it names, and say all that is wrong, or what the study is."""
+    """Read a study FILE and say what it is, or all that is wrong.
+
+    Everything that the file names is read, too.
+    """
     try:
         read = read_study(open_study(file))
         check_robot(read.settings)
@@ -205,7 +208,10 @@ def _told(value: object) -> str:
 @click.option("--practice", is_flag=True, help="The deck of the practice, and not that of the game.")
 @json_option
 def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, as_json: bool) -> None:
-    """List the cards of a study FILE with their names, and what makes them hard to tell apart."""
+    """List the cards of a study FILE and what is wrong with them.
+
+    It names each card and says which are hard to tell apart.
+    """
     from kiosk.ui.cards import card_warnings, draw_cards, save_sheet  # noqa: PLC0415 - Qt, for this command alone
 
     settings = Settings.read(file)
@@ -263,6 +269,7 @@ def write_names(settings: Settings, deck: str) -> None:
 @click.option("--contact", help="Whom visitors write to, best a mail address.")
 @click.option("--language", "languages", multiple=True, help="A language, such as 'en'; may be given several times.")
 @click.option("--robot", help="The robot, by the name of its driver, or 'none'.")
+@json_option
 def study_new(
     folder: Path,
     template: str | None,
@@ -270,10 +277,15 @@ def study_new(
     contact: str | None,
     languages: tuple[str, ...],
     robot: str | None,
+    *,
+    as_json: bool,
 ) -> None:
-    """Make the folder DIR with a whole study in it; what is not given by an option is asked for."""
+    """Make the folder DIR with a whole study in it.
+
+    At a terminal it asks for what no option gives.
+    """
     check_free(folder)
-    asks = sys.stdin.isatty()
+    asks = sys.stdin.isatty() and not as_json
     if template is None and asks:
         for each in templates().values():
             click.echo(f"  {each.name:15} {each.about}")
@@ -290,6 +302,10 @@ def study_new(
             (made / name).parent.mkdir(parents=True, exist_ok=True)
             (made / name).write_bytes(content)
         made.chmod(0o755)
+    if as_json:
+        packages = [str(folder / "packages" / name) for name in chosen.packages]
+        click.echo(json.dumps({"study": str(folder / STUDY_FILE), "files": sorted(files), "packages": packages}))
+        return
     click.echo(f"{len(files)} files were written to {folder}. Read {folder / 'README.md'} first, then:")
     for name in chosen.packages:
         click.echo(f"  pip install {folder / 'packages' / name}")
@@ -325,7 +341,10 @@ def _robot(kind: str) -> dict[str, Any]:
 @study.command("reference")
 @click.option("--toml", is_flag=True, help="Print a study file with every key instead, as it is without one.")
 def study_reference(*, toml: bool) -> None:
-    """Print the reference of every key of a study file (Markdown)."""
+    """Print the reference of every key of a study file.
+
+    It is Markdown.
+    """
     click.echo(as_study_file(Settings()) if toml else as_page(Settings), nl=False)
 
 
@@ -338,13 +357,24 @@ def study_reference(*, toml: bool) -> None:
 @click.option("--per-page", type=click.IntRange(1, MOST_PER_PAGE), default=1, show_default=True, help="Items a page.")
 @click.option("--shuffled", is_flag=True, help="Shuffle its items anew for every visitor.")
 @click.option("--language", default="en", show_default=True, help="The language of a file that does not name one.")
+@json_option
 def study_import(
-    file: Path, name: str, version: str, out: Path, note: str | None, per_page: int, language: str, *, shuffled: bool
+    file: Path,
+    name: str,
+    version: str,
+    out: Path,
+    note: str | None,
+    per_page: int,
+    language: str,
+    *,
+    shuffled: bool,
+    as_json: bool,
 ) -> None:
-    """Make a questionnaire of a FILE: a CSV table, or the file of a survey program.
+    """Make a questionnaire of a CSV table or a survey FILE.
 
-    A table has one row per item. XLSForm (.xlsx), REDCap data dictionaries (.csv), LimeSurvey (.txt) and Qualtrics
-    (.qsf) are known. What cannot be asked here is named line by line. docs/import.md says what is taken.
+    A table has one row per item. XLSForm (.xlsx), REDCap data
+    dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be asked here is named line
+    by line.
     """
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(
@@ -352,6 +382,9 @@ def study_import(
     )
     read, left = read_survey(file, heading, language) if is_survey(file) else (read_items(file, heading), [])
     write_questionnaire(read, out)
+    if as_json:
+        click.echo(json.dumps({"out": str(out), "items": len(read.items), "not_taken": [*left]}))
+        return
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
     click.echo(f"{items} written to {out}")
     for sentence in left:

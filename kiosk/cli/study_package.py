@@ -37,10 +37,11 @@ DIFFERENT = 1
 @click.option("--sign", "key", type=click.Path(path_type=Path), help="Sign it with this SSH key.")
 @json_option
 def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: bool) -> None:
-    """Make one file of a study FILE and everything of its own that it names, and print its SHA-256.
+    """Make one file of a study FILE and of all that it names.
 
-    The same study gives the same bytes. The kiosk runs the packed file as it is. The PIN, the robot's address and what
-    else belongs to one kiosk are not packed; write them into a file of the same name that ends in .local.toml.
+    It prints the file's SHA-256. The same study gives the same bytes. The kiosk runs the packed file as it is. The
+    PIN, the robot's address and what else belongs to one kiosk are not packed; write them into a file of the same
+    name that ends in .local.toml.
     """
     out = out or file.with_suffix(ENDING)
     study = read_study(read_settings(file))
@@ -67,9 +68,9 @@ def pack_command(file: Path, out: Path | None, key: Path | None, *, as_json: boo
 @json_option
 @click.pass_context
 def diff_command(context: click.Context, one: Path, other: Path, *, as_json: bool) -> None:
-    """Say in what the studies ONE and OTHER differ, and whether it can change the data.
+    """Say in what the studies ONE and OTHER differ.
 
-    The exit code is 1 if they differ.
+    It also says whether the difference can change the data. The exit code is 1 if they differ.
     """
     studies = [read_study(read_settings(file)) for file in (one, other)]
     found = compare(*studies)

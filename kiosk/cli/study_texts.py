@@ -38,7 +38,10 @@ SHOWN = 60
 def translations_command(
     file: Path, language: str | None, write: Path | None, read: Path | None, *, as_json: bool
 ) -> None:
-    """Show how far the texts of a study FILE are translated from its first language, and exchange them."""
+    """Show how far a study FILE is translated.
+
+    It also exchanges the texts with a table for translators.
+    """
     settings = Settings.read(file)
     if (write or read) and language is None:
         raise UserInputError("--language is missing: which language is it, such as --language nl?")
@@ -106,9 +109,9 @@ def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
 @click.command("preview")
 @click.argument("file", type=click.Path(path_type=Path))
 def preview_command(file: Path) -> None:
-    """Show every screen of a study FILE in a window that follows the files as you change them.
+    """Show every screen of a study FILE while you write it.
 
-    Click on a text to see its file and key, and to change it.
+    The window follows the files as you change them. Click on a text to see its file and key, and to change it.
     """
     from kiosk.ui.preview import show_preview  # noqa: PLC0415 - the other commands do without a window
     from kiosk.ui.window import WindowMode, check_screen  # noqa: PLC0415 - as above

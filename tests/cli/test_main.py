@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import errno
 import os
+import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
 
 import click
 import pytest
+from click.testing import CliRunner
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli import main
+from kiosk.cli.guide import GUIDES, Guide, as_epilog, every_command
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 @pytest.mark.parametrize(
@@ -60,6 +68,82 @@ def test_the_help_lists_each_command_by_the_first_sentence_of_its_own_help() -> 
         command = main.recollect.get_command(context, name)
         assert command is not None
         assert main._COMMANDS[name][1] == command.get_short_help_str(200)
+
+
+@cache
+def commands() -> dict[str, click.Command]:
+    """Return every command by its name; loading them all takes a second, so it waits for the first test."""
+    return dict(every_command(main.recollect))
+
+
+MISSING_GUIDE = "add an example and a page for it to GUIDES in kiosk/cli/guide.py"
+PLAIN_WIDTH = 80
+
+
+def groups(group: click.Group, path: str = "recollect") -> Iterator[tuple[str, click.Group]]:
+    """Yield a group and all groups in it, with what is typed for each."""
+    yield path, group
+    context = click.Context(group)
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        if isinstance(command, click.Group):
+            yield from groups(command, f"{path} {name}")
+
+
+def test_no_line_of_a_list_of_commands_is_cut() -> None:
+    for path, group in groups(main.recollect):
+        lines = group.get_help(click.Context(group, info_name=path, terminal_width=PLAIN_WIDTH)).splitlines()[1:]
+        cut = [line for line in lines if line.endswith("...") or len(line) > PLAIN_WIDTH]
+        assert cut == [], f"shorten the first sentence of the docstring, for {path} --help"
+
+
+def test_every_command_has_an_example_and_a_page() -> None:
+    assert set(commands()) - set(GUIDES) == set(), MISSING_GUIDE
+    assert set(GUIDES) - set(commands()) == set(), "a guide is about a command that is not there"
+    assert [name for name, guide in GUIDES.items() if not guide.examples] == []
+    assert [guide.page for guide in GUIDES.values() if not (DOCS / guide.page).exists()] == []
+
+
+@pytest.mark.parametrize(("name", "guide"), GUIDES.items(), ids=GUIDES)
+def test_the_examples_of_a_command_are_commands_that_it_takes(
+    name: str, guide: Guide, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("recordings").mkdir()
+    for example in guide.examples:
+        words = shlex.split(example)
+        depth = len(name.split())
+        assert " ".join(words[:depth]) == name
+        commands()[name].make_context(name, words[depth:])
+    assert commands()[name].epilog == as_epilog(guide)
+
+
+def test_a_command_prints_json_or_the_reference_says_why_not() -> None:
+    for name, command in commands().items():
+        takes_json = any("--json" in parameter.opts for parameter in command.params)
+        remedy = "add json_option, or why_no_json in kiosk/cli/guide.py"
+        assert takes_json != bool(GUIDES[name].why_no_json), f"{name}: {remedy}"
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("sesions", "there is no command 'sesions'; did you mean 'sessions'?"),
+        ("set-pin", "there is no command 'set-pin'; did you mean 'study set-pin'?"),
+        ("set-pni", "there is no command 'set-pni'; did you mean 'study set-pin'?"),
+        ("xyzzy", "there is no command 'xyzzy'; 'recollect --help' lists all commands"),
+    ],
+)
+def test_a_mistyped_command_gets_a_suggestion(typed: str, said: str) -> None:
+    done = CliRunner().invoke(main.recollect, [typed])
+    assert (done.exit_code, done.output.splitlines()[-1]) == (2, f"Error: {said}")
+
+
+def test_options_without_a_command_are_those_of_run() -> None:
+    done = CliRunner().invoke(main.recollect, ["--study", "none.toml"])
+    assert isinstance(done.exception, UserInputError)
+    assert "none.toml cannot be read" in str(done.exception)
+    assert CliRunner().invoke(main.recollect, ["--version"]).output.startswith("recollect, version")
 
 
 def test_the_help_loads_no_command_and_no_large_library() -> None:

@@ -359,6 +359,20 @@ def test_a_table_becomes_a_questionnaire(tmp_path: Path, recollect: Recollect) -
     assert set(files(tmp_path)) == {tmp_path / "table.csv", out}
 
 
+def test_what_was_made_is_told_to_programs(tmp_path: Path, recollect: Recollect) -> None:
+    (tmp_path / "table.csv").write_text(TABLE, "utf-8")
+    out = tmp_path / "own.toml"
+    options = ("--id", "own", "--version", "3", "--out", out, "--json")
+    told = json.loads(recollect("study", "import", tmp_path / "table.csv", *options).out)
+    assert told == {"out": str(out), "items": 1, "not_taken": []}
+    made = json.loads(recollect("study", "new", tmp_path / "mine", "--json").out)
+    assert made["study"] == str(tmp_path / "mine" / "study.toml")
+    written = {
+        file.relative_to(tmp_path / "mine").as_posix() for file in (tmp_path / "mine").rglob("*") if file.is_file()
+    }
+    assert (set(made["files"]), made["packages"]) == (written, [])
+
+
 @pytest.mark.parametrize(
     ("table", "out", "said"),
     [
