@@ -1,8 +1,9 @@
 """The set-up of Recollect, in one file that needs Python 3.11 and nothing else.
 
-``start`` installs what is missing and opens the kiosk, or rehearses one session where there is no screen; ``test``
-installs the development extras as well and runs every check; ``lock`` resolves the versions anew. This file changes
-``.venv``, ``build`` and ``rehearsals`` in the checkout and, as root on Debian, the system's packages: nothing else.
+``start`` installs what is missing and opens the kiosk, or rehearses one session where there is no screen. ``check``,
+``fast``, ``test`` and ``docs`` are for work on Recollect, and install the development extras as well. ``lock`` resolves
+the versions anew, and ``packages`` prints the Debian packages of the tests. This file changes ``.venv``, ``build``,
+``docs`` and ``rehearsals`` in the checkout and, as root on Debian, the system's packages: nothing else.
 What it starts stores the session in the user's data folder, where the other commands look for it.
 """
 
@@ -16,7 +17,9 @@ import socket
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -45,12 +48,24 @@ VIRTUAL_SCREEN = "xvfb xauth xdotool openbox"
 VIRTUAL_SOUND = "pulseaudio pulseaudio-utils"
 BUILD = "binutils" + (f" libpython{VERSION}" if sys.base_prefix == "/usr" else "")
 
+PROGRESS_S = 10.0  # how long a program may be silent before a line says that it is still at work
+
+NEXT_STEPS = """
+What to do next, in this folder:
+  {activate}
+  recollect check                  try everything that a booth needs
+  recollect study new my-study     make a study of your own
+  recollect sessions               see what is stored
+README.md lists more, and `recollect COMMAND --help` shows examples."""
+
 # A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
 # Files keep their order, in which the longest come first; a process that dies ends the run instead of stalling it.
 PARALLEL = (
     *("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "--benchmark-disable",
 )
+
+TEST_PACKAGES = (QT, WINDOW, VOICE, VIRTUAL_SCREEN, VIRTUAL_SOUND, BUILD)
 
 CHECKS = (
     ("ruff", "check", "."),
@@ -66,12 +81,11 @@ class SetupFailed(Exception):
 
 def main(arguments: Sequence[str]) -> int:
     """Do what the first argument says with the rest of them, and return the exit code."""
-    jobs = {"start": start, "test": test, "lock": lock}
-    if not arguments or arguments[0] not in jobs:
-        print("Use: python3 packaging/bootstrap.py start|test|lock [further arguments]", file=sys.stderr)
+    if not arguments or arguments[0] not in JOBS:
+        print(f"Use: python3 packaging/bootstrap.py {'|'.join(JOBS)} [further arguments]", file=sys.stderr)
         return 2
     try:
-        return jobs[arguments[0]](arguments[1:])
+        return JOBS[arguments[0]](arguments[1:])
     except SetupFailed as failure:
         print(failure, file=sys.stderr)
         return 1
@@ -88,8 +102,11 @@ def start(arguments: Sequence[str]) -> int:
     if run(["recollect", "voice", "render"], os.environ):
         say("The voices could not be rendered; each sentence is rendered when it is said, or only shown.")
     if has_screen(os.environ):
-        say("Opening the kiosk.")
-        return run(["recollect", *arguments], os.environ)
+        say("Opening the kiosk; Ctrl+Shift+Q leaves it.")
+        code = run(["recollect", *arguments], os.environ)
+        if not code:
+            say(next_steps())
+        return code
     say("There is no screen here: rehearsing one session without it.")
     shots = ROOT / "rehearsals" / "first"
     rehearsal = ["recollect", "rehearse", "--headless", "--seed", "1", "--shots", str(shots)]
@@ -97,20 +114,64 @@ def start(arguments: Sequence[str]) -> int:
         code = run([*rehearsal, *arguments], environment)
     if code:
         raise SetupFailed(f"The rehearsal ended with exit code {code}.")
+    say(next_steps())
     return 0
+
+
+def next_steps() -> str:
+    """Return what a person does after the first start, with this system's way to enter ``.venv``."""
+    return NEXT_STEPS.format(activate=r".venv\Scripts\activate" if os.name == "nt" else "source .venv/bin/activate")
 
 
 def test(arguments: Sequence[str]) -> int:
     """Run all checks and then the tests; further arguments go to pytest, whose summary is the last line."""
-    install_debian_packages(QT, WINDOW, VOICE, VIRTUAL_SCREEN, VIRTUAL_SOUND, BUILD)
+    with development() as environment:
+        if failed := failed_checks(environment):
+            raise SetupFailed(f"The tests were not run, because these failed: {', '.join(failed)}.")
+        return run(["python", "-m", "pytest", *PARALLEL, *arguments], environment, ROOT, announced=True)
+
+
+def fast(arguments: Sequence[str]) -> int:
+    """Run the tests that are not slow; further arguments go to pytest."""
+    with development() as environment:
+        return run(["python", "-m", "pytest", *PARALLEL, "-m", "not slow", *arguments], environment, ROOT)
+
+
+def check(_arguments: Sequence[str]) -> int:
+    """Run the checks without the tests."""
+    with development() as environment:
+        if failed := failed_checks(environment):
+            raise SetupFailed(f"These checks failed: {', '.join(failed)}.")
+    say("All checks passed.")
+    return 0
+
+
+def docs(_arguments: Sequence[str]) -> int:
+    """Write the pages that are made from the code."""
+    with development() as environment:
+        return run(["python", "packaging/reference.py"], environment, ROOT)
+
+
+def packages(_arguments: Sequence[str]) -> int:
+    """Print the Debian packages that the tests need, for a machine that is prepared by another program."""
+    say(" ".join(TEST_PACKAGES))
+    return 0
+
+
+@contextmanager
+def development() -> Iterator[dict[str, str]]:
+    """Install what the checks and tests need, and yield their environment."""
+    install_debian_packages(*TEST_PACKAGES)
     # The natural voice is large, and no test needs it.
     install_python_packages(extras=set(project()["optional-dependencies"]) - {"natural"})
     headless = {"QT_QPA_PLATFORM": "offscreen"} | os.environ | {"QT_QUICK_BACKEND": "software"}
     with runtime_folder(headless) as environment:
-        failed = [" ".join(check[:2]) for check in CHECKS if run(check, environment, ROOT, announced=True)]
-        if failed:
-            raise SetupFailed(f"The tests were not run, because these failed: {', '.join(failed)}.")
-        return run(["python", "-m", "pytest", *PARALLEL, *arguments], environment, ROOT, announced=True)
+        yield environment
+
+
+def failed_checks(environment: Mapping[str, str]) -> list[str]:
+    """Run all checks and return the names of those that failed."""
+    return [" ".join(check[:2]) for check in CHECKS if run(check, environment, ROOT, announced=True)]
 
 
 def lock(_arguments: Sequence[str]) -> int:
@@ -255,16 +316,45 @@ def quietly(command: Sequence[str], failure: str) -> str:
 
     If it fails, say so in a sentence and with its last lines.
     """
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, encoding="utf-8", errors="replace", check=False)
+    with still_at_work():
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, encoding="utf-8", errors="replace", check=False)
     if done.returncode:
         raise SetupFailed("\n".join([failure, *(done.stdout + done.stderr).strip().splitlines()[-8:]]))
     return done.stdout
+
+
+@contextmanager
+def still_at_work() -> Iterator[None]:
+    """Print how long it has taken, now and then, while a program works in silence."""
+    done, begun = threading.Event(), time.monotonic()
+
+    def tell() -> None:
+        while not done.wait(PROGRESS_S):
+            say(f"  still at work after {time.monotonic() - begun:.0f} s")
+
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
+        yield
+    finally:
+        done.set()
+        teller.join()
 
 
 def say(sentence: str) -> None:
     """Print what is being done, before whatever the programs print."""
     print(sentence, flush=True)
 
+
+JOBS: dict[str, Callable[[Sequence[str]], int]] = {
+    "start": start,
+    "check": check,
+    "fast": fast,
+    "test": test,
+    "docs": docs,
+    "lock": lock,
+    "packages": packages,
+}
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))

@@ -5,25 +5,28 @@ from __future__ import annotations
 import importlib.util
 import re
 from pathlib import Path
+from queue import SimpleQueue
 from types import ModuleType
 
 import pytest
+import yaml
 
+from kiosk import __version__
 from kiosk.cli.main import recollect
 from kiosk.experiment.transitions import diagram
 
 ROOT = Path(__file__).parent.parent
 PAGES = [
-    ROOT / "README.md",
-    ROOT / "CHANGELOG.md",
+    *sorted(ROOT.glob("*.md")),
+    ROOT / "tests" / "README.md",
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted(ROOT.glob("p*/*.md")),
 ]
 
 
-def load_reference() -> ModuleType:
-    """Load packaging/reference.py, which is in no package."""
-    spec = importlib.util.spec_from_file_location("reference", ROOT / "packaging" / "reference.py")
+def load(name: str) -> ModuleType:
+    """Load a file of packaging/, which is no package."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / "packaging" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -31,7 +34,7 @@ def load_reference() -> ModuleType:
     return module
 
 
-REFERENCE = load_reference()
+REFERENCE, BOOTSTRAP = load("reference"), load("bootstrap")
 
 
 def test_the_diagram_of_the_stages_is_drawn_from_the_table() -> None:
@@ -54,3 +57,41 @@ def test_a_generated_page_is_as_the_code_gives_it(name: str) -> None:
 def test_every_command_in_the_readme_exists() -> None:
     named = set(re.findall(r"`recollect ([a-z]+)", (ROOT / "README.md").read_text("utf-8")))
     assert named - set(recollect.commands) - set(recollect.list_commands(None)) == set()  # type: ignore[arg-type]
+
+
+def test_the_contributor_finds_every_task_that_there_is() -> None:
+    page = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    assert re.findall(r"^\| `python3 packaging/bootstrap.py (\w+)` \|", page, flags=re.M) == [
+        *("start", "check", "fast", "test", "docs", "lock", "packages")
+    ]
+    assert set(re.findall(r"bootstrap\.py (\w+)", page)) == set(BOOTSTRAP.JOBS)
+
+
+def test_ci_runs_tasks_that_there_are_on_three_systems_and_every_python() -> None:
+    jobs = yaml.safe_load((ROOT / ".github" / "workflows" / "tests.yml").read_text("utf-8"))["jobs"]
+    runs = [step["run"] for job in jobs.values() for step in job["steps"] if "run" in step]
+    tasks = {task for line in runs for task in re.findall(r"bootstrap\.py (\w+)", line)}
+    assert tasks == {"packages", "fast", "test"}
+    matrix = jobs["fast"]["strategy"]["matrix"]
+    assert [system.partition("-")[0] for system in matrix["system"]] == ["ubuntu", "windows", "macos"]
+    assert matrix["python"] == ["3.11", "3.12", "3.13", "3.14"]
+
+
+def test_a_commit_is_checked_as_a_change_is() -> None:
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text("utf-8"))["repos"][0]["hooks"]
+    entries = [hook["entry"].removesuffix(" --force-exclude") for hook in hooks]
+    checks = [" ".join(each).removesuffix(" .").replace(" --check", "") for each in BOOTSTRAP.CHECKS]
+    assert entries == checks
+
+
+def test_the_program_is_cited_by_its_version() -> None:
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    assert (citation["version"], citation["license"]) == (__version__, "MIT")
+
+
+def test_a_step_that_works_in_silence_says_that_it_is_at_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: SimpleQueue[str] = SimpleQueue()
+    monkeypatch.setattr(BOOTSTRAP, "PROGRESS_S", 0.01)
+    monkeypatch.setattr(BOOTSTRAP, "say", said.put)
+    with BOOTSTRAP.still_at_work():
+        assert said.get(timeout=10) == "  still at work after 0 s"

@@ -12,7 +12,11 @@ ROOT = Path(__file__).parent.parent
 CODE = [*sorted((ROOT / "kiosk").rglob("*.py")), *sorted((ROOT / "packaging").rglob("*.py"))]
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 SCREENS = sorted((ROOT / "kiosk").rglob("*.qml"))
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "packaging").rglob("*.md"))]
+FOLDERS = ("docs", "packaging", "tests", ".github")
+PAGES = [
+    *(page for page in sorted(ROOT.glob("*.md")) if page.name != "CHANGELOG.md"),
+    *(page for folder in FOLDERS for page in sorted((ROOT / folder).rglob("*.md"))),
+]
 
 AVOIDED = re.compile(r"\b(whoever|whosever|nobody|somebody|lies\s+with|is\s+told|be\s+it|shall)\b", re.IGNORECASE)
 FIRST_LINE_WORDS = 20

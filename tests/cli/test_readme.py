@@ -118,6 +118,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
     """Return a home in which ``bootstrap.py start`` has been run; it is installed already."""
     newcomer = Newcomer(tmp_path_factory.mktemp("home"), loaded)
     start = bootstrap()
+    said: list[str] = []
 
     def run(command: Sequence[str], environment: Mapping[str, str]) -> int:
         del environment
@@ -132,6 +133,7 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
         patch.object(start, "install_debian_packages", lambda *_: None),
         patch.object(start, "install_python_packages", lambda **_: None),
         patch.object(start, "run", run),
+        patch.object(start, "say", said.append),
     ):
         (newcomer.home / "small.toml").write_text(SMALL)
         (newcomer.home / "spoken.toml").write_text(SPOKEN)
@@ -139,6 +141,8 @@ def begun(tmp_path_factory: pytest.TempPathFactory, loaded: LoadedProgram) -> Pa
         for card in DECK:
             shutil.copy(ROOT / "assets" / "cards" / "animals" / f"{card}.svg", newcomer.home / "cards")
         assert start.start(["--study", "small.toml"]) == 0
+    assert said[-1].splitlines()[2].startswith("  source .venv/bin/activate")
+    assert "recollect study new my-study" in said[-1], "it ends with what to do next"
     assert list((newcomer.home / "checkout" / "rehearsals" / "first").glob("*.png"))
     assert list((newcomer.home / "pack").iterdir())
     return newcomer.home
