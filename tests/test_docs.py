@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shlex
 from pathlib import Path
 from queue import SimpleQueue
 from types import ModuleType
 
+import click
 import pytest
 import yaml
 
 from kiosk import __version__
+from kiosk.cli.guide import every_command
 from kiosk.cli.main import recollect
 from kiosk.experiment.transitions import diagram
 
@@ -52,6 +55,49 @@ def test_every_link_of_a_page_leads_somewhere(page: Path) -> None:
 def test_a_generated_page_is_as_the_code_gives_it(name: str) -> None:
     page = (ROOT / "docs" / name).read_text("utf-8")
     assert page == REFERENCE.GENERATED[name](), "run `python packaging/reference.py` and commit what it writes"
+
+
+def typed_commands(page: str) -> list[str]:
+    """Return the lines of a page's code blocks that call ``recollect``, without what follows a pipe or a comment."""
+    code = re.sub(r"\\\n\s*", "", page)
+    lines = re.findall(r"^ *(?:\$ )?recollect (.*)$", code, flags=re.M)
+    return [re.split(r"\s+(?:#|\||>|&&)\s?", line)[0].strip() for line in lines]
+
+
+@pytest.fixture(scope="module")
+def commands() -> dict[str, click.Command]:
+    """Return every command by its name."""
+    return dict(every_command(recollect))
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.name != "commands.md"], ids=lambda page: page.name)
+def test_every_command_block_is_a_command_that_the_program_takes(
+    page: Path, commands: dict[str, click.Command], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for typed in typed_commands(page.read_text("utf-8")):
+        words = shlex.split(typed)
+        depth = next((depth for depth in (2, 1) if " ".join(words[:depth]) in commands), 0)
+        name, arguments = (" ".join(words[:depth]), words[depth:]) if depth else ("run", words)
+        if "--help" in arguments or typed in {"--help", "--version"}:
+            continue
+        assert refusal(commands[name], arguments) == "", typed
+
+
+def refusal(command: click.Command, arguments: list[str]) -> str:
+    """Return why a command does not take its arguments; that a file is not there is no reason."""
+    try:
+        command.make_context(command.name, arguments)
+    except click.UsageError as error:
+        return "" if "does not exist" in error.format_message() else error.format_message()
+    return ""
+
+
+def test_the_commands_of_a_page_are_found() -> None:
+    page = (
+        "    recollect check --say  # aloud\n    recollect study \\\n        new DIR\n    recollect events 1 | less\n"
+    )
+    assert typed_commands(page) == ["check --say", "study new DIR", "events 1"]
 
 
 def test_every_command_in_the_readme_exists() -> None:

@@ -41,6 +41,9 @@ LESS = {
 }
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
 
+TRIED_BY_ROWS = {"rehearse", "replay", "check", "run", "report"}
+"""Commands of the tutorial that take long; rows of the README try all but the report, which needs two conditions."""
+
 DECK = ("owl", "frog")
 SPOKEN = """
 languages = ["en"]
@@ -217,6 +220,21 @@ def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
         supervisor.terminate()
     listener.close()
     return supervisor.returncode == 0
+
+
+def test_the_tutorial_can_be_followed(newcomer: Newcomer) -> None:
+    page = (ROOT / "docs" / "first-study.md").read_text("utf-8")
+    typed = [shlex.split(line)[1:] for line in re.findall(r"^    (recollect .*)$", page, flags=re.M)]
+    followed = []
+    for arguments in typed:
+        if arguments[0] in TRIED_BY_ROWS:
+            continue
+        done = newcomer.run(arguments)
+        assert (done.returncode, "Traceback" in done.stderr) == (0, False), (arguments, done.stderr)
+        followed.append(arguments[0])
+    assert followed == ["study", "study", "study", "sessions", "events", "explain", "export", "study"]
+    for made in ("my-study/study.toml", "cards.png", "data-set/documentation/codebook.md"):
+        assert (newcomer.home / made).is_file()
 
 
 def test_what_was_not_rehearsed_yet_is_not_there(tmp_path: Path, loaded: LoadedProgram) -> None:
