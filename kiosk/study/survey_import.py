@@ -12,7 +12,7 @@ import json
 import re
 import xml.etree.ElementTree as ET
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,17 @@ _YES_NO = {"en": ("Yes", "No"), "it": ("Sì", "No"), "es": ("Sí", "No"), "de": 
 _WIDEST = 999_999
 
 
+@dataclass(frozen=True)
+class _Shown:
+    """When a file shows a question or a group."""
+
+    where: str
+    left: str
+    """What to say if that cannot be here."""
+    condition: str | None
+    """In our words; None if it cannot be said in them."""
+
+
 @dataclass
 class Survey:
     """What was taken of a file, and a sentence for everything that was not."""
@@ -43,8 +54,8 @@ class Survey:
     items: list[dict[str, Any]] = field(default_factory=list)
     left: list[str] = field(default_factory=list)
     _since: int = 0
-    conditions: dict[str, tuple[str, str, str]] = field(default_factory=dict)
-    """What the file says of when an item is shown: where, in its own words, and in ours; by the item's name."""
+    conditions: dict[str, list[_Shown]] = field(default_factory=dict)
+    """When the file shows an item, by its name: the conditions of its groups from the outermost, and its own."""
 
     def leave(self, where: str, what: str) -> None:
         """Note that something was not taken."""
@@ -74,36 +85,49 @@ class Survey:
             return
         self.items.append({"id": ident, "kind": kind, "text": dict(text)} | more)
 
-    def show_if(self, where: str, what: str, condition: str | None) -> None:
-        """Show what was added there on a condition; None if it cannot be said here."""
-        added = [item for item in self.items[self._since :] if item["id"] not in self.conditions]
-        if condition is None or not added:
-            self.leave(where, what)
-            return
-        for item in added:
-            item["relevant"] = condition
-            self.conditions[item["id"]] = (where, what, condition)
+    def show_if(self, shown: Iterable[_Shown]) -> None:
+        """Show what was added since the last ``begin`` only if all of these conditions hold."""
+        said = []
+        for each in shown:
+            if each.condition is None or len(self.items) == self._since:
+                self.leave(each.where, each.left)
+            else:
+                said.append(each)
+        if said:
+            self.conditions |= {item["id"]: said for item in self.items[self._since :]}
 
     def begin(self) -> None:
         """Begin a question of the file, which may be several items here."""
         self._since = len(self.items)
 
-    def drop_what_cannot_be(self, order: ItemOrder) -> None:
-        """Leave out the conditions that cannot be here, such as those about what was not taken."""
-        while True:
-            given = {"id": "survey", "version": "1", "note": "-", "order": order, "items": self.items}
-            try:
-                Questionnaire.model_validate(given)
-            except ValidationError as error:
-                places = {fault["loc"][1] for fault in error.errors() if fault["loc"][::2] == ("items", "relevant")}
-                if not places:
-                    return
-                for item in (self.items[int(place)] for place in places):
-                    del item["relevant"]
-                    where, what, _ = self.conditions[item["id"]]
-                    self.leave(where, what)
-            else:
-                return
+    def set_conditions(self, order: ItemOrder) -> None:
+        """Give the items their conditions, but not those that cannot be here, as about what was not taken."""
+        for item in self.items:
+            kept = [each for each in self.conditions.get(item["id"], []) if self._can_be(item, [each], order)]
+            if not self._can_be(item, kept, order):
+                kept.pop()
+            for each in self.conditions.get(item["id"], []):
+                if each not in kept:
+                    self.leave(each.where, each.left)
+            if kept:
+                item["relevant"] = _all_of(kept)
+
+    def _can_be(self, item: dict[str, Any], shown: Sequence[_Shown], order: ItemOrder) -> bool:
+        """Whether an item can be shown on these conditions."""
+        if not shown:
+            return True
+        items = [*self.items[: self.items.index(item)], item | {"relevant": _all_of(shown)}]
+        try:
+            Questionnaire.model_validate({"id": "survey", "version": "1", "note": "-", "order": order, "items": items})
+        except ValidationError as error:
+            return not any(fault["loc"][::2] == ("items", "relevant") for fault in error.errors())
+        return True
+
+
+def _all_of(shown: Sequence[_Shown]) -> str:
+    if len(shown) == 1:
+        return str(shown[0].condition)
+    return " and ".join(f"({each.condition})" for each in shown)
 
 
 def _ident(name: str) -> str:
@@ -154,7 +178,7 @@ def read_survey(file: Path, heading: Heading, language: str = "en") -> tuple[Que
         take(survey, list(csv.DictReader(io.StringIO(text, newline=""), delimiter=dialect)))
     if not survey.items:
         raise UserInputError(f"{survey.name} has nothing that can be asked here", *survey.left)
-    survey.drop_what_cannot_be(heading.order)
+    survey.set_conditions(heading.order)
     given = {**vars(heading), "items": survey.items}
     try:
         return Questionnaire.model_validate(given), list(dict.fromkeys(survey.left))
@@ -337,13 +361,36 @@ def _xlsform(survey: Survey, sheets: Mapping[str, Rows]) -> None:
             choices.setdefault(row.get("list_name", row.get("list name", "")), []).append(
                 {"id": _option(row["name"]), "text": words}
             )
-    for row in sheets["survey"]:
+    _xlsform_survey(survey, sheets["survey"], choices)
+
+
+def _xlsform_survey(survey: Survey, rows: Rows, choices: Mapping[str, list[dict[str, Any]]]) -> None:
+    groups: list[_Shown | None] = []
+    """Those that a row stands in, from the outermost, each with its condition if it has one."""
+    for row in rows:
         where = f"survey, row {row['#']}"
-        if row.get("type"):
+        verb, _, what = row.get("type", "").strip().lower().replace("_", " ").partition(" ")
+        if what in {"group", "repeat"} and verb in {"begin", "end"}:
+            survey.leave(where, f"{row['type']} is not taken; what is in it stands one after another")
+            if verb == "begin":
+                groups.append(_xlsform_condition(where, row, "what is in it is always asked"))
+            elif groups:
+                groups.pop()
+        elif verb:
+            survey.begin()
             _xlsform_row(survey, where, row, choices)
+            survey.show_if(filter(None, (*groups, _xlsform_condition(where, row, "it is always asked"))))
 
 
-_GROUPS = ("begin group", "end group", "begin_group", "end_group", "begin repeat", "end repeat", "begin_repeat")
+def _xlsform_condition(where: str, row: Mapping[str, str], otherwise: str) -> _Shown | None:
+    """Return the condition of a row; None if it has none."""
+    relevant = row.get("relevant")
+    if not relevant:
+        return None
+    told = f"its condition ({relevant}) is not taken: {otherwise}"
+    return _Shown(where, told, _condition(relevant, _XLSFORM_CONDITION))
+
+
 _NOT_TAKEN = {
     "hint": "its hint is not taken",
     "default": "its default is not taken: nothing is chosen beforehand",
@@ -355,13 +402,7 @@ _NOT_TAKEN = {
 def _xlsform_row(  # noqa: C901 - a case for each type of that program
     survey: Survey, where: str, row: Mapping[str, str], choices: Mapping[str, list[dict[str, Any]]]
 ) -> None:
-    survey.begin()
     kind, _, rest = row["type"].strip().partition(" ")
-    if row["type"].strip().lower() in (*_GROUPS, "end_repeat"):
-        survey.leave(where, f"{row['type']} is not taken; what is in it stands one after another")
-        if row.get("relevant"):
-            survey.leave(where, f"its condition ({row['relevant']}) is not taken: what is in it is always asked")
-        return
     texts, name = _labels(survey, where, row), row.get("name", "")
     more: dict[str, Any] = {}
     if row.get("required", "").lower() in {"yes", "true", "true()", "1"}:
@@ -384,9 +425,6 @@ def _xlsform_row(  # noqa: C901 - a case for each type of that program
         case _:
             survey.leave(where, f"the type {row['type']!r} is not taken")
             return
-    if row.get("relevant"):
-        told = f"its condition ({row['relevant']}) is not taken: it is always asked"
-        survey.show_if(where, told, _condition(row["relevant"], _XLSFORM_CONDITION))
     for column, what in _NOT_TAKEN.items():
         if row.get(column):
             survey.leave(where, what.format(row[column]))
@@ -455,7 +493,7 @@ def _redcap(survey: Survey, rows: Rows) -> None:  # noqa: C901 - a case for each
                 continue
         if row["branching"]:
             told = f"its branching logic ({row['branching']}) is not taken: it is always asked"
-            survey.show_if(where, told, _condition(row["branching"], _REDCAP_CONDITION))
+            survey.show_if([_Shown(where, told, _condition(row["branching"], _REDCAP_CONDITION))])
 
 
 def _redcap_options(survey: Survey, where: str, choices: str) -> list[dict[str, Any]]:
@@ -479,7 +517,7 @@ class _Lime:
 
     where: str
     kind: str
-    relevance: str
+    shown: tuple[_Shown, ...]
     required: bool
     text: dict[str, str] = field(default_factory=dict)
     parts: dict[str, dict[str, str]] = field(default_factory=dict)
@@ -489,6 +527,7 @@ class _Lime:
 def _limesurvey(survey: Survey, rows: Rows) -> None:
     questions: dict[str, _Lime] = {}
     now: _Lime | None = None
+    group: tuple[_Shown, ...] = ()
     for number, row in enumerate(rows, 2):
         where, name = f"row {number}, {row.get('name', '')}", row.get("name") or ""
         code = row.get("language") or survey.language
@@ -497,16 +536,26 @@ def _limesurvey(survey: Survey, rows: Rows) -> None:
         match row.get("class"):
             case "Q":
                 kind, asked = row.get("type/scale") or "", (row.get("mandatory") or "").upper() == "Y"
-                now = questions.setdefault(name, _Lime(where, kind, row.get("relevance") or "1", asked))
+                shown = (*group, *_lime_relevance(where, row, "it is always asked"))
+                now = questions.setdefault(name, _Lime(where, kind, shown, asked))
                 now.text[code] = text
             case "SQ" if now:
                 now.parts.setdefault(name, {})[code] = text
             case "A" if now:
                 now.answers.setdefault(name, {})[code] = text
             case "G":
-                now = None
+                now, group = None, _lime_relevance(where, row, "what is in the group is always asked")
     for name, question in questions.items():
         _lime_question(survey, name, question)
+
+
+def _lime_relevance(where: str, row: Mapping[str, str], otherwise: str) -> tuple[_Shown, ...]:
+    """Return the condition of a row, if it has one."""
+    relevance = row.get("relevance") or "1"
+    if relevance == "1":
+        return ()
+    told = f"its relevance ({relevance}) is not taken: {otherwise}"
+    return (_Shown(where, told, _condition(relevance, _LIME_CONDITION)),)
 
 
 _LIME_POINTS = {"5": 5, "A": 5, "B": 10}
@@ -544,9 +593,7 @@ def _lime_question(survey: Survey, name: str, question: _Lime) -> None:  # noqa:
         case _:
             survey.leave(where, f"the type {kind!r} is not taken")
             return
-    if question.relevance not in {"", "1"}:
-        told = f"its relevance ({question.relevance}) is not taken: it is always asked"
-        survey.show_if(where, told, _condition(question.relevance, _LIME_CONDITION))
+    survey.show_if(question.shown)
 
 
 def _joined(text: Mapping[str, str], words: Mapping[str, str]) -> dict[str, str]:
@@ -612,7 +659,7 @@ def _qualtrics_question(  # noqa: C901 - a case for each type of that program
             return
     if payload.get("DisplayLogic"):
         told = "its display logic is not taken: it is always asked"
-        survey.show_if(where, told, _display_logic(payload["DisplayLogic"], names))
+        survey.show_if([_Shown(where, told, _display_logic(payload["DisplayLogic"], names))])
 
 
 def _qualtrics_options(survey: Survey, where: str, choices: Any, order: Any) -> list[dict[str, Any]]:

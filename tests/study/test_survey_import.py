@@ -189,6 +189,16 @@ CONDITIONS = [
     ["text", "gone", "Gone?", "${nowhere} = 1"],
     ["text", "never", "Never?", "${age} > 3 and ${age} < 2"],
     ["begin group", "g", "", "${age} > 3"],
+    ["text", "then", "Then?"],
+    ["begin_repeat", "r", "", "${sum} != ''"],
+    ["text", "both of them", "Both?", "${liked} = '1'"],
+    ["text", "neither", "Neither?", "${age} < 2"],
+    ["end_repeat"],
+    ["end group"],
+    ["begin group", "h", "", "position(..) = 1"],
+    ["text", "last", "Last?", "${age} > 1"],
+    ["end group"],
+    ["text", "after", "After?"],
 ]
 
 
@@ -203,12 +213,18 @@ def test_conditions_of_an_xlsform_are_taken_as_far_as_they_can_be_said(tmp_path:
         "sum": "",
         "gone": "",
         "never": "",
+        "then": "age > 3",
+        "both_of_them": "(age > 3) and (answered(sum)) and (liked = 1)",
+        "neither": "(age > 3) and (answered(sum))",
+        "last": "age > 1",
+        "after": "",
     }
     told = "its condition ({}) is not taken: it is always asked"
     for row, condition in ((6, "${age} + 1 > 18"), (7, "${nowhere} = 1"), (8, "${age} > 3 and ${age} < 2")):
         assert f"survey, row {row}: {told.format(condition)}" in left
-    assert "survey, row 9: its condition (${age} > 3) is not taken: what is in it is always asked" in left
-    assert sum("condition" in each for each in left) == 4
+    assert f"survey, row 13: {told.format('${age} < 2')}" in left
+    assert "survey, row 16: its condition (position(..) = 1) is not taken: what is in it is always asked" in left
+    assert sum("condition" in each for each in left) == 5
 
 
 def test_a_shuffled_import_takes_no_conditions_and_says_so(tmp_path: Path) -> None:
@@ -263,6 +279,17 @@ def test_relevance_of_limesurvey_is_taken_as_far_as_it_can_be_said(
     read, left = read_survey(file, HEADING)
     assert read.items[-1].relevant == condition
     assert any(relevance in each for each in left) is (not condition)
+
+
+def test_the_relevance_of_a_group_of_limesurvey_is_that_of_its_questions(tmp_path: Path) -> None:
+    rows = [LIME[0], LIME[2], ["Q", "5", "stars", "1", "Sterne?", "de", "N"]]
+    rows += [["G", "", "few", "stars < 3", "", "de", ""], ["Q", "S", "why", "1", "Warum?", "de", "N"]]
+    rows += [["Q", "S", "else", "stars == 1", "Und?", "de", "N"], LIME[2], ["Q", "S", "end", "1", "Ende?", "de", "N"]]
+    file = tmp_path / "survey.txt"
+    file.write_text("\n".join("\t".join(row) for row in rows), "utf-8")
+    read, left = read_survey(file, HEADING)
+    assert [item.relevant for item in read.items] == ["", "stars < 3", "(stars < 3) and (stars = 1)", ""]
+    assert not any("relevance" in each for each in left)
 
 
 def test_display_logic_of_qualtrics_is_taken_where_it_asks_for_choices(tmp_path: Path) -> None:
