@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from kiosk.config import ASSETS
 from kiosk.experiment.session_config import StudyConfig
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QTextLayout
 
 # Qt is loaded where it is needed: commands that only ask another process do not pay for it.
 # ruff: noqa: PLC0415
@@ -58,11 +62,13 @@ def use_fonts(own: Sequence[Path] = ()) -> None:
 
 @dataclass(frozen=True)
 class Missing:
-    """Characters of a language that no font here can draw, and one of the places where they stand."""
+    """Characters or joined emoji of a language that no font here can draw, and one of the places where they stand."""
 
     language: str
     characters: tuple[str, ...]
     where: str
+    in_parts: bool = False
+    """Whether they are emoji of several characters, each of which can be drawn, but not as one picture."""
 
     @property
     def package(self) -> str:
@@ -72,21 +78,25 @@ class Missing:
     def __str__(self) -> str:
         """Return what is wrong, in a sentence."""
         shown = " ".join(self.characters[:_SHOWN]) + (" ..." if len(self.characters) > _SHOWN else "")
+        if self.in_parts:
+            fault = f"the parts of joined emoji would stand side by side: {shown}"
+            return f"in {self.language!r}, {fault} (as in {self.where})"
         count = "1 character has" if len(self.characters) == 1 else f"{len(self.characters)} characters have"
         return f"in {self.language!r}, {count} no font here and would be empty boxes: {shown} (as in {self.where})"
 
     @property
     def remedy(self) -> str:
         """What to do about it."""
-        return f"install {self.package}, or name a font that has them in look.fonts"
+        other = "write others" if self.in_parts else "name a font that has them in look.fonts"
+        return f"install {self.package}, or {other}"
 
 
 _SHOWN = 12
 
 
 def package_of(character: str) -> str:
-    """Return the Debian package whose fonts have a character."""
-    if ord(character) >= _EMOJI_FROM and unicodedata.category(character) in {"So", "Sk", "Cn"}:
+    """Return the Debian package whose fonts have a character or a joined emoji."""
+    if len(character) > 1 or (ord(character) >= _EMOJI_FROM and unicodedata.category(character) in {"So", "Sk", "Cn"}):
         return _EMOJI
     names = unicodedata.name(character, "").replace("-", " ").split()
     first = names[0] if names else ""
@@ -139,29 +149,41 @@ def missing_characters(command: Sequence[str], study: StudyConfig) -> list[Missi
     return list(_by_language(texts, json.loads(done.stdout)))
 
 
-def _by_language(texts: Sequence[tuple[str, str, str]], found: Sequence[str]) -> Iterator[Missing]:
-    characters: dict[str, dict[str, str]] = {}
+def _by_language(texts: Sequence[tuple[str, str, str]], found: Sequence[Sequence[str]]) -> Iterator[Missing]:
+    characters: dict[tuple[str, bool], dict[str, str]] = {}
     for (language, where, _), missing in zip(texts, found, strict=True):
         for character in missing:
-            characters.setdefault(language, {}).setdefault(character, where)
-    for language, there in characters.items():
-        yield Missing(language, tuple(there), next(iter(there.values())))
+            characters.setdefault((language, len(character) > 1), {}).setdefault(character, where)
+    for (language, in_parts), there in characters.items():
+        yield Missing(language, tuple(there), next(iter(there.values())), in_parts)
 
 
 def try_fonts(asked: IO[str], answer: IO[str]) -> None:
-    """Answer which characters of each text have no glyph, in a process of its own."""
+    """Answer which characters and joined emoji of each text cannot be drawn, in a process of its own."""
     from PySide6.QtGui import QGuiApplication
 
     told = json.loads(asked.read())
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     use_fonts([Path(name) for name in told["fonts"]])
     known: dict[str, bool] = {}
-    json.dump(["".join(_undrawn(text, known)) for text in told["texts"]], answer)
+    json.dump([list(_undrawn(text, known)) for text in told["texts"]], answer)
     del application
 
 
+_EMOJI_PART = "[\u203c-\u3299\U0001f000-\U0001faff]\ufe0f?[\U0001f3fb-\U0001f3ff]?"
+_JOINED_EMOJI = re.compile(
+    rf"{_EMOJI_PART}(?:\u200d{_EMOJI_PART})+"  # families and professions
+    "|[\u203c-\u3299\U0001f000-\U0001faff][\U0001f3fb-\U0001f3ff]"  # colours of skin
+    "|[\U0001f1e6-\U0001f1ff]{2}"  # flags of countries
+    "|\U0001f3f4[\U000e0020-\U000e007e]+\U000e007f"  # flags of regions
+)
+"""What Unicode's list of emoji sequences is made of (UTS #51, section 1.4)."""
+_ONE_PICTURE = 1.5
+"""A joined emoji is at most so many times as wide as its first character alone."""
+
+
 def _undrawn(text: str, known: dict[str, bool]) -> Iterator[str]:
-    """Yield the characters of a text that have no glyph, each once."""
+    """Yield the characters of a text that have no glyph, and the joined emoji that are drawn in parts, each once."""
     for character in dict.fromkeys(text):
         if unicodedata.category(character) in _UNDRAWN_CATEGORIES or _is_mark(character):
             continue
@@ -169,6 +191,11 @@ def _undrawn(text: str, known: dict[str, bool]) -> Iterator[str]:
             known[character] = _has_glyph(character)
         if not known[character]:
             yield character
+    for joined in dict.fromkeys(_JOINED_EMOJI.findall(text)):
+        if joined not in known:
+            known[joined] = not all(known.get(each, True) for each in joined) or _is_one_picture(joined)
+        if not known[joined]:
+            yield joined
 
 
 def _is_mark(character: str) -> bool:
@@ -177,11 +204,21 @@ def _is_mark(character: str) -> bool:
 
 
 def _has_glyph(character: str) -> bool:
+    runs = _laid_out(character).glyphRuns()
+    return bool(runs) and all(all(run.glyphIndexes()) for run in runs)
+
+
+def _is_one_picture(joined: str) -> bool:
+    # Some fonts draw one picture of several glyphs on top of each other, so the width tells.
+    alone, together = (_laid_out(text).boundingRect().width() for text in (joined[0], joined))
+    return together < _ONE_PICTURE * alone
+
+
+def _laid_out(text: str) -> QTextLayout:
     from PySide6.QtGui import QTextLayout
 
-    layout = QTextLayout(character)
+    layout = QTextLayout(text)
     layout.beginLayout()
     layout.createLine()
     layout.endLayout()
-    runs = layout.glyphRuns()
-    return bool(runs) and all(all(run.glyphIndexes()) for run in runs)
+    return layout

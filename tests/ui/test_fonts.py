@@ -43,8 +43,8 @@ def found(folder: Path, text: str, look: str = "") -> list[Missing]:
     return missing_characters(COMMAND, read_study(Settings.read(folder / "study.toml")))
 
 
-def font(file: Path, characters: str) -> None:
-    """Make a font of squares for these characters."""
+def font(file: Path, characters: str, joined: str = "") -> None:
+    """Make a font of squares for these characters, and of another one for the sequence ``joined``."""
     names = [".notdef", *(f"c{ord(each)}" for each in characters)]
     pen = TTGlyphPen(None)
     pen.moveTo((0, 0))
@@ -61,6 +61,9 @@ def font(file: Path, characters: str) -> None:
     builder.setupNameTable({"familyName": "Lab Squares", "styleName": "Regular"})
     builder.setupOS2(sTypoAscender=800, usWinAscent=800, usWinDescent=200)
     builder.setupPost()
+    if joined:
+        pieces = " ".join(f"c{ord(each)}" for each in joined)
+        builder.addOpenTypeFeatures(f"feature ccmp {{ sub {pieces} by c{ord(joined[0])}; }} ccmp;")
     builder.save(str(file))
 
 
@@ -77,6 +80,20 @@ def test_letters_without_a_font_are_named_with_the_package_that_has_them(tmp_pat
 def test_a_font_of_the_study_brings_the_letters(tmp_path: Path) -> None:
     font(tmp_path / "lab.ttf", "한국")
     assert found(tmp_path, "한국", 'fonts = ["./lab.ttf"]') == []
+
+
+@pytest.mark.usefixtures("no_system_fonts")
+def test_a_joined_emoji_that_falls_into_its_parts_is_named(tmp_path: Path) -> None:
+    family = "\N{MAN}\N{ZERO WIDTH JOINER}\N{WOMAN}"
+    look = 'fonts = ["./lab.ttf"]'
+    font(tmp_path / "lab.ttf", family)
+    (missing,) = found(tmp_path, f"We are a family {family}.", look)
+    assert missing.characters == (family,)
+    assert "parts" in str(missing)
+    assert missing.package == "fonts-noto-color-emoji"
+    assert found(tmp_path, "\N{MAN} and \N{WOMAN}", look) == []
+    font(tmp_path / "lab.ttf", family, joined=family)
+    assert found(tmp_path, f"We are a family {family}.", look) == []
 
 
 @pytest.mark.usefixtures("no_system_fonts")
