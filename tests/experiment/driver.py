@@ -255,7 +255,7 @@ class Driver:
         here, left = self.stage, list(values)
         while self.stage is here:
             for item in self.view.page.items if self.view.page else ():
-                if not isinstance(item, TextPage):
+                if not isinstance(item, TextPage) and item.id not in self.view.hidden:
                     self.answer(left.pop(0) if left else some_answer(item), item.id)
             self.go_on()
 

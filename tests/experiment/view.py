@@ -43,6 +43,8 @@ class View:
     progress: tuple[int, int] = (0, 0)
     result: do.ShowResult | None = None
     page: do.ShowItems | None = None
+    hidden: tuple[str, ...] = ()
+    """The items of the page that its conditions hide."""
     answers: dict[str, Response] = field(default_factory=dict)
     still_there: bool = False
     paused: bool = False
@@ -105,8 +107,10 @@ class View:
             case do.HideItems(items=hidden):
                 kept = {item: value for item, value in self.answers.items() if item not in hidden}
                 self.answers, self.missing = kept, tuple(item for item in self.missing if item not in hidden)
+                self.hidden = hidden
             case do.ShowItems():
                 self.screen, self.page, self.answers, self.missing = "questions", effect, {}, ()
+                self.hidden = effect.hidden
             case do.ShowDebrief():
                 self.screen = "debrief"
             case do.ShowThanks():

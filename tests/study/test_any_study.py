@@ -41,6 +41,7 @@ class Study:
     target_n: dict[str, int]
     texts: dict[str, str]
     seed: int
+    per_page: int
     more: str = ""
     files: dict[str, bytes] = field(default_factory=dict)
 
@@ -57,12 +58,14 @@ class Study:
             rows += [",".join((card, *(self.names[each].get(card, "") for each in self.names))) for card in self.deck]
             (folder / "cards" / "names.csv").write_text("\n".join(rows), "utf-8")
         lines = "".join(f"[[items]]\n{_toml(item)}" for item in self.items)
-        (folder / "own.toml").write_text(f'id = "own"\nversion = "1"\nnote = "ours"\n{lines}', "utf-8")
+        (folder / "own.toml").write_text(
+            f'id = "own"\nversion = "1"\nnote = "ours"\nper_page = {self.per_page}\n{lines}', "utf-8"
+        )
         texts = "".join(f"{name} = {json.dumps(text)}\n" for name, text in self.texts.items())
         for name, content in self.files.items():
             (folder / name).write_bytes(content)
         study = folder / "study.toml"
-        head = {"languages": self.languages, "questionnaires": ["own.toml"]}
+        named = {"languages": self.languages, "questionnaires": ["own.toml"]}
         parts = {
             f"texts.{self.languages[0]}": texts,
             "game": f'rows = 2\ncolumns = {PAIRS}\ndeck = "./cards"\n',
@@ -70,7 +73,7 @@ class Study:
             "randomisation": f"target_n = {_inline(self.target_n)}\nblock_size = {sum(self.target_n.values())}\n",
         }
         sections = "".join(f"[{name}]\n{lines}" for name, lines in parts.items())
-        study.write_text(f"{_toml(head)}{sections}{self.more}", "utf-8")
+        study.write_text(f"{_toml(named)}{sections}{self.more}", "utf-8")
         return study
 
 
@@ -107,12 +110,14 @@ def studies(draw: st.DrawFn) -> Study:
     named = draw(st.lists(st.sampled_from(languages), unique=True))
     plain = WORDS.map(lambda text: text.replace('"', "").replace("\\", "") or "x")
     names = {language: {card: draw(plain) for card in cards} for language in named}
-    items = [draw(_items(f"i{number}", languages)) for number in range(draw(st.integers(1, 3)))]
+    items = [draw(_items(f"i{number}", languages)) for number in range(draw(st.integers(1, 4)))]
+    for number, item in enumerate(items):
+        if draw(st.booleans()):
+            item["relevant"] = draw(_conditions(items[:number]))
     conditions = st.sampled_from(["tom", "notom", "mentalised_unexplained", "random_explained", "no_assistance"])
     target_n = dict.fromkeys(draw(st.lists(conditions, min_size=1, max_size=3, unique=True)), 2)
-    return Study(
-        languages, deck, names, items, target_n, dict(draw(st.lists(TEXTS, max_size=2))), draw(st.integers(0, 99))
-    )
+    texts, seed, per_page = dict(draw(st.lists(TEXTS, max_size=2))), draw(st.integers(0, 99)), draw(st.integers(1, 3))
+    return Study(languages, deck, names, items, target_n, texts, seed, per_page)
 
 
 @st.composite
@@ -120,7 +125,7 @@ def _items(draw: st.DrawFn, name: str, languages: list[str]) -> dict[str, object
     def words() -> dict[str, str]:
         return {language: draw(WORDS) for language in languages}
 
-    kind = draw(st.sampled_from(["likert", "slider", "single", "integer", "text", "page", "pictures"]))
+    kind = draw(st.sampled_from(["likert", "slider", "single", "multiple", "integer", "text", "page", "pictures"]))
     item: dict[str, object] = {"id": name, "kind": kind, "text": words()}
     if kind in {"likert", "pictures"}:
         item |= {"points": 5, "lowest": words(), "highest": words()}
@@ -128,9 +133,49 @@ def _items(draw: st.DrawFn, name: str, languages: list[str]) -> dict[str, object
         item["pictures"] = "faces"
     if kind == "slider":
         item |= {"left": words(), "right": words()}
-    if kind == "single":
+    if kind != "page":
+        item |= {"required": draw(st.booleans()), "not_applicable": draw(st.booleans())}
+    if kind in {"single", "multiple"}:
         item["options"] = [{"id": f"o{number}", "text": words()} for number in range(draw(st.integers(2, 3)))]
     return item
+
+
+NUMBERS = {"likert": 3, "pictures": 3, "slider": 50, "integer": 7}
+"""An answer to the items whose answers are numbers."""
+
+
+@st.composite
+def _conditions(draw: st.DrawFn, earlier: list[dict[str, object]]) -> str:
+    """Draw a condition that is true of one set of answers, so that a study may have it; empty if nothing was asked.
+
+    The answers: each number as above, the first option of the others, and every text written.
+    """
+    asked = [item for item in earlier if item["kind"] != "page"]
+    parts = [draw(_simple(draw(st.sampled_from(asked)))) for _ in range(draw(st.integers(1, 3)) if asked else 0)]
+    true = [text if holds else f"not ({text})" for text, holds in parts]
+    joined = f" {draw(st.sampled_from(['and', 'or']))} ".join(true)
+    return f"({joined})" if draw(st.booleans()) and joined else joined
+
+
+@st.composite
+def _simple(draw: st.DrawFn, item: dict[str, object]) -> tuple[str, bool]:
+    """Draw a condition on an item, and whether it is true of that set of answers."""
+    name, kind = item["id"], str(item["kind"])
+    if draw(st.booleans()) or kind == "text":
+        return f"answered({name})", True
+    if kind in NUMBERS:
+        sign, holds = draw(st.sampled_from([("=", True), ("!=", False), (">=", True), ("<", False), (">", False)]))
+        return f"{name} {sign} {NUMBERS[kind]}", holds
+    option = draw(st.sampled_from(["o0", "o1"]))
+    if kind == "multiple" or draw(st.booleans()):
+        return f"selected({name}, '{option}')", option == "o0"
+    return f"{name} != '{option}'", option != "o0"
+
+
+def _condition(study: Study, condition: str) -> None:
+    """Ask a question, and another one on a condition."""
+    first, last = ({"id": name, "kind": "text", "text": study.items[0]["text"]} for name in ("x", "y"))
+    study.items += [first, last | {"relevant": condition}]
 
 
 def _first(study: Study) -> str:
@@ -156,6 +201,10 @@ FAULTS: dict[str, Callable[[Study], object]] = {
     "an item twice": lambda study: study.items.append(study.items[0]),
     "a kind that is none": lambda study: study.items[0].update(kind="likkert"),
     "a word that is missing": lambda study: study.items[0].update(text={"fr": "mot"}),
+    "a condition that cannot be read": lambda study: _condition(study, "answered(x"),
+    "a condition on no item": lambda study: _condition(study, "answered(nothing)"),
+    "a condition on a later item": lambda study: _condition(study, "answered(y)"),
+    "a condition that is never true": lambda study: _condition(study, "answered(x) and not answered(x)"),
     "a key that is none": lambda study: setattr(study, "more", "[timing]\nmood = 3\n"),
     "a number out of bounds": lambda study: setattr(study, "more", f"[timing]\nmood_ms = {10**30}\n"),
     "half a sheet": lambda study: study.files.update({f"sheets/{study.languages[0]}.toml": b'version = "1"\n'}),
