@@ -20,6 +20,12 @@ WRITE_EVERY_S = 5
 STALE_S = 15
 """A kiosk whose file is older has ended without saying so, or hangs."""
 
+PACE_SESSIONS = 3
+PACE_S = 30 * 60
+"""Fewer sessions in less time tell nothing of the hours to come."""
+
+S_PER_HOUR = 3_600
+
 CLOSED = "closed"
 """The stage in the last file of a kiosk that was left."""
 
@@ -32,6 +38,18 @@ class DayCounts:
     completed: int = 0
     ended_early: int = 0
     last_hour: int = 0
+    since: str | None = None
+    """When the first of them began (UTC)."""
+
+    def hours_for(self, games: int, now: datetime) -> float | None:
+        """Return how many hours ``games`` more completed sessions take at the pace of today.
+
+        None while fewer than PACE_SESSIONS are completed, or the first began less than PACE_S ago: that is no pace.
+        """
+        if self.since is None or self.completed < PACE_SESSIONS:
+            return None
+        seconds = (now - datetime.fromisoformat(self.since)).total_seconds()
+        return None if seconds < PACE_S else games * seconds / self.completed / S_PER_HOUR
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ class Action(Enum):
     LANGUAGE = "language"
     VOLUME = "volume"
     BACKUP = "backup"
+    TEST_VOICE = "test_voice"
     QUIT = "quit"
 
 
@@ -116,6 +117,7 @@ TABLE: Mapping[Action, Mapping[Stage, Permission]] = MappingProxyType(
         Action.LANGUAGE: _rules(_NOW_WITH_REASON, _LATER_WITH_REASON),
         Action.VOLUME: _always(_NOW),
         Action.BACKUP: _rules(_NOW, _LATER),
+        Action.TEST_VOICE: _rules(_NOW, _REFUSED),
         Action.QUIT: _rules(_NOW_WITH_PIN, _NOW_WITH_REASON),
     }
 )

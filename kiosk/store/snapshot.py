@@ -6,7 +6,7 @@ import json
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -41,6 +41,8 @@ class SnapshotSession:
     status: Status | None
     robot_lost: bool
     resumable: bool
+    reason: str = ""
+    """Why the experimenter ended it; empty if they did not."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +64,14 @@ class DashboardSnapshot:
     deviations: tuple[SnapshotAuditEvent, ...]
     packs: frozenset[tuple[str, str]] = frozenset()
     """The language and the hash of every pack of clips that spoke in the newest sessions."""
+    today: DayCounts = field(default_factory=DayCounts)
 
 
-def read_snapshot(folder: Path, since_ms: int, *, kind: SessionKind) -> DashboardSnapshot:
-    """Look at a data folder that is being written; deviations are those since ``since_ms``.
+def read_snapshot(folder: Path, now: datetime, *, kind: SessionKind) -> DashboardSnapshot:
+    """Look at a data folder that is being written.
 
-    Raises UserInputError if there is none that can be read.
+    The day and its deviations are those of ``now``, which has a time zone. Raises UserInputError if there is no folder
+    that can be read.
     """
     with _looking_at(folder) as connection:
         seen = tuple(_seen(connection, kind=kind))
@@ -75,8 +79,9 @@ def read_snapshot(folder: Path, since_ms: int, *, kind: SessionKind) -> Dashboar
             count_enrolment(connection, kind=kind, in_use=True),
             seen[:LAST],
             tuple(session for session in seen if session.resumable),
-            tuple(_deviations(connection, since_ms)),
+            tuple(_deviations(connection, _midnight_ms(now))),
             frozenset(connection.execute(_PACKS, {"kind": int(kind), "limit": LOOKED_BACK})),
+            _read_day(connection, now, kind=kind)[0],
         )
 
 
@@ -85,10 +90,16 @@ def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCoun
 
     Looks at no more than the newest DAY_LIMIT sessions. Raises UserInputError if there is no database to read.
     """
-    midnight = now.replace(hour=0, minute=0, second=0, microsecond=0).timestamp() * MS_PER_SECOND
-    hour_ago = now.timestamp() * MS_PER_SECOND - MS_PER_HOUR
     with _looking_at(folder) as connection:
-        rows = connection.execute(_DAY, {"kind": int(kind), "limit": DAY_LIMIT}).fetchall()
+        return _read_day(connection, now, kind=kind)
+
+
+def _read_day(
+    connection: sqlite3.Connection, now: datetime, *, kind: SessionKind
+) -> tuple[DayCounts, tuple[EndedSession, ...]]:
+    midnight, hour_ago = _midnight_ms(now), now.timestamp() * MS_PER_SECOND - MS_PER_HOUR
+    rows = connection.execute(_DAY, {"kind": int(kind), "limit": DAY_LIMIT}).fetchall()
+    begun = [_ms(began) for began, *_ in rows if _ms(began) >= midnight]
     today = [(status, ended_ms, stage) for began, status, ended_ms, stage in rows if _ms(began) >= midnight]
     completed = [ended_ms for status, ended_ms, _ in today if status == Status.COMPLETED.value]
     ended = [(status, ended_ms, stage) for status, ended_ms, stage in today if status is not None]
@@ -97,8 +108,13 @@ def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCoun
         completed=len(completed),
         ended_early=len(ended) - len(completed),
         last_hour=sum(ended_ms >= hour_ago for ended_ms in completed),
+        since=utc(round(min(begun))) if begun else None,
     )
     return counts, tuple(EndedSession(utc(ended_ms), status, stage or "") for status, ended_ms, stage in ended[:LAST])
+
+
+def _midnight_ms(now: datetime) -> int:
+    return round(now.replace(hour=0, minute=0, second=0, microsecond=0).timestamp() * MS_PER_SECOND)
 
 
 def _ms(iso: str) -> float:
@@ -148,7 +164,7 @@ def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
 
 def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[SnapshotSession]:
     rows = connection.execute(_SESSIONS, {"kind": int(kind), "limit": LOOKED_BACK}).fetchall()
-    for number, started_at, condition, site, slot, person, stage, ending, lost, finished in rows:
+    for number, started_at, condition, site, slot, person, stage, ending, lost, finished, reason in rows:
         status = Status(ending) if ending else None
         reached = Stage(stage) if stage else None
         lists = AllocationLists(connection, site, kind=kind)
@@ -163,6 +179,7 @@ def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[Snap
             bool(lost),
             # Whether the slot is free is asked last: for the few that were cut short, not for all of every look.
             resumable=cut_short and bool(slot is None or finished or slot not in lists.consumed()),
+            reason=reason or "",
         )
 
 
@@ -173,7 +190,9 @@ _SESSIONS = """
         (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(payload, '$.status') END
             FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'RobotDisconnected'),
-        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished')
+        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
+        (SELECT json_extract(payload, '$.reason') FROM event WHERE event.session = session.id
+            AND type = 'AbortRequested' ORDER BY seq DESC LIMIT 1)
     FROM session LEFT JOIN participant ON participant.session = session.id
     WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit
 """

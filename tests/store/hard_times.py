@@ -21,6 +21,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, field
+from datetime import datetime
 from itertools import count
 from pathlib import Path
 from random import Random
@@ -244,7 +245,7 @@ def faults(folder: Path, written: dict[int, int], out: Path) -> Iterator[str]:
     looks: dict[str, Callable[[], object]] = {
         "verify": lambda: refuse_any(verify(folder)),
         "sessions": lambda: compare(folder, written),
-        "glance": lambda: read_snapshot(folder, 0, kind=SessionKind.SIMULATED),
+        "glance": lambda: read_snapshot(folder, datetime.now().astimezone(), kind=SessionKind.SIMULATED),
         "check": lambda: refuse_any(
             [each for each in database_check(folder, busy=False) if each.severity is Severity.ERROR]
         ),

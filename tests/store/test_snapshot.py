@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import LAST, last_written_ms, read_snapshot, wrong_pins
 from tests.samples import whole
 
+NOW = datetime.now().astimezone()
 ENDED = happened.SessionEnded(at_ms=9, status=Status.ABANDONED)
 
 
@@ -32,11 +34,21 @@ def test_the_last_sessions_come_first_with_where_and_how_they_ended(tmp_path: Pa
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(Stage.ABOUT_YOU, Stage.GAME, Stage.OVER), ENDED)
         begin(recorder, *stages(Stage.GAME), happened.RobotDisconnected(at_ms=2, why="gone"))
-        seen = read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).sessions
+        seen = read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY).sessions
     assert [(session.participant, session.stage, session.status, session.robot_lost) for session in seen] == [
         ("2", Stage.GAME, None, True),
         ("1", Stage.GAME, Status.ABANDONED, False),
     ]
+
+
+def test_a_session_that_the_experimenter_ended_tells_why(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder:
+        begin(recorder, happened.AbortRequested(at_ms=2, reason="test run"), ENDED)
+        begin(recorder, *stages(Stage.GAME))
+        seen = read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY)
+    assert [session.reason for session in seen.sessions] == ["", "test run"]
+    assert (seen.today.begun, seen.today.completed, seen.today.ended_early) == (2, 0, 1)
+    assert seen.today.since is not None
 
 
 def test_the_packs_that_spoke_lately_are_known_by_language(tmp_path: Path) -> None:
@@ -45,15 +57,15 @@ def test_the_packs_that_spoke_lately_are_known_by_language(tmp_path: Path) -> No
             recorder, *(happened.SpeechStarted(at_ms=1, utterance=n, engine="x", pack=p) for n, p in enumerate("aab"))
         )
         begin(recorder, happened.SpeechStarted(at_ms=1, utterance=1), ENDED)
-        assert read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).packs == {("en", "a"), ("en", "b")}
-        assert read_snapshot(tmp_path, 0, kind=SessionKind.SIMULATED).packs == frozenset()
+        assert read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY).packs == {("en", "a"), ("en", "b")}
+        assert read_snapshot(tmp_path, NOW, kind=SessionKind.SIMULATED).packs == frozenset()
 
 
 def test_only_so_many_sessions_are_shown(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         for _ in range(LAST + 2):
             begin(recorder, *stages(Stage.GAME), ENDED)
-        assert len(read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).sessions) == LAST
+        assert len(read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY).sessions) == LAST
 
 
 @pytest.mark.parametrize(
@@ -73,23 +85,23 @@ def test_what_was_cut_off_elsewhere_than_in_the_game_can_go_on(
 ) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(stage), happened.SessionEnded(at_ms=9, status=status))
-        assert bool(read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).resumable) is resumable
+        assert bool(read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY).resumable) is resumable
 
 
 def test_rehearsals_and_people_are_looked_at_apart(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         begin(recorder, *stages(Stage.GAME), ENDED)
-        assert read_snapshot(tmp_path, 0, kind=SessionKind.SIMULATED).sessions == ()
+        assert read_snapshot(tmp_path, NOW, kind=SessionKind.SIMULATED).sessions == ()
 
 
-def test_deviations_are_those_since_a_moment_without_routine(tmp_path: Path) -> None:
+def test_deviations_are_those_of_the_day_without_routine(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
         recorder.add_audit_event(AuditEvent.PANEL_OPENED.value, {})
         recorder.add_audit_event(AuditEvent.EMBODIMENT_CHOSEN.value, {"embodiment": "avatar", "reason": "test run"})
         recorder.add_audit_event("SomethingOfALaterVersion", {})
-        (noted,) = read_snapshot(tmp_path, 0, kind=SessionKind.STUDY).deviations
+        (noted,) = read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY).deviations
         assert (noted.kind, noted.payload["embodiment"]) == (AuditEvent.EMBODIMENT_CHOSEN, "avatar")
-        assert read_snapshot(tmp_path, noted.wall_ms + 1, kind=SessionKind.STUDY).deviations == ()
+        assert read_snapshot(tmp_path, NOW + timedelta(days=1), kind=SessionKind.STUDY).deviations == ()
         assert last_written_ms(tmp_path) >= noted.wall_ms
 
 
@@ -109,4 +121,4 @@ def test_wrong_pins_are_counted_since_the_last_right_one(tmp_path: Path) -> None
 
 def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UserInputError, match="there is no database"):
-        read_snapshot(tmp_path, 0, kind=SessionKind.STUDY)
+        read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY)

@@ -219,15 +219,19 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     card, note, panel = window.screens.experimenter.parts
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
-    line = {"name": MARKUP, "message": PICTURE, "is_ok": False}
+    line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "part": "voice"}
     panel.set_language(words)
-    panel.show_health({"well": False, "summary": MARKUP, "lines": [line]})
+    panel.show_health({"well": False, "summary": MARKUP, "lines": [line], "more": [line]})
+    tile = {"name": "visitors", "title": MARKUP, "value": BOLD, "line": PICTURE}
+    panel.show_today({"clock": MARKUP, "tiles": [tile]})
+    panel.list_shortcuts({"title": MARKUP, "rows": [{"keys": BOLD, "words": MARKUP}]})
     panel.show_records(
         {
             "cells": [{"name": MARKUP, "done": BOLD, "share": 0.5, "counts": ["1", "2", "3", "4"]}],
             "visits": MARKUP,
             "sessions": [
-                dict.fromkeys(("participant", "when", "condition", "stage", "status", "robot"), BOLD) | {"odd": True}
+                dict.fromkeys(("participant", "when", "condition", "stage", "status", "reason", "robot"), BOLD)
+                | {"odd": True}
             ],
             "deviations": [{"when": "12:00", "words": MARKUP, "reason": PICTURE}],
             "more": MARKUP,
@@ -236,7 +240,7 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     )
     chosen = dict.fromkeys(("condition", "embodiment", "language", "volume"), "one")
     lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes"), option)
-    flags = {"underWay": True, "canBeNext": True, "muted": False, "staysPaused": False}
+    flags = {"underWay": True, "canBeNext": True, "muted": False, "named": False, "staysPaused": False}
     panel.show_choices({**chosen, **lists, **flags, "session": MARKUP, "backup": MARKUP})
     panel.open(is_open=True)
     note.tell(MARKUP)

@@ -125,6 +125,7 @@ def test_the_panel_tells_which_choice_holds(make_booth: MakeBooth) -> None:
     booth = make_booth(settings=whole_study())
     booth.click("start-en")
     keyboard = open_panel(booth.app)
+    keyboard.click("panel-next")
     keyboard.click("volume-0.4")
     assert told(booth, "volume-0.4").role() is QAccessible.Role.RadioButton
     assert [bool(told(booth, f"volume-{each}").state().checked) for each in ("0.2", "0.4", "0.6")] == [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import datetime
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -122,11 +123,11 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     booth.click("start-en")
     keyboard = open_panel(booth.app)
     assert booth.app.experimenter.panel.is_open
-    keyboard.click("unfold-conditions")
+    keyboard.click("panel-next")
     keyboard.click("condition-notom")
     keyboard.type("5in their own words")
     keyboard.press(Qt.Key.Key_Return)
-    for name in ("volume-0.2", "action-mute"):
+    for name in ("volume-0.2", "panel-today", "action-mute"):
         keyboard.click(name)
     keyboard.click("action-end")
     keyboard.type("1")
@@ -136,7 +137,7 @@ def test_the_panel_is_worked_by_keyboard_alone(make_booth: MakeBooth) -> None:
     assert not booth.app.experimenter.panel.is_open
     noted = {
         each.kind: each.payload["reason"]
-        for each in read_snapshot(booth.data, 0, kind=SessionKind.SIMULATED).deviations
+        for each in read_snapshot(booth.data, datetime.now().astimezone(), kind=SessionKind.SIMULATED).deviations
         if each.payload.get("reason")
     }
     assert noted == {

@@ -148,7 +148,9 @@ def look_behind(app: App, look: Look) -> None:
     press(app, Qt.Key.Key_Return)
     assert app.experimenter.panel.is_open
     wait_until(app, lambda: find_item(app.window.contentItem(), "resume-1") is None)
-    hand.click("unfold-conditions")
+    looked_at(app, look, "panel: today")
+    hand.click("names")
+    hand.click("panel-next")
     hand.click("condition-tom")
     looked_at(app, look, "panel, card: reason")
     hand.type("5")

@@ -32,6 +32,40 @@ console-all-well = All is well
 console-session-none = Nobody is there
 console-session-paused = A session is under way; it waits
 
+## The first page
+
+console-today = Today
+console-next-page = Next session and more
+console-today-visitors = Visitors today
+console-today-early = { $early } ended early
+console-today-completed = Completed today
+console-today-hour = { $done } in the last hour
+console-today-target = Games of the target
+console-today-forecast = about { $hours } h more at today’s pace
+console-today-no-pace = too few today to tell how long it takes
+console-today-stage = Now
+console-today-minutes = for { $minutes } min
+console-shortcuts = Shortcuts
+console-shortcuts-held = Shortcuts: { $keys } and …
+console-shortcut-panel = this panel
+console-shortcut-pause = pause, go on
+console-shortcut-abort = end the session
+console-shortcut-next = next visitor
+console-shortcut-repeat = say it again
+console-shortcut-mute = sound off, on
+console-shortcut-volume = volume
+console-shortcut-condition = next condition
+console-shortcut-embodiment = robot or avatar
+console-shortcut-quit = leave the kiosk
+console-names-show = Show the conditions’ names
+console-names-hide = Hide the conditions’ names
+console-test-voice = Test
+console-test-sentence = Good morning. If you hear this sentence, the voice works.
+console-supervisor = Supervisor
+console-supervisor-there = starts the kiosk again if it fails
+console-supervisor-none = none; if the kiosk fails, it stays off
+console-booth = The booth
+
 ## Health
 
 console-health = How everything is
@@ -155,7 +189,6 @@ console-not-stay-paused = Go on after closing
 console-abort = End the session
 console-next = Next visitor
 console-resume = Go on with a session that was cut off
-console-resume-none = There is none
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Make a copy
 console-quit = Leave the kiosk

@@ -32,6 +32,40 @@ console-all-well = Todo está bien
 console-session-none = No hay nadie
 console-session-paused = Hay una sesión en curso; espera
 
+## The first page
+
+console-today = Hoy
+console-next-page = Próxima sesión y más
+console-today-visitors = Visitantes hoy
+console-today-early = { $early } terminadas antes
+console-today-completed = Completadas hoy
+console-today-hour = { $done } en la última hora
+console-today-target = Partidas previstas
+console-today-forecast = unas { $hours } h más al ritmo de hoy
+console-today-no-pace = hoy aún son pocas para estimarlo
+console-today-stage = Ahora
+console-today-minutes = desde hace { $minutes } min
+console-shortcuts = Atajos
+console-shortcuts-held = Atajos: { $keys } y …
+console-shortcut-panel = este panel
+console-shortcut-pause = pausar, seguir
+console-shortcut-abort = terminar la sesión
+console-shortcut-next = próxima persona
+console-shortcut-repeat = repetir la frase
+console-shortcut-mute = sonido sí o no
+console-shortcut-volume = volumen
+console-shortcut-condition = próxima condición
+console-shortcut-embodiment = robot o avatar
+console-shortcut-quit = salir
+console-names-show = Mostrar los nombres de las condiciones
+console-names-hide = Ocultar los nombres de las condiciones
+console-test-voice = Probar
+console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
+console-supervisor = Supervisor
+console-supervisor-there = reinicia el quiosco si falla
+console-supervisor-none = ninguno; si el quiosco falla, queda apagado
+console-booth = El puesto
+
 ## Health
 
 console-health = Estado
@@ -155,7 +189,6 @@ console-not-stay-paused = Continuar al cerrar
 console-abort = Terminar la sesión
 console-next = Siguiente persona
 console-resume = Reanudar una sesión cortada
-console-resume-none = No hay ninguna
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Hacer una copia
 console-quit = Salir del quiosco

@@ -32,6 +32,40 @@ console-all-well = Tutto bene
 console-session-none = Non c’è nessuno
 console-session-paused = Una seduta è in corso; attende
 
+## The first page
+
+console-today = Oggi
+console-next-page = Prossima seduta e altro
+console-today-visitors = Visitatori oggi
+console-today-early = { $early } finite prima
+console-today-completed = Completate oggi
+console-today-hour = { $done } nell’ultima ora
+console-today-target = Partite previste
+console-today-forecast = ancora circa { $hours } h al ritmo di oggi
+console-today-no-pace = oggi ancora troppo poche per una stima
+console-today-stage = Adesso
+console-today-minutes = da { $minutes } min
+console-shortcuts = Tasti rapidi
+console-shortcuts-held = Tasti rapidi: { $keys } e …
+console-shortcut-panel = questo pannello
+console-shortcut-pause = pausa, riprendi
+console-shortcut-abort = termina la seduta
+console-shortcut-next = prossima persona
+console-shortcut-repeat = ripeti la frase
+console-shortcut-mute = audio sì o no
+console-shortcut-volume = volume
+console-shortcut-condition = prossima condizione
+console-shortcut-embodiment = robot o avatar
+console-shortcut-quit = esci
+console-names-show = Mostra i nomi delle condizioni
+console-names-hide = Nascondi i nomi delle condizioni
+console-test-voice = Prova
+console-test-sentence = Buongiorno. Se senti questa frase, la voce funziona.
+console-supervisor = Supervisore
+console-supervisor-there = riavvia il chiosco in caso di guasto
+console-supervisor-none = nessuno; dopo un guasto il chiosco resta spento
+console-booth = La postazione
+
 ## Health
 
 console-health = Stato
@@ -155,7 +189,6 @@ console-not-stay-paused = Continua alla chiusura
 console-abort = Termina la seduta
 console-next = Prossima persona
 console-resume = Riprendi una seduta interrotta
-console-resume-none = Non ce n’è
 console-resume-one = { $participant } · { $when } · { $stage }
 console-backup = Fai una copia
 console-quit = Esci dal chiosco

@@ -36,6 +36,8 @@ KEPT_RETRY_MS = 100
 CLOSING_WAIT_MS = 500
 """How long closing waits for the last notes, after it has waited for the session."""
 NS_PER_MS = 1_000_000
+TEST_SENTENCE = 0
+"""The number of a sentence that belongs to no session; those of sessions count from 1."""
 
 _log = logging.getLogger(__name__)
 
@@ -252,6 +254,7 @@ class ActionController:
             Action.LANGUAGE: self._language,
             Action.VOLUME: self._set_volume,
             Action.BACKUP: self._backup,
+            Action.TEST_VOICE: self._test_voice,
             Action.QUIT: self._leave,
         }[action](choice, reason)
         self.changed()
@@ -384,6 +387,11 @@ class ActionController:
 
     def _backup(self, _choice: str, _reason: str) -> None:
         self._upkeep.back_up()
+
+    def _test_voice(self, _choice: str, _reason: str) -> None:
+        voice = self._booth.voice
+        voice.set_language(self._booth.assigner.study.languages[0])
+        voice.say(TEST_SENTENCE, self._text("console-test-sentence"))
 
     def _leave(self, _choice: str, reason: str) -> None:
         # The experimenter can leave even when the disk takes nothing.

@@ -40,13 +40,18 @@ from kiosk.ui.experimenter.status import (
     Day,
     HealthInputs,
     HealthLine,
+    NameCondition,
     StatusFile,
+    booth_lines,
     condition_name,
     health_lines,
     health_parts,
     health_summary,
     is_pack_changed,
+    neutral_names,
     session_rows,
+    shortcut_rows,
+    today_rows,
     was_cut_off,
 )
 from kiosk.ui.experimenter.view_model import PanelScreen, Row
@@ -136,8 +141,13 @@ class Panel:
         catalogue: Catalogue,
         state: Callable[[], HealthInputs],
         look: Callable[[Callable[[DashboardSnapshot | str], None]], None],
+        stage: Callable[[], tuple[str, int]],
+        now_ms: Callable[[], int],
     ) -> None:
-        """``state`` tells how everything is now; ``look`` reads the records, and hands over what it found, soon."""
+        """``state`` tells how everything is now; ``look`` reads the records, and hands over what it found, soon.
+
+        ``stage`` tells the stage, and since when; ``now_ms`` is the wall's clock.
+        """
         self.changed: Callable[[], None] = lambda: None
         """Called when the panel comes or goes."""
         self.seen: Callable[[], None] = lambda: None
@@ -151,6 +161,10 @@ class Panel:
         self._catalogue = catalogue
         self._state = state
         self._look = look
+        self._stage = stage
+        self._now_ms = now_ms
+        self._named = False
+        self._seen: DashboardSnapshot | None = None
         self._looking = False
         self._looks = 0
         self._unread = ""
@@ -158,6 +172,7 @@ class Panel:
         self._stirred_at = 0
         self._tick: TimerWait | None = None
         screen.set_language({name: catalogue.text(name) for name in WORDS})
+        screen.list_shortcuts(shortcut_rows(shortcuts(booth.assigner.study.settings.shortcuts), catalogue))
         screen.wished.connect(self._wish)
         actions.toggle_panel = self.toggle
         actions.changed = self._refresh
@@ -181,6 +196,7 @@ class Panel:
             self._tick.cancel()
             self._tick = None
         self._asking.unlocked = False
+        self._named = False
         self._asking.cancel()
         self._screen.open(False)  # noqa: FBT003 - it is what is set
         self._booth.screens.kiosk.step_back(False)  # noqa: FBT003 - it is what is set
@@ -204,6 +220,7 @@ class Panel:
         self._booth.screens.kiosk.step_back(True)  # noqa: FBT003 - it is what is set
         # All that it shows is there before it comes.
         self._screen.show_choices(self._choices())
+        self._show_records()
         self._screen.open(True)  # noqa: FBT003 - it is what is set
         self._see()
         self.seen()
@@ -212,6 +229,10 @@ class Panel:
     def _wish(self, action: str, choice: str) -> None:
         if action == Action.PANEL.value:
             self.close()
+        elif action == "names":
+            self._named = not self._named
+            self._screen.show_choices(self._choices())
+            self._show_records()
         else:
             self._actions.request(action, choice)
 
@@ -238,21 +259,53 @@ class Panel:
 
     def _show_health(self) -> None:
         changed = is_pack_changed(self._booth.voice.pack, self._packs)
-        found = health_lines(replace(self._state(), pack_changed=changed), self._booth.assigner.study, self._catalogue)
+        state = replace(self._state(), pack_changed=changed)
+        found = health_lines(state, self._catalogue)
+        more = booth_lines(state, self._booth.assigner.study, self._catalogue)
         if self._unread:
             found = (*found, HealthLine(self._catalogue.text("console-database"), self._unread, is_ok=False))
-        whole = health_summary(found, self._catalogue)
+        whole = health_summary((*found, *more), self._catalogue)
         self._screen.show_health(
-            {"well": whole.is_ok, "summary": whole.message, "lines": [asdict(line) for line in found]}
+            {
+                "well": whole.is_ok,
+                "summary": whole.message,
+                "lines": [asdict(line) for line in found],
+                "more": [asdict(line) for line in more],
+            }
         )
+        self._show_today()
         self._screen.show_choices(self._choices())
 
     def _have_looked(self, seen: DashboardSnapshot | str) -> None:
         self._looking = False
         self._unread = seen if isinstance(seen, str) else ""
         if isinstance(seen, DashboardSnapshot):
-            self._packs = seen.packs
-            self._screen.show_records(session_rows(seen, self._catalogue, played=self._under_way))
+            self._packs, self._seen = seen.packs, seen
+            self._show_records()
+            self._show_today()
+
+    def _show_records(self) -> None:
+        if self._seen is not None:
+            rows = session_rows(self._seen, self._catalogue, self._name, played=self._under_way)
+            self._screen.show_records(rows)
+
+    def _show_today(self) -> None:
+        now_ms = self._now_ms()
+        stage, since_ms = self._stage()
+        if self._seen is not None:
+            now = datetime.fromtimestamp(now_ms / MS_PER_SECOND).astimezone()
+            self._screen.show_today(
+                today_rows(self._seen.today, self._seen.counts, (stage, now_ms - since_ms), now, self._catalogue)
+            )
+
+    @property
+    def _name(self) -> NameCondition:
+        """What conditions are called now: by letters, or by their names once that was asked for."""
+        told = self._catalogue.text
+        if self._named:
+            return lambda condition: condition_name(condition, told)
+        counted = self._seen.counts.cells if self._seen else ()
+        return neutral_names((*self._actions.condition_choices, *counted), told)
 
     @property
     def _under_way(self) -> bool:
@@ -268,9 +321,10 @@ class Panel:
             "session": told("console-session-paused") if under_way else told("console-session-none"),
             "underWay": under_way,
             "conditions": [
-                {"value": each.name if each else AUTOMATIC, "label": condition_name(each, told)}
+                {"value": each.name if each else AUTOMATIC, "label": self._name(each)}
                 for each in actions.condition_choices
             ],
+            "named": self._named,
             "condition": booth.assigner.chosen.name
             if booth.assigner.chosen and not booth.assigner.is_followed
             else AUTOMATIC,
@@ -302,6 +356,12 @@ class Panel:
 
 WORDS = (
     "console-title",
+    "console-today",
+    "console-next-page",
+    "console-booth",
+    "console-names-show",
+    "console-names-hide",
+    "console-test-voice",
     "console-close",
     "console-alarms",
     "console-alarms-none",
@@ -330,7 +390,6 @@ WORDS = (
     "console-abort",
     "console-next",
     "console-resume",
-    "console-resume-none",
     "console-backup",
     "console-quit",
     "console-keys",
@@ -377,7 +436,7 @@ class ExperimenterConsole:
             booth.runner.set_closed,
         )
         self.actions = ActionController(booth, self._asking, note, self._write, self.upkeep, catalogue)
-        look = partial(_look, folder, kind=self._kind)
+        look = partial(_look, folder, now_ms, kind=self._kind)
         self.panel = Panel(
             panel,
             booth,
@@ -388,6 +447,8 @@ class ExperimenterConsole:
             catalogue,
             self._state,
             lambda then: work(look, then),
+            self._stage_now,
+            now_ms,
         )
         self._keyboard = InputCapture(window, self._asking, self.panel.stir, screen)
         self._asking.changed = self.panel.changed = self._stand_by
@@ -469,9 +530,7 @@ class ExperimenterConsole:
         """Return what status.json says, but for the day's sessions."""
         study = self._booth.assigner.study
         state = self._state()
-        stage, since_ms = self._stage_since
-        if stage != self.actions.stage.value:
-            stage, since_ms = self._stage_since = (self.actions.stage.value, self._now_ms())
+        stage, since_ms = self._stage_now()
         backup = state.last_backup
         return BoothStatus(
             at=utc(self._now_ms()),
@@ -485,7 +544,7 @@ class ExperimenterConsole:
             stage=stage,
             stage_since=utc(since_ms),
             paused=self._booth.runner.accepts(PauseEnded(at_ms=self._booth.runner.now_ms())),
-            supervised=BEAT_WITHIN in os.environ,
+            supervised=state.supervised,
             today=DayCounts(),
             ended=(),
             parts=tuple(health_parts(state, self._catalogue)),
@@ -493,6 +552,13 @@ class ExperimenterConsole:
             last_backup_at=utc(backup.at_ms) if backup and backup.file else None,
             alarms=alarm_status(self.alarms.alarms),
         )
+
+    def _stage_now(self) -> tuple[str, int]:
+        """Return the stage, and since when it has been seen, in ms since 1970."""
+        stage = self.actions.stage.value
+        if stage != self._stage_since[0]:
+            self._stage_since = (stage, self._now_ms())
+        return self._stage_since
 
     def _state(self) -> HealthInputs:
         """How everything is now."""
@@ -513,6 +579,7 @@ class ExperimenterConsole:
             has_pin=self._lock.has_pin,
             screen="; ".join((f"{width} x {height}", *(health.message for health in held))),
             screen_well=all(health.is_ok for health in held),
+            supervised=BEAT_WITHIN in os.environ,
         )
 
 
@@ -529,10 +596,9 @@ def _read_day(folder: Path, now_ms: Callable[[], int], *, kind: SessionKind) -> 
         return DayCounts(), ()
 
 
-def _look(folder: Path, *, kind: SessionKind) -> DashboardSnapshot | str:
+def _look(folder: Path, now_ms: Callable[[], int], *, kind: SessionKind) -> DashboardSnapshot | str:
     """Return the records since this morning, or why they cannot be read."""
-    today = datetime.now().astimezone().replace(hour=0, minute=0, second=0, microsecond=0)
     try:
-        return read_snapshot(folder, int(today.timestamp() * MS_PER_SECOND), kind=kind)
+        return read_snapshot(folder, datetime.fromtimestamp(now_ms() / MS_PER_SECOND).astimezone(), kind=kind)
     except UserInputError as failure:
         return str(failure)

@@ -4,25 +4,26 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 from math import ceil
 from pathlib import Path
+from string import ascii_uppercase
 from typing import Any
 
 from kiosk import why
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.booth_status import CLOSED, FILE, WRITE_EVERY_S, BoothStatus, DayCounts, EndedSession, PartStatus
-from kiosk.experiment.condition import Condition
+from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.events import Status
-from kiosk.experiment.experimenter import AuditEvent, DeviationReason
+from kiosk.experiment.experimenter import Action, AuditEvent, DeviationReason
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.files import replace_file
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace, SpaceLevel
-from kiosk.store.participants import CountCell, Disposition
+from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
 from kiosk.store.snapshot import DashboardSnapshot, SnapshotAuditEvent, SnapshotSession
 from kiosk.ui.event_loop import Clock, Executor, TimerWait
 from kiosk.ui.experimenter.maintenance import BackupOutcome
@@ -43,6 +44,8 @@ class HealthLine:
     name: str
     message: str
     is_ok: bool = True
+    part: str = ""
+    """The part of the booth that it is about, where it can be tried out."""
 
 
 @dataclass(frozen=True)
@@ -92,19 +95,31 @@ class HealthInputs:
     has_pin: bool
     screen: str
     screen_well: bool
+    supervised: bool = False
     pack_changed: bool = False
     """Whether the pack of clips is not the one of earlier sessions."""
 
 
-def health_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
-    """Every line, in the order in which a person looks."""
+def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine, ...]:
+    """Return what can change during the day, in the order in which a person looks."""
     translate = catalogue.text
     return (
         _robot(state, catalogue),
-        _voice(state, catalogue),
+        replace(_voice(state, catalogue), part="voice"),
         _disk(state, catalogue),
         _database(state, catalogue),
         _clock(state.clocks, catalogue),
+        HealthLine(
+            translate("console-supervisor"),
+            translate("console-supervisor-there" if state.supervised else "console-supervisor-none"),
+        ),
+    )
+
+
+def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -> tuple[HealthLine, ...]:
+    """Return what stays as it is all day."""
+    translate = catalogue.text
+    return (
         HealthLine(translate("console-policy"), _policy(study)),
         HealthLine(translate("console-study"), f"{study.settings.title} · {study.sha256[:SHORT_SHA]}"),
         HealthLine(
@@ -221,34 +236,120 @@ DEVIATIONS_SHOWN = 5
 Translate = Callable[..., str]
 
 
-def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, *, played: bool) -> Row:
-    """Every list of the panel that follows from the records; during a session, none tells of a condition."""
-    translate = _discreet(catalogue.text) if played else catalogue.text
+def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, name: NameCondition, *, played: bool) -> Row:
+    """Return every list of the panel that follows from the records.
+
+    During a session the conditions of all sessions are hidden: from those before, the one of now could be guessed.
+    """
+    translate = catalogue.text
     visits = {why.value: number for why, number in seen.counts.visits.items()}
-    cells = {} if played else seen.counts.cells
+    told = (lambda _: translate("console-hidden")) if played else name
     return {
-        "cells": [_cell(condition, cell, translate) for condition, cell in cells.items()],
+        "cells": [_cell(name(condition), cell) for condition, cell in seen.counts.cells.items()],
         "visits": translate("console-visits", **visits),
-        "sessions": [_session(session, translate) for session in seen.sessions],
-        "deviations": [_deviation(noted, translate) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
+        "sessions": [_session(session, translate, told) for session in seen.sessions],
+        "deviations": [_deviation(noted, translate, told) for noted in seen.deviations[:DEVIATIONS_SHOWN]],
         "more": _more(len(seen.deviations) - DEVIATIONS_SHOWN, translate),
         "resumable": [_resumable(session, translate) for session in seen.resumable],
     }
 
 
-def _discreet(translate: Translate) -> Translate:
-    """Return the same words, but for the names of conditions: from those before, the one of now could be guessed."""
+def today_rows(
+    day: DayCounts, counts: EnrolmentCounts, stage: tuple[str, int], now: datetime, catalogue: Catalogue
+) -> Row:
+    """Return the clock and the day in numbers; ``stage`` is the one of now, and its age in ms."""
+    translate = catalogue.text
+    done = sum(cell.fates[Disposition.CONSUMED] for cell in counts.cells.values())
+    target = sum(cell.quota for cell in counts.cells.values())
+    name, lasted_ms = stage
+    numbers = (
+        ("visitors", str(day.begun), translate("console-today-early", early=day.ended_early)),
+        ("completed", str(day.completed), translate("console-today-hour", done=day.last_hour)),
+        (
+            "target",
+            f"{done} / {target}" if target else str(done),
+            _forecast(day, max(0, target - done), now, catalogue),
+        ),
+        (
+            "stage",
+            _capital(translate(f"console-stage-{_kebab(name)}")),
+            translate("console-today-minutes", minutes=lasted_ms // MS_PER_MINUTE),
+        ),
+    )
+    return {
+        "clock": f"{now:%H:%M}",
+        "tiles": [
+            {"name": name, "title": translate(f"console-today-{name}"), "value": value, "line": line}
+            for name, value, line in numbers
+        ],
+    }
 
-    def tell(message: str, **what: str | int) -> str:
-        return translate("console-hidden" if message.startswith(_OF_CONDITIONS) else message, **what)
 
-    return tell
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+SHORTCUTS = (
+    Action.PANEL,
+    Action.PAUSE,
+    Action.ABORT,
+    Action.NEXT,
+    Action.REPEAT,
+    Action.MUTE,
+    Action.VOLUME,
+    Action.CONDITION,
+    Action.EMBODIMENT,
+    Action.QUIT,
+)
+"""The actions with shortcuts, the most needed first."""
+
+
+def shortcut_rows(keys: Mapping[Action, str], catalogue: Catalogue) -> Row:
+    """Return the shortcuts as the panel shows them.
+
+    Keys that are held down for all of them stand in the title alone.
+    """
+    there = [action for action in SHORTCUTS if action in keys]
+    held = {keys[action].rpartition("+")[0] for action in there}
+    common = held.pop() if len(held) == 1 else ""
+    return {
+        "title": catalogue.text("console-shortcuts-held", keys=common)
+        if common
+        else catalogue.text("console-shortcuts"),
+        "rows": [
+            {
+                "keys": keys[action].rpartition("+")[2] if common else keys[action],
+                "words": catalogue.text(f"console-shortcut-{action.value}"),
+            }
+            for action in there
+        ],
+    }
+
+
+def _forecast(day: DayCounts, games: int, now: datetime, catalogue: Catalogue) -> str:
+    if games == 0:
+        return ""
+    hours = day.hours_for(games, now)
+    if hours is None:
+        return catalogue.text("console-today-no-pace")
+    return catalogue.text("console-today-forecast", hours=f"{hours:.0f}" if hours >= 1 else "<1")
+
+
+NameCondition = Callable[[Condition | None], str]
+"""Returns what a condition is called; None is the list's."""
+
+
+def neutral_names(conditions: Iterable[Condition | None], translate: Translate) -> NameCondition:
+    """Call conditions A, B, C in the order of the design, so that no name tells what they are."""
+    letters = {
+        condition: ascii_uppercase[at] if at < len(ascii_uppercase) else str(at + 1)
+        for at, condition in enumerate(in_design_order({each for each in conditions if each is not None}))
+    }
+    return lambda condition: translate("console-automatic") if condition is None else letters.get(condition, "?")
 
 
 _AUTOMATIC = "automatic"
 """What the record says of the list's condition."""
-
-_OF_CONDITIONS = ("console-condition-", "console-automatic")
 
 
 def condition_name(condition: Condition | None, translate: Translate) -> str:
@@ -260,10 +361,10 @@ def condition_name(condition: Condition | None, translate: Translate) -> str:
     return translate(f"console-condition-{_kebab(condition.name)}")
 
 
-def _cell(condition: Condition, cell: CountCell, translate: Translate) -> Row:
+def _cell(name: str, cell: CountCell) -> Row:
     done, quota = cell.fates[Disposition.CONSUMED], cell.quota
     return {
-        "name": condition_name(condition, translate),
+        "name": name,
         "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED] or ""),
         "share": min(1.0, done / quota) if quota else 0.0,
         "counts": [
@@ -278,13 +379,14 @@ def _cell(condition: Condition, cell: CountCell, translate: Translate) -> Row:
     }
 
 
-def _session(session: SnapshotSession, translate: Translate) -> Row:
+def _session(session: SnapshotSession, translate: Translate, told: NameCondition) -> Row:
     return {
         "participant": session.participant or "-",
         "when": _time(datetime.fromisoformat(session.started_at)),
-        "condition": condition_name(session.condition, translate),
+        "condition": told(session.condition),
         "stage": translate(f"console-stage-{_kebab(session.stage.value)}") if session.stage else "-",
         "status": translate(f"console-status-{session.status.value if session.status else 'running'}"),
+        "reason": _reason(session.reason, translate),
         "robot": translate("console-robot-lost") if session.robot_lost else "",
         "odd": session.robot_lost or session.status in (Status.ABANDONED, Status.INTERRUPTED, Status.STOPPED),
     }
@@ -299,12 +401,12 @@ def _resumable(session: SnapshotSession, translate: Translate) -> Row:
     }
 
 
-def _deviation(noted: SnapshotAuditEvent, translate: Translate) -> Row:
+def _deviation(noted: SnapshotAuditEvent, translate: Translate, told: NameCondition) -> Row:
     when = datetime.fromtimestamp(noted.wall_ms / MS_PER_SECOND).astimezone()
     reason = str(noted.payload.get("reason") or "")
     return {
         "when": f"{when:%H:%M}",
-        "words": translate(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, translate)),
+        "words": translate(f"console-note-{_kebab_of(noted.kind)}", what=_what(noted, translate, told)),
         "reason": _reason(reason, translate),
     }
 
@@ -314,13 +416,13 @@ def _more(number: int, translate: Translate) -> str:
     return translate("console-deviations-more", number=number) if number > 0 else ""
 
 
-def _what(noted: SnapshotAuditEvent, translate: Translate) -> str:
+def _what(noted: SnapshotAuditEvent, translate: Translate, told: NameCondition) -> str:
     """Return the one thing that a note is about, in words."""
     payload: dict[str, Any] = noted.payload
     match noted.kind:
         case AuditEvent.CONDITION_CHOSEN:
             name = str(payload.get("condition", _AUTOMATIC))
-            return condition_name(None if name == _AUTOMATIC else Condition(name), translate)
+            return told(None if name == _AUTOMATIC else Condition(name))
         case AuditEvent.VOLUME_CHANGED:
             return f"{payload.get('volume', 0):.0%}"
         case AuditEvent.MUTE_CHANGED:

@@ -143,6 +143,7 @@ class PanelScreen(QObject):
 
     opened = Signal()
     health_changed = Signal()
+    today_changed = Signal()
     records_changed = Signal()
     choices_changed = Signal()
     alarms_changed = Signal()
@@ -153,7 +154,9 @@ class PanelScreen(QObject):
         super().__init__(parent)
         self._open = False
         self._words: dict[str, str] = {}
-        self._health: Row = {"well": True, "summary": "", "lines": []}
+        self._health: Row = {"well": True, "summary": "", "lines": [], "more": []}
+        self._today: Row = {"clock": "", "tiles": []}
+        self._shortcuts: Row = {"title": "", "rows": []}
         self._records: Row = {"cells": [], "visits": "", "sessions": [], "deviations": [], "more": "", "resumable": []}
         self._choices: Row = {}
         self._alarms: list[Row] = []
@@ -163,16 +166,27 @@ class PanelScreen(QObject):
         self._words = words
         self.opened.emit()
 
+    def list_shortcuts(self, shortcuts: Row) -> None:
+        """Show these shortcuts: a ``title``, and ``rows`` of ``keys`` and ``words`` for what they do."""
+        self._shortcuts = shortcuts
+        self.opened.emit()
+
     def open(self, is_open: bool) -> None:  # noqa: FBT001 - it is what is set
         """Come, or go away."""
         self._open = is_open
         self.opened.emit()
 
     def show_health(self, health: Row) -> None:
-        """Show how everything is: ``well``, ``summary``, and ``lines`` of ``name``, ``words`` and ``well``."""
+        """Show how everything is: ``well``, ``summary``, and ``lines`` and ``more``, both of a health line's fields."""
         if health != self._health:
             self._health = health
             self.health_changed.emit()
+
+    def show_today(self, today: Row) -> None:
+        """Show the ``clock``, and the ``tiles`` of the day: ``name``, ``title``, ``value`` and ``line``."""
+        if today != self._today:
+            self._today = today
+            self.today_changed.emit()
 
     def show_records(self, records: Row) -> None:
         """Show what is stored: ``cells``, ``visits``, ``sessions``, ``deviations`` and ``resumable``."""
@@ -211,6 +225,16 @@ class PanelScreen(QObject):
     def health(self) -> Row:
         """How everything is."""
         return self._health
+
+    @Property("QVariantMap", notify=today_changed)  # type: ignore[arg-type]
+    def today(self) -> Row:
+        """Return the clock, and the day in numbers."""
+        return self._today
+
+    @Property("QVariantMap", notify=opened)  # type: ignore[arg-type]
+    def shortcuts(self) -> Row:
+        """Return the shortcuts, and what they do."""
+        return self._shortcuts
 
     @Property("QVariantMap", notify=records_changed)  # type: ignore[arg-type]
     def records(self) -> Row:

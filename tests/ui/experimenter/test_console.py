@@ -96,14 +96,15 @@ def test_nothing_behind_the_panel_can_be_reached(assigner: Desk) -> None:
         reached.add(held(assigner))
         assigner.press(Qt.Key.Key_Tab)
     assert not [name for name in reached if name.startswith("start")]
-    assert {"panel-close", "action-leave", "condition-tom", "volume-0.8"} <= reached
+    assert {"panel-close", "panel-next", "action-mute", "test-voice"} <= reached
 
 
 def test_keys_alone_choose_the_next_condition_with_a_reason(make_assigner: MakeDesk) -> None:
     assigner = make_assigner(**LISTED)
     assigner.open_panel()
-    tab_to(assigner, "condition-notom")
-    assigner.press(Qt.Key.Key_Return)
+    for name in ("panel-next", "names-of-choices", "condition-notom"):
+        tab_to(assigner, name)
+        assigner.press(Qt.Key.Key_Return)
     assert assigner.card.asks_for is AuthorisationStep.REASON
     assigner.type("4")
     assert assigner.app.assigner.chosen == Condition.NOTOM
@@ -186,7 +187,8 @@ def test_while_somebody_plays_no_condition_is_told_of_anybody(make_assigner: Mak
     assigner.open_panel()
     assigner.wait_until(lambda: bool(records(assigner)["deviations"]))
     assert choices(assigner)["condition"] == "automatic"
-    assert records(assigner)["cells"] == []
+    assert [cell["name"] for cell in records(assigner)["cells"]] == ["A", "B"]
+    assert {each["label"] for each in choices(assigner)["conditions"]} >= {"automatic", "A", "B"}
     assert "ToM" not in json.dumps(records(assigner))
     assert any(noted["words"] == "next condition: hidden" for noted in records(assigner)["deviations"])
 
@@ -305,6 +307,7 @@ def test_the_volume_holds_at_once_and_the_language_at_rest_from_the_next_session
     monkeypatch.setattr(assigner.app.voice, "set_volume", turned.append)
     assigner.go_to(Stage.ABOUT)
     assigner.open_panel()
+    assigner.click("panel-next")
     assigner.click("volume-0.4")
     assigner.click("language-it")
     assigner.type("1")
@@ -319,6 +322,7 @@ def test_the_volume_holds_at_once_and_the_language_at_rest_from_the_next_session
 def test_what_the_disk_does_not_take_is_not_done_and_said(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     assigner.open_panel()
     monkeypatch.setattr(Recorder, "add_audit_event", refuse_to_write)
+    assigner.click("panel-next")
     assigner.click("condition-notom")
     assigner.type("1")
     assert assigner.app.assigner.chosen is None
@@ -339,12 +343,58 @@ def test_visitors_see_neither_panel_nor_card_while_nobody_asks_for_them(assigner
         assert item is None or not item.isVisible()
 
 
-def test_conditions_are_named_only_on_request_while_a_visitor_is_there(assigner: Desk) -> None:
-    assigner.click("start-en")
+def test_conditions_are_named_only_on_request_and_by_letters_again_at_the_next_opening(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(**LISTED)
+    assigner.go_to(Stage.GAME)
     assigner.open_panel()
-    assigner.settle()
-    assert not assigner.sees("condition-tom")
-    assigner.click("unfold-conditions")
-    assert assigner.sees("condition-tom")
-    assigner.click("unfold-conditions")
-    assert not assigner.sees("condition-tom")
+    assigner.wait_until(lambda: bool(records(assigner)["cells"]))
+    assert [cell["name"] for cell in records(assigner)["cells"]] == ["A", "B"]
+    assigner.click("names")
+    assert [cell["name"] for cell in records(assigner)["cells"]] == ["ToM", "no ToM"]
+    assert records(assigner)["sessions"][0]["condition"] == "hidden"
+    assigner.shortcut(Action.PANEL)
+    assigner.open_panel()
+    assert [cell["name"] for cell in records(assigner)["cells"]] == ["A", "B"]
+
+
+def test_the_first_page_tells_the_day_and_the_session_under_way(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner(**LISTED, stages=["game", "result"])
+    assigner.go_to(Stage.RESULT)
+    assigner.open_panel()
+    assigner.wait_until(lambda: bool(assigner.panel.property("today")["tiles"]))
+    tiles = {tile["name"]: tile["value"] for tile in assigner.panel.property("today")["tiles"]}
+    assert tiles == {"visitors": "1", "completed": "0", "target": "1 / 4", "stage": "Result"}
+    assert assigner.sees("today-visitors")
+
+
+def test_a_session_that_was_ended_tells_why(make_assigner: MakeDesk) -> None:
+    assigner = make_assigner()
+    assigner.go_to(Stage.INTRODUCTION)
+    assigner.do(Action.ABORT, reason="2")
+    assigner.open_panel()
+    assigner.wait_until(lambda: bool(records(assigner)["sessions"]))
+    assert records(assigner)["sessions"][0]["reason"] == "the visitor wishes it"
+
+
+def test_the_voice_can_be_tried_while_nobody_plays(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(assigner.app.voice, "say", lambda _number, sentence: said.append(sentence))
+    assigner.open_panel()
+    assigner.click("test-voice")
+    assert said == [CATALOGUES["en"].text("console-test-sentence")]
+    assigner.shortcut(Action.PANEL)
+    assigner.go_to(Stage.ABOUT)
+    assigner.open_panel()
+    assigner.app.experimenter.actions.request(Action.TEST_VOICE.value, "")
+    assert len(said) == 1
+    assert assigner.noted == "Not now"
+
+
+def test_a_voice_that_is_tried_disturbs_nothing(assigner: Desk) -> None:
+    finished: list[int] = []
+    assigner.app.voice.finished.connect(finished.append)
+    assigner.open_panel()
+    assigner.click("test-voice")
+    assigner.wait_until(lambda: bool(finished))
+    assert not assigner.app.runner.is_blocked
+    assert assigner.stage is Stage.ATTRACT

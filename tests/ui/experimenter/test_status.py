@@ -3,23 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
 
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
-from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
+from kiosk.experiment.booth_status import DayCounts, utc
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import NotRecordedReason
+from kiosk.experiment.experimenter import DEVIATIONS, Action, AuditEvent, shortcuts
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
+from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.maintenance import BackupOutcome
 from kiosk.ui.experimenter.status import (
     Clocks,
     HealthInputs,
     HealthLine,
+    booth_lines,
     health_lines,
     health_summary,
     is_pack_changed,
+    neutral_names,
+    shortcut_rows,
+    today_rows,
 )
 from tests.samples import CATALOGUES
 
@@ -41,15 +51,20 @@ WELL = HealthInputs(
 )
 
 
+def every_line(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine, ...]:
+    """Return the lines of both pages."""
+    return (*health_lines(state, catalogue), *booth_lines(state, STUDY, catalogue))
+
+
 def told(state: HealthInputs) -> dict[str, HealthLine]:
     """Every line by its name."""
-    return {line.name: line for line in health_lines(state, STUDY, CATALOGUES["en"])}
+    return {line.name: line for line in every_line(state, CATALOGUES["en"])}
 
 
 @pytest.mark.parametrize("language", CATALOGUES)
 def test_all_is_well_in_one_line_of_every_language(language: str) -> None:
-    found = health_lines(WELL, STUDY, CATALOGUES[language])
-    assert len(found) == 9
+    found = every_line(WELL, CATALOGUES[language])
+    assert len(found) == 10
     assert health_summary(found, CATALOGUES[language]) == HealthLine("", CATALOGUES[language].text("console-all-well"))
 
 
@@ -104,8 +119,8 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
     ],
 )
 def test_what_is_not_well_is_told_and_named_in_the_one_line(state: HealthInputs, name: str, words: str) -> None:
-    assert told(state)[name] == HealthLine(name, words, is_ok=False)
-    assert health_summary(health_lines(state, STUDY, CATALOGUES["en"]), CATALOGUES["en"]) == HealthLine(
+    assert replace(told(state)[name], part="") == HealthLine(name, words, is_ok=False)
+    assert health_summary(every_line(state, CATALOGUES["en"]), CATALOGUES["en"]) == HealthLine(
         "", f"{name}: {words}", is_ok=False
     )
 
@@ -121,3 +136,55 @@ def test_the_last_copy_is_told_in_the_size_that_matters(minutes: int, words: str
 
 def test_without_a_copy_yet_nothing_is_wrong() -> None:
     assert told(replace(WELL, last_backup=None))["Database"].is_ok
+
+
+BEGAN = datetime(2027, 3, 1, 9, tzinfo=UTC)
+EN = CATALOGUES["en"]
+
+
+def day_at(hours: float, done: int, quota: int, completed: int) -> dict[str, str]:
+    """Return the line below the target, and the others, so many hours after the first visitor of the day."""
+    fates = {**dict.fromkeys(Disposition, 0), Disposition.CONSUMED: done}
+    counts = EnrolmentCounts({Condition.TOM: CountCell(quota, fates, 0)}, dict.fromkeys(NotRecordedReason, 0))
+    day = DayCounts(completed + 2, completed, 1, 2, utc(round(BEGAN.timestamp() * 1000)))
+    rows = today_rows(day, counts, ("game", 4 * MINUTE), BEGAN + timedelta(hours=hours), EN)
+    return {tile["name"]: f"{tile['value']}: {tile['line']}" for tile in rows["tiles"]}
+
+
+def test_the_day_is_told_in_numbers_with_a_forecast_at_its_own_pace() -> None:
+    assert day_at(3, done=20, quota=30, completed=6) == {
+        "visitors": "8: 1 ended early",
+        "completed": "6: 2 in the last hour",
+        "target": "20 / 30: " + EN.text("console-today-forecast", hours="5"),
+        "stage": "Game: for 4 min",
+    }
+
+
+@pytest.mark.parametrize(
+    ("hours", "done", "completed", "words"),
+    [
+        (0.4, 20, 6, "too few today to tell how long it takes"),
+        (3, 20, 2, "too few today to tell how long it takes"),
+        (3, 29, 9, EN.text("console-today-forecast", hours="<1")),
+        (3, 30, 9, ""),
+        (3, 31, 9, ""),
+    ],
+)
+def test_a_forecast_needs_a_pace_and_something_that_is_missing(
+    hours: float, done: int, completed: int, words: str
+) -> None:
+    assert day_at(hours, done, 30, completed)["target"] == f"{done} / 30: {words}"
+
+
+def test_conditions_have_letters_in_the_order_of_the_design() -> None:
+    name = neutral_names((None, Condition.NOTOM, Condition.TOM), EN.text)
+    assert [name(each) for each in (Condition.TOM, Condition.NOTOM, None)] == ["A", "B", "automatic"]
+
+
+def test_shortcuts_say_once_what_is_held_down_for_all_of_them() -> None:
+    shown = shortcut_rows(shortcuts(Settings().shortcuts), EN)
+    assert shown["title"] == "Shortcuts: Ctrl+Shift and …"
+    assert {"keys": "E", "words": "end the session"} in shown["rows"]
+    own = shortcut_rows({Action.PANEL: "F9", Action.QUIT: "Ctrl+Q"}, EN)
+    assert own["title"] == "Shortcuts"
+    assert [row["keys"] for row in own["rows"]] == ["F9", "Ctrl+Q"]

@@ -139,9 +139,9 @@ def test_the_sessions_of_today_are_counted_and_those_of_yesterday_are_not(assign
     assigner.go_to(Stage.GAME)
     now = datetime.now().astimezone()
     counts, ended = read_day(assigner.data, now, kind=SessionKind.SIMULATED)
-    assert (counts, ended) == (DayCounts(begun=1), ())
+    assert (replace(counts, since=None), ended) == (DayCounts(begun=1), ())
     assert read_day(assigner.data, now + timedelta(days=1), kind=SessionKind.SIMULATED)[0] == DayCounts()
     assigner.app.runner.close()
     counts, ended = read_day(assigner.data, now, kind=SessionKind.SIMULATED)
-    assert counts == DayCounts(begun=1, ended_early=1)
+    assert replace(counts, since=None) == DayCounts(begun=1, ended_early=1)
     assert [each.stage for each in ended] == ["game"]

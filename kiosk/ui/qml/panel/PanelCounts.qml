@@ -8,6 +8,9 @@ PanelSection {
 
     required property var words
     required property var records
+    required property bool named
+    signal asked()
+
     readonly property real first: width * 0.16
     readonly property real second: width * 0.15
     readonly property real between: 0.6 * Theme.gap
@@ -81,6 +84,17 @@ PanelSection {
                 }
             }
         }
+    }
+    // Visitors may read along, so the conditions are named only on request.
+    PanelButton {
+        parent: counts
+        anchors { top: parent.top; right: parent.right; margins: 0.6 * Theme.gap }
+        objectName: "names"
+        width: implicitWidth
+        verticalPadding: 4 * Theme.unit
+        visible: counts.records.cells.length > 0
+        words: counts.named ? counts.words["console-names-hide"] : counts.words["console-names-show"]
+        onClicked: counts.asked()
     }
     PlainText {
         width: parent.width

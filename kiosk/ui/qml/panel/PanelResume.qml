@@ -10,11 +10,8 @@ PanelSection {
     required property PanelScreen panel
 
     title: panel.words["console-resume"]
+    visible: panel.records.resumable.length > 0
 
-    PanelEmpty {
-        words: resume.panel.words["console-resume-none"]
-        visible: resume.panel.records.resumable.length === 0
-    }
     Flow {
         width: parent.width
         spacing: 9 * Theme.unit

@@ -21,12 +21,12 @@ PanelSection {
             spacing: 8 * Theme.unit
             PanelMark { id: mark; well: !row.modelData.odd }
             PanelCell { width: row.width * 0.07; words: row.modelData.participant }
-            PanelCell { width: row.width * 0.15; words: row.modelData.when }
-            PanelCell { width: row.width * 0.2; words: row.modelData.condition }
+            PanelCell { width: row.width * 0.13; words: row.modelData.when }
+            PanelCell { width: row.width * 0.13; words: row.modelData.condition }
             PanelCell { width: row.width * 0.19; words: row.modelData.stage }
             PanelCell {
-                width: row.width * 0.39 - mark.width - 5 * row.spacing
-                words: row.modelData.status + (row.modelData.robot === "" ? "" : " · " + row.modelData.robot)
+                width: row.width * 0.48 - mark.width - 5 * row.spacing
+                words: [row.modelData.status, row.modelData.reason, row.modelData.robot].filter(each => each !== "").join(" · ")
             }
         }
     }

@@ -1,4 +1,4 @@
-// The panel: how everything is, who has come, and what can be done, at one glance and by keyboard alone.
+// The panel: the day at one glance, and what can be done, by keyboard alone or by touch.
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
@@ -12,6 +12,7 @@ FocusScope {
     readonly property var words: panel.words
     readonly property bool wide: width >= height
     readonly property real space: 0.75 * Theme.gap
+    property bool onToday: true
 
     objectName: "panel"
     Keys.onEscapePressed: panel.wish("panel", "")
@@ -25,7 +26,7 @@ FocusScope {
     Item {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        height: Math.max(close.height, title.height, session.height)
+        height: Math.max(close.height, clock.height, session.height)
 
         PlainText {
             id: title
@@ -34,13 +35,44 @@ FocusScope {
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
         }
+        Row {
+            id: pages
+            anchors { left: title.right; leftMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            spacing: 9 * Theme.unit
+            PanelButton {
+                objectName: "panel-today"
+                width: implicitWidth
+                words: view.words["console-today"]
+                chosen: view.onToday
+                choosable: true
+                Accessible.role: Accessible.PageTab
+                onClicked: view.onToday = true
+            }
+            PanelButton {
+                objectName: "panel-next"
+                width: implicitWidth
+                words: view.words["console-next-page"]
+                chosen: !view.onToday
+                choosable: true
+                Accessible.role: Accessible.PageTab
+                onClicked: view.onToday = false
+            }
+        }
         PlainText {
             id: session
-            anchors { left: title.right; right: close.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+            anchors { left: pages.right; right: clock.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
             text: view.panel.choices.session
             font.pixelSize: Theme.dense
             color: Theme.faintInk
             wrapMode: Text.Wrap
+        }
+        PlainText {
+            id: clock
+            objectName: "today-clock"
+            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            text: view.panel.today.clock
+            font { pixelSize: Theme.dense * 1.8; bold: true }
+            color: Theme.ink
         }
         PanelButton {
             id: close
@@ -93,60 +125,24 @@ FocusScope {
 
         Item {
             id: content
-            width: pane.width
-            height: view.wide ? Math.max(left.height, middle.height, right.height)
-                              : Math.max(left.height, right.height) + view.space + middle.height
+            // Beside the bar, not below it.
+            width: pane.width - 14 * Theme.unit
+            height: view.onToday ? today.height : next.height
 
-            Column {
-                id: left
-                width: view.wide ? content.width * 0.29 : (content.width - view.space) * 0.5
-                spacing: view.space
-                PanelSection {
-                    width: parent.width
-                    title: view.words["console-health"]
-                    Repeater {
-                        model: view.panel.health.lines
-                        delegate: PanelLine { required property var modelData; line: modelData; width: parent.width }
-                    }
-                }
-                PanelAlarms { width: parent.width; panel: view.panel }
-                PanelResume {
-                    width: parent.width
-                    panel: view.panel
-                }
-            }
-            Column {
-                id: middle
-                x: view.wide ? left.width + view.space : 0
-                y: view.wide ? 0 : Math.max(left.height, right.height) + view.space
-                width: view.wide ? content.width * 0.41 : content.width
-                spacing: view.space
-                PanelCounts { width: parent.width; words: view.words; records: view.panel.records }
-                PanelSessions { width: parent.width; words: view.words; records: view.panel.records }
-                PanelSection {
-                    width: parent.width
-                    title: view.words["console-deviations"]
-                    PanelEmpty {
-                        words: view.words["console-deviations-none"]
-                        visible: view.panel.records.deviations.length === 0
-                    }
-                    Repeater {
-                        model: view.panel.records.deviations
-                        delegate: PanelDeviation {
-                            required property var modelData
-                            deviation: modelData
-                            width: parent.width
-                        }
-                    }
-                    PanelEmpty { words: view.panel.records.more; visible: words !== "" }
-                }
-            }
-            PanelActions {
-                id: right
-                x: content.width - width
-                width: view.wide ? content.width - left.width - middle.width - 2 * view.space
-                                 : (content.width - view.space) * 0.5
+            PanelToday {
+                id: today
+                visible: view.onToday
+                width: parent.width
                 panel: view.panel
+                wide: view.wide
+                space: view.space
+            }
+            PanelNext {
+                id: next
+                visible: !view.onToday
+                width: parent.width
+                panel: view.panel
+                wide: view.wide
                 space: view.space
             }
         }

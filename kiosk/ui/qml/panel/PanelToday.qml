@@ -1,0 +1,88 @@
+// The first page: the day in numbers, how everything is, who has come, and what can be done at once.
+pragma ComponentBehavior: Bound
+import QtQuick
+import Recollect
+
+Column {
+    id: today
+
+    required property PanelScreen panel
+    required property bool wide
+    required property real space
+    readonly property var words: panel.words
+
+    spacing: space
+
+    Grid {
+        id: tiles
+        readonly property real each: (today.width - (columns - 1) * spacing) / columns
+
+        width: parent.width
+        columns: today.wide ? 4 : 2
+        spacing: today.space
+        Repeater {
+            id: numbers
+            model: today.panel.today.tiles
+            delegate: PanelTile {
+                required property var modelData
+                objectName: "today-" + modelData.name
+                width: tiles.each
+                title: modelData.title
+                value: modelData.value
+                line: modelData.line
+            }
+        }
+    }
+    Item {
+        width: parent.width
+        height: today.wide ? Math.max(left.height, middle.height, right.height)
+                           : Math.max(left.height, right.height) + today.space + middle.height
+
+        Column {
+            id: left
+            width: today.wide ? parent.width * 0.31 : (parent.width - today.space) * 0.5
+            spacing: today.space
+            PanelAlarms { width: parent.width; panel: today.panel }
+            PanelSection {
+                width: parent.width
+                title: today.words["console-health"]
+                Repeater {
+                    model: today.panel.health.lines
+                    delegate: PanelLine {
+                        required property var modelData
+                        line: modelData
+                        width: parent.width
+                        action: modelData.part === "voice" ? today.words["console-test-voice"] : ""
+                        ready: !today.panel.choices.underWay && !today.panel.choices.muted
+                        onAsked: today.panel.wish("test_voice", "")
+                    }
+                }
+            }
+        }
+        Column {
+            id: middle
+            x: today.wide ? left.width + today.space : 0
+            y: today.wide ? 0 : Math.max(left.height, right.height) + today.space
+            width: today.wide ? parent.width * 0.42 : parent.width
+            spacing: today.space
+            PanelCounts {
+                width: parent.width
+                words: today.words
+                records: today.panel.records
+                named: today.panel.choices.named
+                onAsked: today.panel.wish("names", "")
+            }
+            PanelSessions { width: parent.width; words: today.words; records: today.panel.records }
+        }
+        Column {
+            id: right
+            x: parent.width - width
+            width: today.wide ? parent.width - left.width - middle.width - 2 * today.space
+                              : (parent.width - today.space) * 0.5
+            spacing: today.space
+            PanelActions { width: parent.width; panel: today.panel }
+            PanelResume { width: parent.width; panel: today.panel }
+            PanelShortcuts { width: parent.width; shown: today.panel.shortcuts }
+        }
+    }
+}
