@@ -64,7 +64,7 @@ OUTSIDE: dict[str, set[str]] = {
     "scipy": {"analysis"},
     "matplotlib": {"analysis"},
     "pandas": {"analysis"},
-    "numpy": {"robots", "training", "analysis"},
+    "numpy": {"assistance", "robots", "training", "analysis"},
     "numba": {"training"},
     "gymnasium": {"training"},
     "click": {"cli"},
