@@ -106,7 +106,8 @@ class MemoryModel:
     def _recalled(self) -> Array:
         """Return the chance of every card, for each player of the grid, to have been recalled before this move."""
         before = self._flips - (self._first is not None)
-        return self._np.where(self._last > 0, self._keeps[:, None] ** (before - self._last), 0.0)
+        chances: Array = self._np.where(self._last > 0, self._keeps[:, None] ** (before - self._last), 0.0)
+        return chances
 
     def _expect(self) -> Array:
         """Return, for each player of the grid, the chance of every place to be turned up next."""
@@ -137,7 +138,8 @@ class MemoryModel:
         any_pair = both * (_others(taken) @ self._shares) / CARDS_IN_A_PAIR
         none_before = np.concatenate([np.ones((len(both), 1)), (1 - both).cumprod(axis=1)[:, :-1]], axis=1)
         in_order = both * none_before * (1 - side)
-        return np.where(self._in_order, in_order, any_pair)
+        chances: Array = np.where(self._in_order, in_order, any_pair)
+        return chances
 
     def _second_cards(self, first: int) -> Array:
         """Return the chances of second cards: the mate where it is recalled, else a card that is not recalled.
@@ -177,7 +179,8 @@ class MemoryModel:
         mate_only = alone[:, 1 + side] * (others @ self._shares)
         known = (1 - LAPSE) * (self._from_pairs(both, side)[:, at] + mate_only) + by_lapse * recalled
         neither = (1 - LAPSE) * alone[:, 0] * ((others * self._nodes) @ self._shares) + by_lapse * (1 - recalled)
-        return known / (known + neither)
+        chance: Array = known / (known + neither)
+        return chance
 
     def _by_pair(self) -> tuple[Array, Array]:
         """Return, for each pair left, the chances to recall neither card, only the second or the first; and both."""
@@ -189,7 +192,8 @@ class MemoryModel:
     def _not_recalled(self, alone: Array) -> Array:
         """Return, for each pair left and node t, the mean of t to the number of its cards that are not recalled."""
         t = self._nodes
-        return alone[..., 0, None] * t**2 + (alone[..., 1, None] + alone[..., 2, None]) * t
+        mean: Array = alone[..., 0, None] * t**2 + (alone[..., 1, None] + alone[..., 2, None]) * t
+        return mean
 
 
 def _prior(forgetting: float) -> float:

@@ -10,9 +10,10 @@ import pytest
 
 from kiosk.assistance.memory_model import MemoryModel
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import ActionSpec, QTable
+from kiosk.assistance.policy import QTable
 from kiosk.training.simulated_players import MemoryPlayer
 from kiosk.training.simulation import RecordedGame, record_games
+from kiosk.training.vectorised_game import NO_HELP
 from tests.bench.percentiles import tell_percentiles
 
 GAMES = 300
@@ -32,9 +33,9 @@ def test_the_next_card_is_predicted_better_than_by_the_rules(games: list[Recorde
     for game in games:
         model = MemoryModel(game.mates)
         for number, (place, action, _) in enumerate(game.flips):
-            if action == ActionSpec.NO_HELP.value:
+            if action == NO_HELP:
                 surprise[number % 2].append(-math.log(model.next_card()[place]))
-            model.flip(place, hinted=action != ActionSpec.NO_HELP.value)
+            model.flip(place, hinted=action != NO_HELP)
     first, second = (sum(each) / len(each) for each in surprise.values())
     assert first <= 2.42, first
     assert second <= 1.78, second
