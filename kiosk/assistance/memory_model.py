@@ -125,7 +125,7 @@ class MemoryModel:
         np, t = self._np, self._nodes
         alone, both = self._by_pair()
         others = _others(self._not_recalled(alone))
-        chances = np.zeros((len(self._keeps), len(self._mates)))
+        chances: Array = np.zeros((len(self._keeps), len(self._mates)))
         for side in range(CARDS_IN_A_PAIR):
             new = others * (alone[..., 0, None] * t + alone[..., 1 + side, None])
             chances[:, self._pairs[~self._found][:, side]] = self._from_pairs(both, side) + new @ self._shares
@@ -162,7 +162,7 @@ class MemoryModel:
             self._mate_recalled = self._mate_after_own_first(first, others, alone[:, at], both, at)
             weighed, whole = others * (1 - t), (others * t) @ self._shares
         guessed = (1 - self._mate_recalled) / whole
-        chances = np.zeros((len(self._keeps), len(self._mates)))
+        chances: Array = np.zeros((len(self._keeps), len(self._mates)))
         chances[:, self._mates[first]] = self._mate_recalled + guessed * (weighed @ self._shares)
         elsewhere = np.arange(len(left)) != at
         without = weighed[:, None] / counted[:, elsewhere]
