@@ -320,12 +320,16 @@ class EventLoop:
             ticking.timeout.connect(self._clock.jump)
             ticking.start(0)
         # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
-        gc.collect()
-        gc.freeze()
+        # A program that has set objects aside itself, and opens many windows, gets them back as they were.
+        freezes = gc.get_freeze_count() == 0
+        if freezes:
+            gc.collect()
+            gc.freeze()
         try:
             self._loop.exec()
         finally:
-            gc.unfreeze()
+            if freezes:
+                gc.unfreeze()
             ticking.stop()
             sys.excepthook = before
 

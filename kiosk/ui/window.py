@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import ClassVar
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QGuiApplication, QIcon
@@ -60,10 +61,15 @@ class RunMode:
 class Window:
     """All that can be seen. Only one can be in a process."""
 
+    reuses_engine: ClassVar[bool] = False
+    """Whether a window that is closed leaves its engine, and the compiled screens in it, to the next one."""
+    _left: ClassVar[QQmlApplicationEngine | None] = None
+
     def __init__(self, study: StudyConfig, mode: RunMode) -> None:
         """Make the window of this study; every screen of it is empty, and nothing is shown yet."""
         self.application = application(mode.display, study.settings.own_fonts)
-        self._engine = QQmlApplicationEngine()
+        left, Window._left = Window._left, None
+        self._engine = left or QQmlApplicationEngine()
         # A child of the engine goes after the windows, which look at the screens up to their own end.
         self.owner = QObject(self._engine)
         """What belongs to the window lives as long as this."""
@@ -88,8 +94,20 @@ class Window:
         """Close it, with everything but the application object: Qt allows no second one."""
         self.screens.kiosk.let_go()
         self.shown.close()
-        self._engine.deleteLater()
-        QCoreApplication.sendPostedEvents(self._engine, QEvent.Type.DeferredDelete)
+        if Window.reuses_engine:
+            # The window looks at the screens up to its own end.
+            _delete(self.shown)
+            _delete(self.owner)
+            Window._left = self._engine
+        else:
+            _delete(self._engine)
+
+    @classmethod
+    def drop_engine(cls) -> None:
+        """Delete the engine that the last window has left, if it has."""
+        if cls._left is not None:
+            _delete(cls._left)
+            cls._left = None
 
     def _load(self, settings: Settings, mode: RunMode) -> QQuickWindow:
         moving = settings.screen.motion and mode.pace is ClockMode.WALL
@@ -112,10 +130,16 @@ class Window:
             }
         )
         self._engine.load(QUrl.fromLocalFile(str(QML)))
-        window = self._engine.rootObjects()[0]
+        window = self._engine.rootObjects()[-1]
         if not isinstance(window, QQuickWindow):
             raise TypeError(f"{QML} holds a {type(window).__name__}, not a window")
         return window
+
+
+def _delete(what: QObject) -> None:
+    """Delete an object of Qt's now, and not when the event loop comes to it."""
+    what.deleteLater()
+    QCoreApplication.sendPostedEvents(what, QEvent.Type.DeferredDelete)
 
 
 def check_screen(display: WindowMode) -> None:

@@ -28,6 +28,7 @@ from kiosk.ui.app import App
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourProfile, UiDriver, find_item, item_centre, lay_out
+from kiosk.ui.window import Window
 from tests.ui.headless import headless, short
 
 
@@ -35,6 +36,15 @@ from tests.ui.headless import headless, short
 def qapp_cls() -> type[QGuiApplication]:
     """Return an application without widgets, as the kiosk has none."""
     return QGuiApplication
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_engine() -> Iterator[None]:
+    """Compile the screens once for all windows of these tests; each has its own objects on them."""
+    Window.reuses_engine = True
+    yield
+    Window.reuses_engine = False
+    Window.drop_engine()
 
 
 @dataclass

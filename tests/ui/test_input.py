@@ -57,5 +57,5 @@ def test_the_booth_lives_while_nobody_is_there(qtbot: QtBot, tmp_path: Path) -> 
         seen: set[tuple[int, ...]] = set()
         blinks: set[bool] = set()
         app.screens.attract.changed.connect(lambda: seen.add(app.screens.attract.closed))
-        app.screens.avatar.changed.connect(lambda: blinks.add(bool(app.screens.avatar.property("blinking"))))
+        app.screens.avatar.looked.connect(lambda: blinks.add(bool(app.screens.avatar.property("blinking"))))
         qtbot.waitUntil(lambda: len(seen) > 3 and blinks == {True, False})

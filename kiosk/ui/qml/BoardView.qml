@@ -15,6 +15,16 @@ FocusScope {
     property bool upright: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
+    // Asked of the board once, and not by every card.
+    readonly property int rows: board.rows
+    readonly property int columns: board.columns
+    readonly property int pairs: board.pairs
+    readonly property bool practises: board.practice
+    readonly property bool open: board.open
+    readonly property bool speaking: board.speaking
+    readonly property bool missed: board.missed
+    readonly property int markRow: board.markRow
+    readonly property int markColumn: board.markColumn
     // How much of a cell a card takes.
     readonly property real share: 0.91
 
@@ -25,7 +35,7 @@ FocusScope {
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
-    readonly property bool tall: upright || height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - board.rows * widest > 70 * Theme.unit
+    readonly property bool tall: upright || height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
     readonly property real usualStrip: (upright ? 196 : tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
@@ -34,21 +44,21 @@ FocusScope {
         && practice.width + progress.implicitWidth + skip.implicitWidth + 240 * Theme.unit + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
-    readonly property real footer: pill.height + 14 * Theme.unit + (board.practice && skipsBelow ? skip.height + Theme.gap : 0)
+    readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
-    readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, board.columns)
+    readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 34 * Theme.unit + usualStrip + numbers + pill.height
-        + board.rows * (width - numbers - 2 * Theme.gap) / Math.max(1, board.columns)
+        + rows * (width - numbers - 2 * Theme.gap) / Math.max(1, columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
-    readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, board.rows)))
+    readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
     // What was last touched or turned, in this item; the assistant looks at it.
     property point touched: Qt.point(width / 2, height / 2)
     signal touchedSomething()
     // The middle of what a hint marks, in this item.
-    readonly property bool marks: board.markRow >= 0 || board.markColumn >= 0
+    readonly property bool marks: markRow >= 0 || markColumn >= 0
     readonly property point marked: Qt.point(
-        table.x + (board.markColumn < 0 ? table.width * 0.75 : (board.markColumn + 0.5) * cell),
-        table.y + (board.markRow < 0 ? 0 : (board.markRow + 0.5) * cell))
+        table.x + (markColumn < 0 ? table.width * 0.75 : (markColumn + 0.5) * cell),
+        table.y + (markRow < 0 ? 0 : (markRow + 0.5) * cell))
     // Whether a card turns, or a pair is on its way to the tray: what else moves on the screen had better wait.
     readonly property bool moves: turning > 0 || joy.under
     property int turning: 0
@@ -61,8 +71,8 @@ FocusScope {
     NumberAnimation { id: sweep; target: view; property: "wave"; from: 0; to: 1; duration: 5 * Theme.motion }
 
     function centre(location: int): point {
-        return Qt.point(table.x + (location % board.columns + 0.5) * cell,
-                        table.y + (Math.floor(location / board.columns) + 0.5) * cell)
+        return Qt.point(table.x + (location % columns + 0.5) * cell,
+                        table.y + (Math.floor(location / columns) + 0.5) * cell)
     }
 
     // Loads the pictures when the cards are dealt, in the sizes of the cards and of the tray, and not in the frame in
@@ -86,7 +96,7 @@ FocusScope {
 
     Rectangle {
         id: practice
-        visible: view.board.practice
+        visible: view.practises
         x: Theme.gap
         y: view.broad ? table.y : tray.y + (tray.height - height) / 2
         width: named.width + 1.6 * Theme.gap
@@ -107,8 +117,8 @@ FocusScope {
     }
     PlainText {
         id: progress
-        x: !view.board.practice ? (view.broad ? Theme.gap : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
-        y: !view.broad ? tray.y : view.board.practice ? practice.y + practice.height + 0.7 * Theme.gap : table.y
+        x: !view.practises ? (view.broad ? Theme.gap : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
+        y: !view.broad ? tray.y : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : tray.height
         verticalAlignment: Text.AlignVCenter
@@ -120,7 +130,7 @@ FocusScope {
     PlainText {
         id: moves
         // Nothing counts in a practice.
-        visible: !view.board.practice
+        visible: !view.practises
         x: view.broad ? Theme.gap : table.x + table.width - width
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : tray.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
@@ -136,9 +146,9 @@ FocusScope {
         x: view.broad ? view.width - view.side : progress.x + progress.width + Theme.gap
         y: view.broad ? table.y : 12 * Theme.unit
         width: view.broad ? view.side - Theme.gap : Math.max(0, end - x - Theme.gap)
-        readonly property real end: !view.board.practice ? moves.x : view.skipsBelow ? view.width : skip.x
+        readonly property real end: !view.practises ? moves.x : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.strip - 8 * Theme.unit
-        places: view.board.pairs
+        places: view.pairs
         lines: view.broad ? Math.ceil(places / 2) : view.tall ? 2 : 1
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
@@ -151,7 +161,7 @@ FocusScope {
         objectName: "pill"
         anchors { top: cards.bottom; topMargin: 8 * Theme.unit; horizontalCenter: cards.horizontalCenter }
         // A hint that is seen or read needs no announcement any more.
-        visible: view.board.wait !== "" && !(view.board.speaking && (view.marks || view.said))
+        visible: view.board.wait !== "" && !(view.speaking && (view.marks || view.said))
         width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
         height: Math.max(waiting.height + 6 * Theme.unit, 46 * Theme.unit)
         radius: height / 2
@@ -190,7 +200,7 @@ FocusScope {
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2 : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
          : view.skipsBelow ? view.height - height - Theme.gap : tray.y + (tray.height - height) / 2
-        visible: view.board.practice
+        visible: view.practises
         quiet: true
         horizontalPadding: (view.broad ? 20 : 36) * Theme.unit
         verticalPadding: 12 * Theme.unit
@@ -202,17 +212,17 @@ FocusScope {
         id: table
         x: Math.round((view.width - width - view.numbers) / 2 + view.numbers)
         y: Math.round(view.header + view.numbers)
-        width: view.cell * view.board.columns
-        height: view.cell * view.board.rows
+        width: view.cell * view.columns
+        height: view.cell * view.rows
 
         Mark {
             anchors.fill: parent
-            row: view.board.markRow
-            column: view.board.markColumn
+            row: view.markRow
+            column: view.markColumn
             cell: view.cell
         }
         Repeater {
-            model: view.board.columns
+            model: view.columns
             PlainText {
                 required property int index
                 x: index * view.cell
@@ -220,14 +230,14 @@ FocusScope {
                 width: view.cell
                 text: index + 1
                 font { pixelSize: Theme.body; bold: true }
-                color: view.board.markColumn === index ? Theme.deepAmber : Theme.faintInk
+                color: view.markColumn === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 // Every card's name tells its row and column.
                 Accessible.ignored: true
             }
         }
         Repeater {
-            model: view.board.rows
+            model: view.rows
             PlainText {
                 required property int index
                 x: -view.numbers
@@ -236,7 +246,7 @@ FocusScope {
                 height: view.cell
                 text: index + 1
                 font { pixelSize: Theme.body; bold: true }
-                color: view.board.markRow === index ? Theme.deepAmber : Theme.faintInk
+                color: view.markRow === index ? Theme.deepAmber : Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 verticalAlignment: Text.AlignVCenter
                 Accessible.ignored: true
@@ -279,14 +289,14 @@ FocusScope {
             required property bool up
             required property bool found
             required property string label
-            readonly property int row: Math.floor(index / view.board.columns)
-            readonly property int column: index % view.board.columns
-            readonly property bool marked: (view.board.markRow === row || view.board.markRow < 0)
-                                           && (view.board.markColumn === column || view.board.markColumn < 0)
-                                           && view.board.markRow + view.board.markColumn > -2
+            readonly property int row: Math.floor(index / view.columns)
+            readonly property int column: index % view.columns
+            readonly property bool marked: (view.markRow === row || view.markRow < 0)
+                                           && (view.markColumn === column || view.markColumn < 0)
+                                           && view.markRow + view.markColumn > -2
             // A tap would change nothing: two cards are open, a sentence is said, or this one is up.
-            readonly property bool refuses: !view.board.open || up
-            readonly property bool missed: up && !found && view.board.missed
+            readonly property bool refuses: !view.open || up
+            readonly property bool missed: up && !found && view.missed
             // How far a found card has come forward, and how far it has come to rest for good.
             property real forward: 0
             property real rest: found && !coming.running ? 1 : 0
@@ -322,7 +332,7 @@ FocusScope {
                 anchors { fill: parent; margins: parent.width * 0.05 }
                 opacity: place.rest
                 radius: width * 0.12
-                color: (place.row + place.column + 1) <= view.wave * (view.board.rows + view.board.columns) ? Theme.amber : Theme.sand
+                color: (place.row + place.column + 1) <= view.wave * (view.rows + view.columns) ? Theme.amber : Theme.sand
                 Behavior on color { ColorAnimation { duration: Theme.motion } }
             }
             Rectangle {
@@ -346,7 +356,7 @@ FocusScope {
                 up: place.up
                 shade: 1 - place.rest
                 // Closed cards step back while a tap would not count, unless they are meant.
-                opacity: view.board.speaking && !place.up && !place.marked ? Theme.held : 1
+                opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
                 scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward)
             }
@@ -412,7 +422,7 @@ FocusScope {
                 onTapped: view.board.tap(place.index)
             }
             HoverHandler {
-                cursorShape: !view.board.open ? Qt.WaitCursor : place.up ? Qt.ArrowCursor : Qt.PointingHandCursor
+                cursorShape: !view.open ? Qt.WaitCursor : place.up ? Qt.ArrowCursor : Qt.PointingHandCursor
             }
         }
         delegate: Place {}
@@ -442,9 +452,9 @@ FocusScope {
         id: joy
         anchors.fill: parent
         onLanded: {
-            if (view.board.tray.length !== view.board.pairs)
+            if (view.board.tray.length !== view.pairs)
                 return
-            if (!view.board.practice)
+            if (!view.practises)
                 sweep.restart()
             view.won()
         }

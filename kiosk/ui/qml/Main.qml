@@ -49,6 +49,8 @@ Window {
     color: Theme.paper
     title: "Recollect"
 
+    // An engine that is used again knows what the last person worked with.
+    Component.onCompleted: Theme.byKeyboard = false
     // A visitor cannot close it: only what the experimenter does sets leaving.
     onClosing: close => close.accepted = kiosk.leaving
 

@@ -67,7 +67,7 @@ Item {
     PauseAnimation { id: following; duration: 2500 }
     Connections {
         target: panel.avatar
-        function onChanged() {
+        function onSaid() {
             if (panel.avatar.bubble !== panel.stale)
                 panel.stale = ""
         }

@@ -26,8 +26,15 @@ class AvatarScreen(QObject):
     """What the avatar looks like at this moment."""
 
     changed = Signal()
+    """It came, went, or got a name; apart from the next four, because the whole layout follows."""
+    felt = Signal()
+    """It shows another mood."""
+    said = Signal()
+    """Another sentence is in the bubble, or none."""
+    looked = Signal()
+    """The eyes moved."""
     spoke = Signal()
-    """The mouth moved; apart from ``changed``, because it happens 25 times a second."""
+    """The mouth moved, which happens 25 times a second."""
     gestured = Signal(str)
     """It makes a small gesture, ``nod`` or ``wave``."""
 
@@ -55,7 +62,7 @@ class AvatarScreen(QObject):
         """Let its face follow the game while the session shows no mood; None: calm again."""
         if mood is not self._feeling:
             self._feeling = mood
-            self.changed.emit()
+            self.felt.emit()
 
     def leave(self, *, away: bool) -> None:
         """Go out of sight while people rate it, or come back."""
@@ -75,12 +82,12 @@ class AvatarScreen(QObject):
     def express(self, mood: Mood) -> None:
         """Show a mood."""
         self._mood = mood
-        self.changed.emit()
+        self.felt.emit()
 
     def say(self, sentence: str) -> None:
         """Show a sentence in the bubble; an empty one takes the bubble away."""
         self._bubble = sentence
-        self.changed.emit()
+        self.said.emit()
 
     def clear(self) -> None:
         """Say nothing, and look calmly at the next visitor."""
@@ -91,27 +98,30 @@ class AvatarScreen(QObject):
         self._gaze = self._glance = (0.0, 0.0)
         self._mouth = 0.0
         self.changed.emit()
+        self.felt.emit()
+        self.said.emit()
+        self.looked.emit()
         self.spoke.emit()
 
     def look(self, x: float, y: float) -> None:
         """Look left or right and up or down, each from -1 to 1; (0, 0) is at the visitor."""
         self._gaze = (x, y)
-        self.changed.emit()
+        self.looked.emit()
 
     def glance(self, x: float, y: float) -> None:
         """Let the eyes wander a little, as far as they look at nothing in particular."""
         self._glance = (x, y)
-        self.changed.emit()
+        self.looked.emit()
 
     def ponder(self, *, ponders: bool) -> None:
         """Look thoughtful for as long as it takes to find words, unless another mood is shown."""
         self._ponders = ponders
-        self.changed.emit()
+        self.felt.emit()
 
     def blink(self, *, shut: bool) -> None:
         """Shut the lids, or open them."""
         self._blinking = shut
-        self.changed.emit()
+        self.looked.emit()
 
     def open_mouth(self, how_far: float, shape: str = "") -> None:
         """Open the mouth, from 0 to 1, in the shape of a sound: closed, round, open, wide or teeth."""
@@ -123,7 +133,7 @@ class AvatarScreen(QObject):
         """Whether the face is shown."""
         return self._present
 
-    @Property(str, notify=changed)
+    @Property(str, notify=felt)
     def mood(self) -> str:
         """Return the name of the mood."""
         mood = self._mood
@@ -141,22 +151,22 @@ class AvatarScreen(QObject):
         """Whether it is out of sight while people rate it."""
         return self._away
 
-    @Property(str, notify=changed)
+    @Property(str, notify=said)
     def bubble(self) -> str:
         """Return the sentence in the bubble; empty for no bubble."""
         return self._bubble
 
-    @Property(float, notify=changed)
+    @Property(float, notify=looked)
     def gazeX(self) -> float:  # noqa: N802 - QML's convention
         """How far it looks to the right."""
         return self._gaze[0] or self._glance[0]
 
-    @Property(float, notify=changed)
+    @Property(float, notify=looked)
     def gazeY(self) -> float:  # noqa: N802 - QML's convention
         """How far it looks down."""
         return self._gaze[1] if any(self._gaze) else self._glance[1]
 
-    @Property(bool, notify=changed)
+    @Property(bool, notify=looked)
     def blinking(self) -> bool:
         """Whether the lids are shut."""
         return self._blinking

@@ -59,6 +59,13 @@ class BoardScreen(QAbstractListModel):
     """The cards row by row, and all that is shown around them."""
 
     changed = Signal()
+    """The size of the board, or the language; apart from the next three, because every card and text follows."""
+    counted = Signal()
+    """A pair was found, or a move was made."""
+    waited = Signal()
+    """Taps count again, or no longer."""
+    marked = Signal()
+    """The mark of a hint came or went."""
     tapped = Signal(Position)
     """A card was tapped."""
     refused = Signal()
@@ -88,6 +95,8 @@ class BoardScreen(QAbstractListModel):
         """Name the cards, and tell the progress, in this language, from the next board on."""
         self._catalogue = catalogue
         self.changed.emit()
+        self.counted.emit()
+        self.waited.emit()
 
     def deal(self, rows: int, columns: int, pairs: int, deck: str, *, practice: bool = False) -> None:
         """Show so many closed cards of a deck; a practice can be left."""
@@ -110,6 +119,9 @@ class BoardScreen(QAbstractListModel):
         self.dealt.emit()
         self._pairs_found = self._moves = 0
         self._wait = None
+        self.changed.emit()
+        self.counted.emit()
+        self.waited.emit()
         self.clear_highlight()
 
     def reveal(self, position: Position, card: str) -> None:
@@ -133,24 +145,24 @@ class BoardScreen(QAbstractListModel):
         first, second = positions
         picture = self._picture(self._face(first).card)
         self._tray.append(picture)
-        self.changed.emit()
+        self.counted.emit()
         self.pair_found.emit(self.location(first), self.location(second), picture)
 
     def show_progress(self, pairs_found: int, moves: int) -> None:
         """Show how far the game is."""
         self._pairs_found, self._moves = pairs_found, moves
-        self.changed.emit()
+        self.counted.emit()
 
     def lock(self, wait: BoardWait | None) -> None:
         """Show why taps do not count just now, or, with None, that they do."""
         self._wait = wait
-        self.changed.emit()
+        self.waited.emit()
 
     def highlight(self, row: int | None, column: int | None) -> None:
         """Mark a card, a row or a column."""
         self._mark_row = _NOWHERE if row is None else row
         self._mark_column = _NOWHERE if column is None else column
-        self.changed.emit()
+        self.marked.emit()
 
     def clear_highlight(self) -> None:
         """Take the mark away."""
@@ -256,7 +268,7 @@ class BoardScreen(QAbstractListModel):
         """Pairs of the board."""
         return self._pairs
 
-    @Property(list, notify=changed)
+    @Property(list, notify=counted)
     def tray(self) -> list[str]:
         """Return the pictures of the pairs that are found, as addresses, in the order in which they were found."""
         return list(self._tray)
@@ -266,12 +278,12 @@ class BoardScreen(QAbstractListModel):
         """Every picture of the deck, as addresses, so that none has to be loaded when its card is turned."""
         return list(self._deck)
 
-    @Property(str, notify=changed)
+    @Property(str, notify=counted)
     def progress(self) -> str:
         """How many pairs are found, in words."""
         return self._catalogue.text("game-pairs", found=self._pairs_found, all=self._pairs)
 
-    @Property(str, notify=changed)
+    @Property(str, notify=counted)
     def moves(self) -> str:
         """How many moves were made, in words."""
         return self._catalogue.text("game-moves", moves=self._moves)
@@ -281,32 +293,32 @@ class BoardScreen(QAbstractListModel):
         """Whether this is a practice, and can be left."""
         return self._practice
 
-    @Property(bool, notify=changed)
+    @Property(bool, notify=waited)
     def open(self) -> bool:
         """Whether a tap counts."""
         return self._wait is None
 
-    @Property(bool, notify=changed)
+    @Property(bool, notify=waited)
     def speaking(self) -> bool:
         """Whether taps do not count because the assistant speaks."""
         return self._wait is BoardWait.SPEAKING
 
-    @Property(bool, notify=changed)
+    @Property(bool, notify=waited)
     def missed(self) -> bool:
         """Whether two cards that are no pair wait to turn back."""
         return self._wait is BoardWait.TURNING_BACK
 
-    @Property(str, notify=changed)
+    @Property(str, notify=waited)
     def wait(self) -> str:
         """Why taps do not count, in words."""
         return "" if self._wait is None else self._catalogue.text(_WAITS[self._wait])
 
-    @Property(int, notify=changed)
+    @Property(int, notify=marked)
     def markRow(self) -> int:  # noqa: N802 - QML's convention
         """Return the marked row, or that of the marked card, from 0; -1 for none."""
         return self._mark_row
 
-    @Property(int, notify=changed)
+    @Property(int, notify=marked)
     def markColumn(self) -> int:  # noqa: N802 - QML's convention
         """Return the marked column, or that of the marked card, from 0; -1 for none."""
         return self._mark_column
