@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -20,13 +20,16 @@ from kiosk.config import Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import Effect
+from kiosk.experiment.items import Response
 from kiosk.experiment.page_stages import item_pages
-from kiosk.experiment.questionnaire import Questionnaire
+from kiosk.experiment.questionnaire import Item, Questionnaire
+from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.ui.event_loop import EventLoop, WallClock
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.replay import avatar_alone
+from kiosk.ui.simulated_visitor import touch
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
 
 QML_IMPORT_NAME = "Recollect"
@@ -105,7 +108,7 @@ def _of_stage(  # noqa: C901 - one case per stage
         case "consent":
             yield stage, (do.ShowConsent(sheet.consent),)
         case "about_you":
-            yield from _pages("about you", (plan.about_you,), rates=False)
+            yield from ((name, (page.effect(),)) for name, page in _pages("about you", (plan.about_you,), rates=False))
         case "introduction":
             speech = "introduction-speech" if cell.helps else "introduction-speech-alone"
             said = plan.catalogue.wordings(speech, cards=CARDS_IN_A_PAIR * pairs, pairs=pairs)[0]
@@ -118,7 +121,7 @@ def _of_stage(  # noqa: C901 - one case per stage
         case "result":
             yield stage, (do.ShowResult(pairs, EXAMPLE_MOVES, EXAMPLE_MS, EXAMPLE_HINTS),)
         case "questions":
-            yield from _pages("questions", plan.questionnaires, rates=True)
+            yield from ((name, (page.effect(),)) for name, page in _pages("questions", plan.questionnaires, rates=True))
         case "debrief":
             yield stage, (do.ShowDebrief(sheet.debrief),)
         case "thanks":
@@ -129,10 +132,40 @@ def _pairs(board: Game | Practice) -> int:
     return board.rows * board.columns // CARDS_IN_A_PAIR
 
 
-def _pages(name: str, asked: tuple[Questionnaire, ...], *, rates: bool) -> Iterator[tuple[str, tuple[Effect, ...]]]:
-    pages = [page for each in asked for page in item_pages(each, Random(0))]
-    for number, page in enumerate(pages, 1):
-        yield f"{name} {number}", (do.ShowItems(page.items, number, len(pages), rates),)
+@dataclass(frozen=True)
+class _FormPage:
+    """A page of a form, and the questionnaire that it is of."""
+
+    asked: Questionnaire
+    items: tuple[Item, ...]
+    number: int
+    of: int
+    rates: bool
+
+    def effect(self, hidden: tuple[str, ...] = ()) -> Effect:
+        """Return what shows it."""
+        return do.ShowItems(self.items, self.number, self.of, self.rates, hidden)
+
+    def hidden(self, given: Mapping[str, Response]) -> tuple[str, ...]:
+        """Return the items that their conditions hide after these answers."""
+        hidden = hidden_items(self.asked.items, given)
+        return tuple(item.id for item in self.items if item.id in hidden)
+
+
+def form_pages(plan: SessionConfig) -> dict[str, _FormPage]:
+    """Return the pages of forms among the screens of a session, by the screen's name."""
+    pages: dict[str, _FormPage] = {}
+    if "about_you" in plan.settings.stages:
+        pages |= _pages("about you", (plan.about_you,), rates=False)
+    if "questions" in plan.settings.stages:
+        pages |= _pages("questions", plan.questionnaires, rates=True)
+    return pages
+
+
+def _pages(name: str, asked: tuple[Questionnaire, ...], *, rates: bool) -> Iterator[tuple[str, _FormPage]]:
+    pages = [(each, page.items) for each in asked for page in item_pages(each, Random(0))]
+    for number, (each, items) in enumerate(pages, 1):
+        yield f"{name} {number}", _FormPage(each, items, number, len(pages), rates)
 
 
 @QmlElement
@@ -159,6 +192,8 @@ class PreviewModel(QObject):
         self._screen, self._size = "attract", SIZES[0]
         self._language = self._study.languages[0]
         self._condition = self._study.settings.assistance.condition
+        self._given: dict[str, dict[str, Response]] | None = None
+        """The answers by questionnaire while the viewer answers; None: every item is shown."""
         self._settled = QTimer(self, singleShot=True)
         self._settled.timeout.connect(self._draw)
         self._open()
@@ -206,6 +241,8 @@ class PreviewModel(QObject):
         clock = WallClock(self._window.owner)
         self._renderer = Renderer(self._window.screens, clock, lambda _: None)
         self._renderer.embodiments = avatar_alone(self._window, clock, self._study.plans[0])
+        self._window.screens.form.answered.connect(self._answer)
+        self._window.screens.form.continued.connect(self._go_on)
 
     def _plan(self) -> SessionConfig:
         plans = self._study.plans
@@ -219,18 +256,46 @@ class PreviewModel(QObject):
         if self._condition not in self.conditions_of(self._study):
             self._condition = self._study.settings.assistance.condition
         plan = self._plan()
-        screens = screen_effects(plan)
-        if self._screen not in screens:
+        if self._screen not in self._get_screens():
             self._screen = "attract"
         width, height = map(int, self._size.split(" x "))
         self.window.setWidth(width)
         self.window.setHeight(height)
         self._renderer.reset("attract")
         self._renderer.begin(plan)
-        self._renderer.perform(screens[self._screen])
+        self._renderer.perform(self._effects(plan))
         self._draw()
         self._settled.start(SETTLE_MS)
         self.changed.emit()
+
+    def _effects(self, plan: SessionConfig) -> tuple[Effect, ...]:
+        page = form_pages(plan).get(self._screen)
+        if page is None or self._given is None:
+            return screen_effects(plan)[self._screen]
+        given = self._given.get(page.asked.id, {})
+        answers = (do.ShowAnswer(item.id, given[item.id]) for item in page.items if item.id in given)
+        return (page.effect(page.hidden(given)), *answers)
+
+    def _answer(self, item: str, value: Response | None) -> None:
+        """Keep an answer, and show and hide the items that have conditions on it."""
+        page = form_pages(self._plan()).get(self._screen)
+        if page is None or self._given is None:
+            return
+        given = self._given.setdefault(page.asked.id, {})
+        if value is None:
+            given.pop(item, None)
+        else:
+            given[item] = value
+        for hidden in hidden_items(page.asked.items, given):
+            given.pop(hidden, None)
+        self._renderer.perform((do.ShowAnswer(item, value), do.HideItems(page.hidden(given))))
+        self.changed.emit()
+
+    def _go_on(self) -> None:
+        """Show the screen after this one."""
+        screens = self._get_screens()
+        self._screen = screens[min(screens.index(self._screen) + 1, len(screens) - 1)]
+        self._show()
 
     def _draw(self) -> None:
         self.picture.image = self.window.grabWindow()
@@ -252,7 +317,14 @@ class PreviewModel(QObject):
         return dict(filter(None, map(_stamp, places)))
 
     def _get_screens(self) -> list[str]:
-        return list(screen_effects(self._plan()))
+        """Return the screens by their names, without the pages of which the answers so far hide every item."""
+        plan = self._plan()
+        screens, given = list(screen_effects(plan)), self._given
+        if given is not None:
+            pages = form_pages(plan).items()
+            hidden = {name for name, page in pages if len(page.hidden(given.get(page.asked.id, {}))) == len(page.items)}
+            screens = [name for name in screens if name not in hidden]
+        return screens
 
     def _get_languages(self) -> list[str]:
         return list(self._study.languages)
@@ -271,6 +343,8 @@ class PreviewModel(QObject):
     language = Property(str, lambda self: self._language, notify=changed)
     condition = Property(str, lambda self: self._condition, notify=changed)
     size = Property(str, lambda self: self._size, notify=changed)
+    answering = Property(bool, lambda self: self._given is not None, notify=changed)
+    to_answer = Property(str, lambda self: self._plan().catalogue.text("preview-answer"), notify=changed)
     title = Property(str, lambda self: self._study.settings.title, notify=changed)
     fault = Property(str, lambda self: self._fault, notify=changed)
     number = Property(int, lambda self: self._drawn, notify=drawn)
@@ -286,10 +360,22 @@ class PreviewModel(QObject):
         self._find("")
         self._show()
 
+    @Slot(bool)
+    def answer(self, answers: bool) -> None:  # noqa: FBT001 - it is what is set
+        """Let the viewer answer the forms from the beginning, or show every item and find texts."""
+        self._given = {} if answers else None
+        self._find("")
+        self._show()
+
     @Slot(float, float)
     def press(self, x: float, y: float) -> None:
-        """Find the text at a place of the visitor's screen; both are shares of its size."""
+        """Find the text at a place of the visitor's screen, or touch it there; both are shares of its size."""
         point = QPointF(x * self.window.width(), y * self.window.height())
+        if self._given is not None and self._screen in form_pages(self._plan()):
+            touch(self.window, point.toPoint())
+            self._draw()
+            self._settled.start(SETTLE_MS)
+            return
         for shown in _texts_at(self.window.contentItem(), point):
             if self._find(shown):
                 return

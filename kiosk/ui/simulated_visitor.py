@@ -50,7 +50,7 @@ class UiDriver:
         if name.startswith("key-"):
             self._turn_to(name)
         if name.startswith(_FIELDS):
-            self._touch(self._reach(name, across))
+            touch(self._window, self._reach(name, across))
         else:
             self._tap(self._reach(name, across))
 
@@ -61,11 +61,6 @@ class UiDriver:
                 return
             if self.is_visible(layer):
                 self._tap(self._reach(layer, 0.5))
-
-    def _touch(self, place: QPoint) -> None:
-        glass = touch_screen()
-        QTest.touchEvent(self._window, glass).press(0, place, self._window).commit()
-        QTest.touchEvent(self._window, glass).release(0, place, self._window).commit()
 
     def double_click(self, name: str, across: float = 0.5) -> None:
         """Do it twice, as fast as a double click."""
@@ -167,6 +162,13 @@ def _texts(item: QQuickItem) -> Iterator[QQuickItem]:
             yield item
         for child in item.childItems():
             yield from _texts(child)
+
+
+def touch(window: QQuickWindow, place: QPoint) -> None:
+    """Touch a place of a window with one finger."""
+    glass = touch_screen()
+    QTest.touchEvent(window, glass).press(0, place, window).commit()
+    QTest.touchEvent(window, glass).release(0, place, window).commit()
 
 
 @cache

@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout, touch_screen
+from kiosk.ui.simulated_visitor import NO_KEY, Aside, UiDriver, UiTimeout, touch, touch_screen
 
 __all__ = ["Finger", "Keyboard", "touch_screen"]
 
@@ -145,4 +145,4 @@ class Finger(UiDriver):
             self.click("key-space" if letter == " " else f"key-{letter.lower()}")
 
     def _tap(self, place: QPoint) -> None:
-        self._touch(place)
+        touch(self._window, place)

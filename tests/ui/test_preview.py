@@ -138,3 +138,64 @@ def test_the_window_shows_the_picture_and_the_lists(preview: PreviewModel) -> No
     window.setProperty("visible", False)  # noqa: FBT003 - Qt's way to set a property
     engine.deleteLater()
     QCoreApplication.sendPostedEvents(engine, QEvent.Type.DeferredDelete)
+
+
+CONDITIONAL = """id = "own"
+version = "1"
+note = "Ours."
+
+[[items]]
+id = "plays"
+kind = "single"
+text.en = "Do you play?"
+text.it = "Giochi?"
+options = [{ id = "yes", text.en = "Yes", text.it = "Sì" }, { id = "no", text.en = "No", text.it = "No" }]
+
+[[items]]
+id = "often"
+kind = "likert"
+points = 5
+relevant = "plays = 'yes'"
+text.en = "How often?"
+text.it = "Quanto spesso?"
+lowest = { en = "never", it = "mai" }
+highest = { en = "always", it = "sempre" }
+"""
+
+
+@pytest.mark.parametrize("per_page", [1, 2])
+def test_the_viewer_answers_and_items_come_and_go_with_their_conditions(
+    preview: PreviewModel, study: Path, qtbot: QtBot, per_page: int
+) -> None:
+    (study.parent / "own.toml").write_text(f"per_page = {per_page}\n{CONDITIONAL}")
+    study.write_text(STUDY.replace('"trust"', '"./own.toml"'))
+    preview.reload()
+    last = f"questions {3 - per_page}"
+    preview.pick("screen", last)
+    assert "How often?" in texts(preview)
+    preview.pick("screen", "questions 1")
+    preview.answer(answers=True)
+    assert not shows(preview, "How often?")
+    assert (last in preview.property("screens")) is (last == "questions 1")
+    qtbot.waitUntil(lambda: touched(preview, "Yes", "plays"), timeout=5000)
+    preview.pick("screen", last)
+    assert shows(preview, "How often?")
+    preview.pick("screen", "questions 1")
+    qtbot.waitUntil(lambda: touched(preview, "No", "plays"), timeout=5000)
+    assert not shows(preview, "How often?")
+    preview.answer(answers=False)
+    preview.pick("screen", last)
+    assert shows(preview, "How often?")
+
+
+def shows(preview: PreviewModel, words: str) -> bool:
+    found = [preview.window.contentItem()]
+    for item in found:
+        found += [child for child in item.childItems() if child.isVisible()]
+    return any(item.property("text") == words for item in found)
+
+
+def touched(preview: PreviewModel, words: str, item: str) -> bool:
+    """Touch an option, which takes no input at first, and tell whether it is chosen."""
+    click(preview, words)
+    return preview._window.screens.form.given.get(item) == words.lower()

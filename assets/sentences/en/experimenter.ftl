@@ -206,3 +206,7 @@ console-alarm-restarted = The kiosk was started again after it had failed
 console-alarm-clock-changed = The clock was changed
 console-alarm-backup-old = The last copy is older than a day
 console-alarm-no-visitor = No visitor for a long time
+
+## The window of recollect study preview
+
+preview-answer = Answer the questions

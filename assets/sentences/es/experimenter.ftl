@@ -206,3 +206,7 @@ console-alarm-restarted = El programa arrancó de nuevo después de un fallo
 console-alarm-clock-changed = Se ha cambiado el reloj
 console-alarm-backup-old = La última copia tiene más de un día
 console-alarm-no-visitor = Ningún visitante desde hace mucho tiempo
+
+## La ventana de recollect study preview
+
+preview-answer = Responder a las preguntas

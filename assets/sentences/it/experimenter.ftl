@@ -206,3 +206,7 @@ console-alarm-restarted = Il programma è ripartito dopo un guasto
 console-alarm-clock-changed = L’orologio è stato cambiato
 console-alarm-backup-old = L’ultima copia ha più di un giorno
 console-alarm-no-visitor = Nessun visitatore da molto tempo
+
+## La finestra di recollect study preview
+
+preview-answer = Rispondi alle domande

@@ -39,6 +39,12 @@ Window {
             Choice { what: "language"; model: root.preview.languages; chosen: root.preview.language }
             Choice { what: "size"; model: root.preview.sizes; chosen: root.preview.size }
             Choice { what: "condition"; model: root.preview.conditions; chosen: root.preview.condition }
+            CheckBox {
+                text: root.preview.to_answer
+                font.pixelSize: 14
+                checked: root.preview.answering
+                onToggled: root.preview.answer(checked)
+            }
             ListView {
                 id: screens
                 Layout.fillWidth: true
