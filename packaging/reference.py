@@ -17,8 +17,8 @@ DOCS = Path(__file__).resolve().parent.parent / "docs"
 
 
 GENERATED: dict[str, Callable[[], str]] = {
-    "commands.md": lambda: commands_page(recollect, DATA),
-    "study-file.md": lambda: as_page(Settings),
+    "reference/commands.md": lambda: commands_page(recollect, DATA),
+    "reference/study-file.md": lambda: as_page(Settings),
 }
 """What gives each page that is generated, by its place in the documentation."""
 

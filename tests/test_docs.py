@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 PAGES = [
     *sorted(ROOT.glob("*.md")),
     ROOT / "tests" / "README.md",
-    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
     *sorted(ROOT.glob("p*/*.md")),
 ]
 
@@ -41,14 +41,22 @@ REFERENCE, BOOTSTRAP = load("reference"), load("bootstrap")
 
 
 def test_the_diagram_of_the_stages_is_drawn_from_the_table() -> None:
-    page = (ROOT / "docs" / "how-it-works.md").read_text("utf-8")
+    page = (ROOT / "docs" / "explanation" / "how-it-works.md").read_text("utf-8")
     assert f"<!-- stages -->\n```mermaid\n{diagram()}```\n<!-- /stages -->" in page
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_link_of_a_page_leads_somewhere(page: Path) -> None:
-    targets = re.findall(r"\]\(([^)#:]+)\)", page.read_text("utf-8"))
-    assert [target for target in targets if not (page.parent / target).exists()] == []
+    links = [link.partition("#") for link in re.findall(r"\]\(([^):]+)\)", page.read_text("utf-8"))]
+    targets = [(page.parent / path if path else page, anchor) for path, _, anchor in links]
+    assert [str(file) for file, _ in targets if not file.exists()] == []
+    assert [anchor for file, anchor in targets if anchor and anchor not in anchors(file.read_text("utf-8"))] == []
+
+
+def anchors(page: str) -> set[str]:
+    """Return what a link may name on a page: its headings, in small letters and with hyphens."""
+    headings = re.findall(r"^#+ (.+)$", page, flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-") for heading in headings}
 
 
 @pytest.mark.parametrize("name", REFERENCE.GENERATED)

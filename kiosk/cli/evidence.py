@@ -1,4 +1,4 @@
-"""Every number that docs/learning.md and the policy cards give, made again, and whether each claim holds.
+"""Every number that docs/explanation/learning.md and the policy cards give, made again, and whether each claim holds.
 
 Two arms never share random numbers, so the interval of their difference is that of two independent samples. Tables of
 different training seeds play the same games, so that what differs between them is the table alone.

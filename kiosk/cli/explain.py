@@ -175,7 +175,7 @@ _LABEL = 11
 @click.option("--flip", type=click.IntRange(min=1), help="Explain the decision before this flip of a stored session.")
 @sessions_data_option
 @json_option
-@click.option("--table", is_flag=True, help="Print the table of all reasons that docs/mentaliser.md shows.")
+@click.option("--table", is_flag=True, help="Print the table of all reasons that docs/explanation/mentaliser.md shows.")
 def explain_command(case_or_session: str | None, flip: int | None, data: Path, *, as_json: bool, table: bool) -> None:
     """Explain one decision of a stored session or a case file.
 

@@ -24,68 +24,80 @@ class Guide:
 
 
 GUIDES = {
-    "study new": Guide("new-study.md", ("study new my-study", "study new my-study --template fair --language it")),
-    "study check": Guide("study-file.md", ("study check study.toml", "study check study.toml --pages")),
-    "study preview": Guide("preview.md", ("study preview study.toml",), "It shows a window."),
+    "study new": Guide(
+        "how-to/new-study.md", ("study new my-study", "study new my-study --template fair --language it")
+    ),
+    "study check": Guide("reference/study-file.md", ("study check study.toml", "study check study.toml --pages")),
+    "study preview": Guide("how-to/preview.md", ("study preview study.toml",), "It shows a window."),
     "study cards": Guide(
-        "own-cards.md", ("study cards study.toml --sheet cards.png", "study cards study.toml --names")
+        "how-to/own-cards.md", ("study cards study.toml --sheet cards.png", "study cards study.toml --names")
     ),
     "study translations": Guide(
-        "add-a-language.md",
+        "how-to/add-a-language.md",
         ("study translations study.toml", "study translations study.toml --language it --write italian.csv"),
     ),
     "study import": Guide(
-        "import.md", ("study import items.csv --id trust --version 1 --out questionnaires/trust.toml",)
+        "how-to/import.md", ("study import items.csv --id trust --version 1 --out questionnaires/trust.toml",)
     ),
-    "study dossier": Guide("dossier.md", ("study dossier study.toml --out dossier.pdf",)),
-    "study diff": Guide("one-file.md", ("study diff pilot.toml study.toml",)),
-    "study pack": Guide("one-file.md", ("study pack study.toml --out study.recollect",)),
-    "study set-pin": Guide("experimenter.md", ("study set-pin",)),
+    "study dossier": Guide("how-to/dossier.md", ("study dossier study.toml --out dossier.pdf",)),
+    "study diff": Guide("how-to/one-file.md", ("study diff pilot.toml study.toml",)),
+    "study pack": Guide("how-to/one-file.md", ("study pack study.toml --out study.recollect",)),
+    "study set-pin": Guide("how-to/experimenter.md", ("study set-pin",)),
     "study reference": Guide(
-        "study-file.md",
+        "reference/study-file.md",
         ("study reference", "study reference --toml"),
         "It prints a page or, with --toml, a study file.",
     ),
-    "plan new": Guide("plan.md", ("plan new plan.toml",)),
-    "plan check": Guide("plan.md", ("plan check plan.toml",)),
-    "plan power": Guide("plan.md", ("plan power plan.toml --n 40 --studies 200",)),
-    "plan show": Guide("plan.md", ("plan show plan.toml",)),
-    "plan freeze": Guide("plan.md", ("plan freeze plan.toml",)),
-    "plan look": Guide("plan.md", ("plan look plan.toml",)),
-    "plan simulate": Guide("plan.md", ("plan simulate plan.toml --out simulated --people 40",)),
-    "voice render": Guide("voice.md", ("voice render", "voice render --study study.toml --language it")),
-    "voice script": Guide("voice.md", ("voice script --study study.toml --language it",)),
-    "voice import": Guide("voice.md", ("voice import recordings --out voices/anna --speaker Anna",)),
-    "voice missing": Guide("voice.md", ("voice missing voices/anna --study study.toml",)),
-    "voice check": Guide("voice.md", ("voice check voices/anna",)),
-    "voice play": Guide("voice.md", ('voice play "The lion is in the second row."',)),
-    "run": Guide("booth.md", ("run --study study.toml", "run --supervise --study study.toml")),
-    "check": Guide("booth.md", ("check --study study.toml", "check --say")),
+    "plan new": Guide("how-to/plan.md", ("plan new plan.toml",)),
+    "plan check": Guide("how-to/plan.md", ("plan check plan.toml",)),
+    "plan power": Guide("how-to/plan.md", ("plan power plan.toml --n 40 --studies 200",)),
+    "plan show": Guide("how-to/plan.md", ("plan show plan.toml",)),
+    "plan freeze": Guide("how-to/plan.md", ("plan freeze plan.toml",)),
+    "plan look": Guide("how-to/plan.md", ("plan look plan.toml",)),
+    "plan simulate": Guide("how-to/plan.md", ("plan simulate plan.toml --out simulated --people 40",)),
+    "voice render": Guide("how-to/voice.md", ("voice render", "voice render --study study.toml --language it")),
+    "voice script": Guide("how-to/voice.md", ("voice script --study study.toml --language it",)),
+    "voice import": Guide("how-to/voice.md", ("voice import recordings --out voices/anna --speaker Anna",)),
+    "voice missing": Guide("how-to/voice.md", ("voice missing voices/anna --study study.toml",)),
+    "voice check": Guide("how-to/voice.md", ("voice check voices/anna",)),
+    "voice play": Guide("how-to/voice.md", ('voice play "The lion is in the second row."',)),
+    "run": Guide("how-to/booth.md", ("run --study study.toml", "run --supervise --study study.toml")),
+    "check": Guide("how-to/booth.md", ("check --study study.toml", "check --say")),
     "rehearse": Guide(
-        "booth.md",
+        "how-to/booth.md",
         ("rehearse --headless --seed 1 --shots pictures", "rehearse --headless --sessions 200 --study study.toml"),
     ),
-    "robot": Guide("embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml")),
-    "status": Guide("booth.md", ("status", "status --json")),
-    "sessions": Guide("data-set.md", ("sessions", "sessions --codes")),
-    "events": Guide("data-set.md", ("events 1", "events 1 --json")),
-    "replay": Guide("how-it-works.md", ("replay 1", "replay 1 --headless --frames pictures")),
-    "explain": Guide("mentaliser.md", ("explain 1 --flip 14", "explain case.json")),
-    "day": Guide("booth.md", ("day", "day --date 2026-05-09 --out saturday.html")),
-    "backup": Guide("booth.md", ("backup", "backup --to stick")),
-    "verify": Guide("booth.md", ("verify",)),
-    "browse": Guide("booth.md", ("browse --open",), "It serves a page until Ctrl+C."),
-    "withdraw": Guide("data-set.md", ("withdraw ABCD-EFGH",)),
-    "merge": Guide("booth.md", ("merge booth-1 booth-2 --out both",)),
-    "export": Guide("data-set.md", ("export --out data-set", "export --out data-set --bids --with-rehearsals")),
-    "report": Guide("report.md", ("report data-set --out report", "report data-set --plan plan.toml --out report")),
-    "calibrate": Guide("calibrate.md", ("calibrate data-set",)),
-    "train": Guide("learning.md", ("train --out table.json", "train --reward paper --episodes 5000 --out paper.json")),
-    "simulate": Guide("learning.md", ("simulate --games 500", "simulate --policy table.json --condition tom")),
-    "policy show": Guide("learning.md", ("policy show default", "policy show table.json --figure table.svg")),
-    "policy compare": Guide("learning.md", ("policy compare default table.json",)),
-    "policy card": Guide("learning.md", ("policy card table.json",)),
-    "policy evidence": Guide("learning.md", ("policy evidence --games 200",)),
+    "robot": Guide("explanation/embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml")),
+    "status": Guide("how-to/booth.md", ("status", "status --json")),
+    "sessions": Guide("reference/data-set.md", ("sessions", "sessions --codes")),
+    "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
+    "replay": Guide("explanation/how-it-works.md", ("replay 1", "replay 1 --headless --frames pictures")),
+    "explain": Guide("explanation/mentaliser.md", ("explain 1 --flip 14", "explain case.json")),
+    "day": Guide("how-to/booth.md", ("day", "day --date 2026-05-09 --out saturday.html")),
+    "backup": Guide("how-to/booth.md", ("backup", "backup --to stick")),
+    "verify": Guide("how-to/booth.md", ("verify",)),
+    "browse": Guide("how-to/booth.md", ("browse --open",), "It serves a page until Ctrl+C."),
+    "withdraw": Guide("reference/data-set.md", ("withdraw ABCD-EFGH",)),
+    "merge": Guide("how-to/booth.md", ("merge booth-1 booth-2 --out both",)),
+    "export": Guide(
+        "reference/data-set.md", ("export --out data-set", "export --out data-set --bids --with-rehearsals")
+    ),
+    "report": Guide(
+        "how-to/report.md", ("report data-set --out report", "report data-set --plan plan.toml --out report")
+    ),
+    "calibrate": Guide("how-to/calibrate.md", ("calibrate data-set",)),
+    "train": Guide(
+        "explanation/learning.md", ("train --out table.json", "train --reward paper --episodes 5000 --out paper.json")
+    ),
+    "simulate": Guide(
+        "explanation/learning.md", ("simulate --games 500", "simulate --policy table.json --condition tom")
+    ),
+    "policy show": Guide(
+        "explanation/learning.md", ("policy show default", "policy show table.json --figure table.svg")
+    ),
+    "policy compare": Guide("explanation/learning.md", ("policy compare default table.json",)),
+    "policy card": Guide("explanation/learning.md", ("policy card table.json",)),
+    "policy evidence": Guide("explanation/learning.md", ("policy evidence --games 200",)),
 }
 """The guide of every command that does something, by its name with that of its group."""
 
@@ -163,7 +175,7 @@ def _section(name: str, command: click.Command) -> Iterator[str]:
             yield f"| {names} | {_about(option)} |"
     if guide.why_no_json:
         yield f"\nThere is no `--json`. {guide.why_no_json}"
-    yield f"\nRead on: [{guide.page}]({guide.page})\n"
+    yield f"\nRead on: [{guide.page}](../{guide.page})\n"
 
 
 def _about(option: click.Option) -> str:

@@ -92,7 +92,7 @@ class NewStudy:
         if unknown or not self.languages:
             there = ", ".join(shipped_names("sentences"))
             what = f"the language {unknown[0]!r} is not shipped" if unknown else "a study has at least one language"
-            raise UserInputError(f"{what} (shipped are {there}); docs/add-a-language.md says how to add one")
+            raise UserInputError(f"{what} (shipped are {there}); docs/how-to/add-a-language.md says how to add one")
         settings = self._settings()
         return {
             STUDY_FILE: as_short_study_file(settings, _SHOWN, _head(self.template)).encode(),

@@ -140,7 +140,7 @@ def _option(name: str) -> str:
 
 
 def is_survey(file: Path) -> bool:
-    """Whether a file is one of a survey program, and not a table as docs/extend.md describes it."""
+    """Whether a file is one of a survey program, and not a table as docs/how-to/extend.md describes it."""
     if file.suffix.lower() in {".xlsx", ".qsf"}:
         return True
     if file.suffix.lower() not in {".csv", ".txt", ".tsv"} or not file.is_file():

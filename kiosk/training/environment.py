@@ -70,7 +70,8 @@ class AssistanceEnv(gym.Env[int, int]):
     0: twelve pairs, shuffled, all closed.
 
     ## Rewards
-    ``reward``: ``Reward.RETRIEVAL`` (the default), ``PAPER`` or ``RELEASED``, paid for each flip; docs/learning.md.
+    ``reward``: ``Reward.RETRIEVAL`` (the default), ``PAPER`` or ``RELEASED``, paid for each flip;
+    see docs/explanation/learning.md.
 
     ## Episode end
     Terminated when the twelfth pair is found; truncated when a game is given up after 5,000 flips. After that, and

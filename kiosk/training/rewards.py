@@ -1,5 +1,6 @@
-"""The rewards, by name: what the robot is paid for after each flip. docs/learning.md gives the reasons and the limits.
+"""The rewards, by name: what the robot is paid for after each flip.
 
+docs/explanation/learning.md gives the reasons and the limits.
 A reward sees one flip and nothing else of the game; only the released one keeps a purse between flips.
 """
 

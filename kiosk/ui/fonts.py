@@ -62,7 +62,7 @@ def use_fonts(own: Sequence[Path] = ()) -> None:
 
 @dataclass(frozen=True)
 class Missing:
-    """Characters or joined emoji of a language that no font here can draw, and one of the places where they stand."""
+    """Hold what no font here can draw of a language, and one place where it stands."""
 
     language: str
     characters: tuple[str, ...]
@@ -183,7 +183,7 @@ _ONE_PICTURE = 1.5
 
 
 def _undrawn(text: str, known: dict[str, bool]) -> Iterator[str]:
-    """Yield the characters of a text that have no glyph, and the joined emoji that are drawn in parts, each once."""
+    """Yield, each once, the characters without a glyph and the joined emoji that are drawn in parts."""
     for character in dict.fromkeys(text):
         if unicodedata.category(character) in _UNDRAWN_CATEGORIES or _is_mark(character):
             continue

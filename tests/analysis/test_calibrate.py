@@ -149,7 +149,7 @@ def test_the_page_of_calibration_gives_the_numbers_of_its_example(tmp_path: Path
     done = CliRunner().invoke(recollect, ["calibrate", str(study), "--json"])
     assert done.exit_code == 0, done.output
     found = json.loads(done.stdout)
-    page = (Path(__file__).parents[2] / "docs" / "calibrate.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "calibrate.md").read_text("utf-8")
     for name, label in (
         ("forgetting_mean", "forgetting, mean of the logit"),
         ("forgetting_spread", "forgetting, spread of the logit"),

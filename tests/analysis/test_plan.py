@@ -58,7 +58,7 @@ def test_the_bounds_are_those_of_the_published_tables() -> None:
 
 
 def test_the_page_of_plans_gives_the_levels_of_its_four_looks() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "plan.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "plan.md").read_text("utf-8")
     for spending in ("obrien-fleming", "pocock"):
         row = re.search(rf"^\| `{spending}` \|(.*)\|$", page, re.MULTILINE)
         assert row is not None

@@ -93,7 +93,7 @@ def test_a_report_has_every_form_of_its_content(written: Path) -> None:
 
 
 def test_the_worked_example_of_the_page_is_what_the_commands_print(written: Path) -> None:
-    page = (Path(__file__).parents[2] / "docs" / "report.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "report.md").read_text("utf-8")
     example = page.split("$ recollect report example")[1].split("```")[0].split("\n", 1)[1]
     printed = (written.parent / "printed.txt").read_text().splitlines()[:-1]
     assert example.splitlines()[:-1] == printed

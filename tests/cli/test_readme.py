@@ -223,7 +223,7 @@ def is_kept_up(newcomer: Newcomer, arguments: Sequence[str]) -> bool:
 
 
 def test_the_tutorial_can_be_followed(newcomer: Newcomer) -> None:
-    page = (ROOT / "docs" / "first-study.md").read_text("utf-8")
+    page = (ROOT / "docs" / "tutorials" / "first-study.md").read_text("utf-8")
     typed = [shlex.split(line)[1:] for line in re.findall(r"^    (recollect .*)$", page, flags=re.M)]
     followed = []
     for arguments in typed:

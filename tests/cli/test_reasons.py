@@ -14,7 +14,7 @@ from kiosk.cli.explain import EXAMPLES, reason_example, reasons_table
 from kiosk.cli.main import main
 from tests.samples import CATALOGUES
 
-PAGE = Path(__file__).parents[2] / "docs" / "mentaliser.md"
+PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "mentaliser.md"
 
 
 def test_the_page_shows_the_table_as_it_is_today() -> None:
@@ -22,7 +22,9 @@ def test_the_page_shows_the_table_as_it_is_today() -> None:
         r"<!-- made by: recollect explain --table -->\n\n(.*)\n<!-- end -->", PAGE.read_text("utf-8"), re.DOTALL
     )
     assert shown is not None
-    assert shown[1] == reasons_table(), "write the output of `recollect explain --table` into docs/mentaliser.md"
+    assert shown[1] == reasons_table(), (
+        "write the output of `recollect explain --table` into docs/explanation/mentaliser.md"
+    )
 
 
 def test_the_command_prints_it(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -21,7 +21,7 @@ from tests.cli.bad_studies import OWN, QUESTIONS, SENTENCES, SHEETS, STUDIES, TO
 from tests.samples import without_line
 
 PAPER = ASSETS / "studies" / "paper.toml"
-PAGE = Path(__file__).parents[2] / "docs" / "study-file.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "study-file.md"
 TABLE = "id,kind,scale,text_en,lowest_en,highest_en\none,likert,S,How?,little,much\n"
 
 

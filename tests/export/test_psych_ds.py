@@ -121,7 +121,7 @@ def test_the_example_of_the_data_set_runs(exported: Path) -> None:
 
 
 def test_the_example_of_the_page_runs_and_says_the_same(exported: Path, tmp_path: Path) -> None:
-    page = (Path(__file__).parents[2] / "docs" / "data-set.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "data-set.md").read_text("utf-8")
     example = page.split("<!-- example -->\n```python\n")[1].split("```\n<!-- /example -->")[0]
     assert len(example.replace("\n\n", "\n").splitlines()) <= 11
     (tmp_path / "my-study").symlink_to(exported)
@@ -133,7 +133,7 @@ def test_the_example_of_the_page_runs_and_says_the_same(exported: Path, tmp_path
 
 
 def test_the_page_names_every_table_that_there_is(exported: Path) -> None:
-    page = (Path(__file__).parents[2] / "docs" / "data-set.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "data-set.md").read_text("utf-8")
     tables = {path.name.split("description-")[1].removesuffix("_data.csv") for path in exported.glob("data/*.csv")}
     listed = page.split("## What is in it")[1].split("## ")[0]
     assert {line.split("`")[1] for line in listed.splitlines() if line.startswith("| `")} == tables

@@ -241,6 +241,6 @@ def refusal(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
 
 @pytest.fixture(scope="session")
 def documented() -> Callable[[str, str], bool]:
-    """Whether docs/extend.md shows a file of a package as it is installed here."""
-    page = (PLUGINS.parents[1] / "docs" / "extend.md").read_text("utf-8")
+    """Whether docs/how-to/extend.md shows a file of a package as it is installed here."""
+    page = (PLUGINS.parents[1] / "docs" / "how-to" / "extend.md").read_text("utf-8")
     return lambda package, file: (PACKAGES[package] / file).read_text("utf-8") in page

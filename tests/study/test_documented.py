@@ -16,7 +16,7 @@ from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
 ELSEWHERE = ("[[items]]", "[project]", "signs =")
 """What tells the blocks of other files: questionnaires, packages and information sheets."""
 
-PAGE = (Path(__file__).parents[2] / "docs" / "extend.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "extend.md").read_text("utf-8")
 
 
 def shown(language: str) -> list[str]:

@@ -270,7 +270,7 @@ def test_the_literal_reward_plays_the_game_for_the_player() -> None:
 
 def test_two_seeds_of_the_default_recipe_act_alike_where_they_have_been_often() -> None:
     one, other = (learnt(replace(RETRIEVING, episodes=2000, seed=seed)) for seed in (1, 2))
-    # 2,000 of the 25,000 episodes settle second cards; docs/learning.md has the agreement of whole tables.
+    # 2,000 of the 25,000 episodes settle second cards; docs/explanation/learning.md has the agreement of whole tables.
     met = policies.visits(one)
     often = [
         state for state in met if state.outcome in (MoveOutcome.S_CORRECT, MoveOutcome.S_WRONG) and met[state] > 2000

@@ -1,7 +1,8 @@
 """The simulated players play as long as they are known to, and as the reference players do.
 
 Tolerances are four standard errors of the mean at this number of games: one seed in 16,000 falls outside by chance,
-and the seeds are fixed. The figures of many thousand games stand in docs/learning.md, with the command that makes them.
+and the seeds are fixed. The figures of many thousand games stand in docs/explanation/learning.md, with the
+command that makes them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """The shipped tables do in play what is claimed of them; what is measured is what the study measures.
 
-The games here are few, and the intervals wide; the figures in docs/learning.md are made with 20,000 games an arm.
+The games here are few, and the intervals wide; the figures in docs/explanation/learning.md are made with
+20,000 games an arm.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ function of ``kiosk/`` that is on the way: it is on the stack when an effect is 
 database, or when it reaches the screen, the voice or the clock. A function counts once for each event, however often
 it is called. Generated constructors, and the clock that stands in for Qt's timers, are not counted.
 
-``python -m tests.ui.tap_walk`` writes the walk into docs/how-it-works.md.
+``python -m tests.ui.tap_walk`` writes the walk into docs/explanation/how-it-works.md.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.voice import SilentVoice
 from tests.ui.headless import headless, short
 
-PAGE = Path(__file__).parent.parent.parent / "docs" / "how-it-works.md"
+PAGE = Path(__file__).parent.parent.parent / "docs" / "explanation" / "how-it-works.md"
 KIOSK = Path(do.__file__).parent.parent
 _NOT_ON_THE_WAY = {"VirtualClock.jump", "VirtualClock._end"}
 _OF_A_FUNCTION = {"<genexpr>", "<listcomp>", "<dictcomp>", "<setcomp>"}

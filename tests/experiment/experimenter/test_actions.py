@@ -27,7 +27,7 @@ from kiosk.experiment.experimenter import (
 )
 from kiosk.experiment.transitions import TABLE as STAGES
 
-MANUAL = Path(__file__).parents[3] / "docs" / "experimenter.md"
+MANUAL = Path(__file__).parents[3] / "docs" / "how-to" / "experimenter.md"
 
 CHANGES_THE_STUDY = (Action.CONDITION, Action.EMBODIMENT, Action.LANGUAGE)
 
