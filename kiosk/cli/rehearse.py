@@ -392,7 +392,7 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
     from kiosk.store.queries import open_repository  # noqa: PLC0415 - a tenth of a second that opening need not pay
 
     with open_repository(data) as there:
-        played = there.sessions()[-stored:] if stored else []
+        played = there.sessions(newest=stored)
         states = [SessionState.from_events(there.events(session.id)) for session in played]
     ends = Counter(session.status.value if session.status else "running" for session in played)
     changes = sum(len(state.embodiment_changes) for state in states)
@@ -432,7 +432,7 @@ def _last_session(data: Path, longest_gap_ms: float | None) -> dict[str, Any]:
     from kiosk.store.queries import open_repository  # noqa: PLC0415 - a tenth of a second that opening need not pay
 
     with open_repository(data) as stored:
-        played = stored.sessions()[-1].to_json()
+        played = stored.sessions(newest=1)[0].to_json()
         if longest_gap_ms is not None:
             played |= _with_robot(stored.events(played["session"]), longest_gap_ms)
     return played

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -15,45 +15,146 @@ from rich.table import Table
 from kiosk import UserInputError
 from kiosk.cli.options import data_option, json_option, sessions_data_option
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
-from kiosk.store.queries import StoredSession, open_repository
-from kiosk.units import MS_PER_SECOND
+from kiosk.experiment.events import Status
+from kiosk.experiment.session_config import SessionKind
+from kiosk.store.participants import Disposition, EnrolmentCounts
+from kiosk.store.queries import RUNNING, SessionFilter, SessionTotals, StoredSession, open_repository
+from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
-WIDTH = 150
+WIDTH = 160
 """Characters that a line of the list may need."""
+
+PER_PAGE = 50
 
 _WORDS = ("condition", "embodiment", "status", "stage", "allocation_source")
 _COUNTS = ("pairs", "moves", "flips", "hints")
+_VISITORS = {"person": SessionKind.STUDY, "trial": SessionKind.TRIAL, "simulated": SessionKind.SIMULATED}
+_FATES = {
+    Disposition.CONSUMED: "game completed",
+    Disposition.UNDER_WAY: "under way",
+    Disposition.DROPPED_OUT: "dropped out",
+    Disposition.OVERRIDDEN: "chosen by hand",
+    Disposition.BEYOND: "beyond the list",
+    Disposition.UNLISTED: "without a list",
+}
+_STATUSES = [RUNNING, *(status.value for status in Status)]
+_DAY = click.DateTime(["%Y-%m-%d"])
 
 
 @click.command()
 @sessions_data_option
+@click.option("--visitor", type=click.Choice(list(_VISITORS)), help="Only sessions of people, of trials, or simulated.")
+@click.option("--condition", help="Only sessions in this condition.")
+@click.option("--status", type=click.Choice(_STATUSES), help="Only sessions that ended so, or are running.")
+@click.option("--site", help="Only sessions of this site.")
+@click.option("--since", type=_DAY, help="Only sessions of this day, such as 2026-05-01, and later.")
+@click.option("--until", type=_DAY, help="Only sessions of this day and earlier.")
+@click.option("--page", type=click.IntRange(min=1), help=f"{PER_PAGE} sessions; page 1 has the newest.")
+@click.option("--all", "everything", is_flag=True, help="All sessions, not only the newest page.")
 @click.option("--codes", is_flag=True, help="Show the participants' codes as well; they are the visitors' own.")
 @json_option
-def sessions_command(data: Path, *, codes: bool, as_json: bool) -> None:
+def sessions_command(
+    data: Path,
+    visitor: str | None,
+    condition: str | None,
+    status: str | None,
+    site: str | None,
+    since: datetime | None,
+    until: datetime | None,
+    page: int | None,
+    *,
+    everything: bool,
+    codes: bool,
+    as_json: bool,
+) -> None:
     """List the stored sessions and how they ended.
 
-    Each has its time, condition and stage.
+    Each has its time, condition and stage. Below them are their number by status, and how far each condition is from
+    its target. --json lists all of them, unless you ask for a page.
     """
+    if page is not None and everything:
+        raise click.UsageError("choose --page or --all")
+    which = SessionFilter(
+        kind=_VISITORS[visitor] if visitor else None,
+        condition=condition,
+        status=status,
+        site=site,
+        since=since.date() if since else None,
+        until=until.date() if until else None,
+    )
+    whole = everything or (as_json and page is None)
+    skip = 0 if whole else ((page or 1) - 1) * PER_PAGE
     with open_repository(data) as stored:
-        rows = [_row(session, with_code=codes) for session in stored.sessions()]
-    if as_json:
-        click.echo(json.dumps(rows))
-        return
+        if condition is not None and condition not in stored.conditions():
+            raise UserInputError(
+                f"no session is in the condition {condition!r}; there are {', '.join(stored.conditions()) or 'none'}"
+            )
+        listed = stored.sessions(which, newest=-1 if whole else PER_PAGE, skip=skip)
+        if as_json:
+            click.echo(json.dumps([_row(session, with_code=codes) for session in listed]))
+            return
+        totals, enrolled = stored.totals(which), stored.counts(kind=SessionKind.STUDY)
+    # Without a terminal, or in a narrow window, lines may be long, but no word is cut.
+    console = Console(width=max(Console().width, WIDTH), highlight=False)
+    console.print(_table(listed, codes=codes))
+    for line in _totals(totals, len(listed), skip):
+        console.print(line)
+    if any(cell.quota for cell in enrolled.cells.values()):
+        console.print(_targets(enrolled))
+
+
+def _table(listed: Sequence[StoredSession], *, codes: bool) -> Table:
     table = Table(box=None)
     own = ("participant", "code") if codes else ("participant",)
-    for heading in ("session", *own, "started (UTC)", *_WORDS, "visitor", *_COUNTS):
-        table.add_column(heading, no_wrap=True, justify="right" if heading in _COUNTS else "left")
-    for row in rows:
-        started = row["started_at"][:16].replace("T", " ")
-        visitor = "simulated" if row["simulated"] else "trial" if row["trial"] else "person"
-        cells = (row["session"], *(row[key] for key in own), started, *(row[key] for key in _WORDS), visitor)
+    right = {*_COUNTS, "duration"}
+    for heading in ("session", *own, "started", "duration", *_WORDS, "visitor", *_COUNTS):
+        table.add_column(heading, no_wrap=True, justify="right" if heading in right else "left")
+    names = {kind: name for name, kind in _VISITORS.items()}
+    for session in listed:
+        row = _row(session, with_code=codes)
+        times = (f"{session.began:%Y-%m-%d %H:%M}", _duration(session.duration_ms))
+        cells = (row["session"], *(row[key] for key in own), *times, *(row[key] for key in _WORDS), names[session.kind])
         table.add_row(*(_word(cell) for cell in cells), *(str(row[key]) for key in _COUNTS))
-    # Without a terminal, or in a narrow window, lines may be long, but no word is cut.
-    Console(width=max(Console().width, WIDTH)).print(table)
+    return table
 
 
 def _row(session: StoredSession, *, with_code: bool) -> dict[str, Any]:
-    return session.to_json() | {"started_at": session.started_at} | ({"code": session.code} if with_code else {})
+    times = {"started_at": session.started_at, "started_local": session.began.isoformat(timespec="seconds")}
+    return session.to_json() | times | ({"code": session.code} if with_code else {})
+
+
+def _totals(totals: SessionTotals, shown: int, skip: int) -> Iterator[str]:
+    """Yield how many sessions there are, by status, and which of them are shown."""
+    yield ""
+    if not totals.sessions:
+        yield "No sessions."
+        return
+    counts = ", ".join(f"{number:,} {status}" for status, number in sorted(totals.by_status.items()))
+    lasted = "" if totals.median_ms is None else f"; a completed one lasts {_duration(totals.median_ms)} (median)"
+    yield f"{totals.sessions:,} sessions: {counts}{lasted}."
+    if shown < totals.sessions:
+        last = totals.sessions - skip
+        first = f"{last - shown + 1:,} to {last:,}" if shown else "none"
+        yield f"Shown: {first} of {totals.sessions:,}. --page N shows older ones, --all all of them."
+
+
+def _targets(enrolled: EnrolmentCounts) -> Table:
+    """Return the people in each condition against its target; every session of the data folder counts."""
+    table = Table(box=None, title="People, against the targets", title_justify="left", title_style="")
+    fates = [fate for fate in _FATES if any(cell.fates[fate] for cell in enrolled.cells.values())]
+    fates = [Disposition.CONSUMED, *(fate for fate in fates if fate is not Disposition.CONSUMED)]
+    for heading in ("condition", "target", *(_FATES[fate] for fate in fates), "still to come", "withdrawn"):
+        table.add_column(heading, no_wrap=True, justify="left" if heading == "condition" else "right")
+    for condition, cell in enrolled.cells.items():
+        numbers = [cell.quota, *(cell.fates[fate] for fate in fates)]
+        numbers += [max(0, cell.quota - cell.fates[Disposition.CONSUMED]), cell.withdrawn]
+        table.add_row(condition.name, *map(str, numbers))
+    return table
+
+
+def _duration(ms: float) -> str:
+    minutes, seconds = divmod(round(ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
+    return f"{minutes}:{seconds:02}"
 
 
 def _word(value: object) -> str:

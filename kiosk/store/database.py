@@ -22,6 +22,7 @@ from kiosk.store.connecting import (
     primary_code,
     reason,
 )
+from kiosk.store.summaries import STATEMENTS as SUMMARIES
 
 
 @dataclass(frozen=True)
@@ -230,7 +231,10 @@ _TRIGGERS = (
     """,
 )
 
-MIGRATIONS: tuple[Migration, ...] = (Migration(1, "the tables of 0.2", (*_TABLES, *_TRIGGERS)),)
+MIGRATIONS: tuple[Migration, ...] = (
+    Migration(1, "the tables of 0.2", (*_TABLES, *_TRIGGERS)),
+    Migration(2, "a summary of each session", SUMMARIES),
+)
 """Every step so far, the first one creates the database; a step that was released never changes."""
 
 SCHEMA = MIGRATIONS[-1].number

@@ -6,7 +6,7 @@ import json
 import re
 import sqlite3
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
@@ -191,29 +191,42 @@ class AllocationLists:
 
     def consumed(self) -> set[int]:
         """Return the numbers of the slots whose game was completed, those of people who withdrew among them."""
-        rows = self._connection.execute(
-            """
-            SELECT allocation_slot FROM session WHERE site = :site AND kind = :kind AND allocation_source = 'list'
-            AND id IN (SELECT session FROM event WHERE type = 'GameFinished')
-            UNION
-            SELECT allocation_slot FROM tombstone WHERE site = :site AND kind = :kind AND allocation_source = 'list'
-            AND game_completed
-            """,
-            self._whose,
-        )
-        return {slot for (slot,) in rows}
+        return {slot for (slot,) in self._connection.execute(_CONSUMED, self._whose)}
+
+    def is_consumed(self, slot: int) -> bool:
+        """Whether the game of a slot was completed."""
+        query = f"SELECT EXISTS (SELECT 1 FROM ({_CONSUMED}) WHERE allocation_slot = :slot)"  # noqa: S608 - it stands here
+        return bool(self._connection.execute(query, self._whose | {"slot": slot}).fetchone()[0])
 
     def next_slot(self) -> AllocationSlot | None:
-        """Return the first slot that is not consumed; None if all are, or if no list is fixed."""
-        stored = self.latest()
-        return next_slot(stored.slots, self.consumed()) if stored else None
+        """Return the first slot that is not consumed; None if all are, or if no list is fixed.
+
+        Slots are taken in their order, so where as many are consumed as the highest one says, the next one follows it;
+        no other slot is looked at then.
+        """
+        row = self._latest_slots()
+        if row is None:
+            return None
+        _, blocks = row
+        count, highest = self._connection.execute(_HOW_FAR, self._whose).fetchone()
+        if count == highest:
+            return _slot_at(blocks, highest + 1)
+        return next_slot(_slots(blocks), self.consumed())
 
     def list_with(self, slot: AllocationSlot) -> int:
         """Return the row of the list in which this slot is free; raises ValueError if it is not."""
-        stored = self.latest()
-        if stored is None or slot not in stored.slots or slot.number in self.consumed():
+        row = self._latest_slots()
+        if row is None or slot != _slot_at(row[1], slot.number) or self.is_consumed(slot.number):
             raise ValueError(f"there is no free {slot} in the list that is fixed")
-        return stored.id
+        return row[0]
+
+    def _latest_slots(self) -> tuple[int, Sequence[Sequence[str]]] | None:
+        """Return the row of the list that is followed now, and its blocks."""
+        row = self._connection.execute(
+            "SELECT id, slots FROM allocation_list WHERE site = :site AND kind = :kind ORDER BY id DESC LIMIT 1",
+            self._whose,
+        ).fetchone()
+        return None if row is None else (row[0], json.loads(row[1]))
 
     def create(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[AllocationSlot, ...]:
         """Store the first list, find this very one stored, or store a longer one for raised quotas.
@@ -248,6 +261,30 @@ class AllocationLists:
         return listed
 
 
+_CONSUMED = """
+    SELECT allocation_slot FROM session JOIN session_summary ON session_summary.session = session.id
+    WHERE site = :site AND kind = :kind AND allocation_source = 'list' AND game_completed
+    UNION
+    SELECT allocation_slot FROM tombstone WHERE site = :site AND kind = :kind AND allocation_source = 'list'
+    AND game_completed
+"""
+_HOW_FAR = """
+    SELECT
+        (SELECT coalesce(sum(sessions), 0) FROM session_tally
+            WHERE kind = :kind AND site = :site AND allocation_source = 'list' AND game_completed)
+        + (SELECT count(*) FROM tombstone
+            WHERE site = :site AND kind = :kind AND allocation_source = 'list' AND game_completed),
+        max(
+            coalesce((SELECT allocation_slot FROM session JOIN session_summary ON session_summary.session = session.id
+                WHERE site = :site AND kind = :kind AND allocation_source = 'list' AND game_completed
+                ORDER BY allocation_slot DESC LIMIT 1), 0),
+            coalesce((SELECT max(allocation_slot) FROM tombstone
+                WHERE site = :site AND kind = :kind AND allocation_source = 'list' AND game_completed), 0)
+        )
+"""
+"""How many slots are consumed, and the highest of them."""
+
+
 def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> None:
     """Raise UserInputError if another completed game took the slot of a session that was cut off."""
     site, kind, slot, finished = connection.execute(
@@ -258,7 +295,7 @@ def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> N
         (session,),
     ).fetchone()
     lists = AllocationLists(connection, site, kind=SessionKind(kind))
-    if slot is not None and not finished and slot in lists.consumed():
+    if slot is not None and not finished and lists.is_consumed(slot):
         raise UserInputError(f"the slot of session {session} was given out again, so it cannot be gone on with")
 
 
@@ -279,8 +316,22 @@ def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
 
 def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
     """Return what ``slots_to_json`` wrote."""
-    named = ((block, name) for block, names in enumerate(json.loads(text), 1) for name in names)
+    return _slots(json.loads(text))
+
+
+def _slots(blocks: Sequence[Sequence[str]]) -> tuple[AllocationSlot, ...]:
+    named = ((block, name) for block, names in enumerate(blocks, 1) for name in names)
     return tuple(AllocationSlot(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
+
+
+def _slot_at(blocks: Sequence[Sequence[str]], number: int) -> AllocationSlot | None:
+    """Return the slot of this number, from 1; None if the list is shorter."""
+    before = 0
+    for block, names in enumerate(blocks, 1):
+        if number <= before + len(names):
+            return AllocationSlot(number, block, Condition(names[number - before - 1]))
+        before += len(names)
+    return None
 
 
 def _continued(
@@ -351,9 +402,9 @@ def count_enrolment(connection: sqlite3.Connection, *, kind: SessionKind, in_use
     """
     fates: Counter[tuple[Condition, Disposition]] = Counter()
     withdrawn: Counter[Condition] = Counter()
-    for name, allocation_source, finished, ended, gone in connection.execute(_SESSIONS, {"kind": int(kind)}):
+    for name, source, finished, ended, gone, sessions in connection.execute(_SESSIONS, {"kind": int(kind)}):
         condition = Condition(name)
-        fates[condition, _fate(allocation_source, finished=bool(finished), ended=bool(ended) or not in_use)] += 1
+        fates[condition, _fate(source, finished=bool(finished), ended=bool(ended) or not in_use)] += sessions
         withdrawn[condition] += gone
     quotas = _quotas(connection, kind=kind)
     there = {condition for condition, _ in fates} | set(quotas)
@@ -369,13 +420,11 @@ def count_enrolment(connection: sqlite3.Connection, *, kind: SessionKind, in_use
 
 
 _SESSIONS = """
-    SELECT condition, allocation_source,
-        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
-        'SessionEnded' = (SELECT type FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
-        0
-    FROM session WHERE kind = :kind
+    SELECT condition, nullif(allocation_source, ''), game_completed, ended, 0, sessions
+    FROM session_tally WHERE kind = :kind AND sessions > 0
     UNION ALL
-    SELECT condition, allocation_source, game_completed, 1, 1 FROM tombstone WHERE kind = :kind
+    SELECT condition, allocation_source, game_completed, 1, count(*), count(*) FROM tombstone WHERE kind = :kind
+    GROUP BY condition, allocation_source, game_completed
 """
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
+from datetime import UTC, date, datetime, time, timedelta
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import sqlite_utils
@@ -18,21 +21,16 @@ from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import Event, LanguageSelected, SessionEnded, Stage, Status, from_record
+from kiosk.experiment.events import Event, LanguageSelected, Stage, Status, from_record
 from kiosk.experiment.information import Information
-from kiosk.experiment.projections import Measures, measure_game
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.replay import DecisionContext, agrees_with_record
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
-from kiosk.experiment.session_state import SessionState, language_before_flip
+from kiosk.experiment.session_state import CARDS_IN_A_MOVE, SessionState, language_before_flip
 from kiosk.store.database import in_use, open_for_reading, unreadable
-from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_of
-
-_SUMMARISED = (
-    *("StageEntered", "BoardDealt", "CardFlipped", "HintGiven", "RemarkGiven", "BoardUnlocked"),
-    *("PauseRequested", "PauseEnded", "SessionEnded"),
-)
-"""The overview of a session follows from these."""
+from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_name
+from kiosk.store.summaries import numbers_so_far
+from kiosk.units import MS_PER_SECOND
 
 LARGEST = 2**63 - 1
 """The largest whole number that SQLite knows."""
@@ -43,7 +41,8 @@ class StoredSession:
     """A stored session at a glance; ``status`` is None while it is under way.
 
     ``participant`` and ``code`` are None in sessions from before people were numbered, ``allocation_source`` where no
-    allocation list was followed. ``stage`` is where it ended, or is; None if it got nowhere.
+    allocation list was followed. ``stage`` is where it ended, or is; None if it got nowhere. ``flips``, ``pairs`` and
+    ``hints`` are those of the game. ``started_at`` is in UTC; ``duration_ms`` is from its first event to its last.
     """
 
     id: int
@@ -52,29 +51,100 @@ class StoredSession:
     embodiment: str
     status: Status | None
     kind: SessionKind
-    measures: Measures
+    flips: int
+    pairs: int
+    hints: int
+    duration_ms: int
     participant: str | None
     code: str | None
     stage: Stage | None
     allocation_source: AllocationSource | None
+
+    @property
+    def moves(self) -> int:
+        """How many moves of two flips were made."""
+        return self.flips // CARDS_IN_A_MOVE
+
+    @property
+    def began(self) -> datetime:
+        """When it began, in the time zone of this machine."""
+        return datetime.fromisoformat(self.started_at).astimezone()
 
     def to_json(self) -> dict[str, Any]:
         """Return the session as the command line prints it: without the code, which is the visitor's."""
         return {
             "session": self.id,
             "participant": self.participant,
-            "status": self.status.value if self.status else "running",
+            "status": self.status.value if self.status else RUNNING,
             "stage": self.stage.value if self.stage else None,
             "allocation_source": self.allocation_source.value if self.allocation_source else None,
             "condition": self.condition,
             "embodiment": self.embodiment,
-            "flips": self.measures.flips,
-            "moves": self.measures.moves,
-            "pairs": self.measures.pairs,
-            "hints": self.measures.hints,
+            "flips": self.flips,
+            "moves": self.moves,
+            "pairs": self.pairs,
+            "hints": self.hints,
+            "duration_s": round(self.duration_ms / MS_PER_SECOND),
             "simulated": self.kind is SessionKind.SIMULATED,
             "trial": self.kind is SessionKind.TRIAL,
         }
+
+
+RUNNING = "running"
+"""The status of a session that is under way."""
+
+
+@dataclass(frozen=True)
+class SessionFilter:
+    """Which sessions are meant: all of them, unless something is said.
+
+    ``since`` and ``until`` are local days, of which the last one belongs to it. ``status`` is a value of Status, or
+    RUNNING.
+    """
+
+    kind: SessionKind | None = None
+    condition: str | None = None
+    status: str | None = None
+    site: str | None = None
+    since: date | None = None
+    until: date | None = None
+
+    def where(self, *, in_use: bool) -> tuple[str, dict[str, str | int]]:
+        """Return the condition in SQL and its values; without ``in_use`` no session is under way."""
+        asked: dict[str, tuple[str, str | int | None]] = {
+            "kind": ("session.kind = :kind", None if self.kind is None else int(self.kind)),
+            "condition": ("condition = :condition", self.condition),
+            "site": ("session.site = :site", self.site),
+            "since": ("started_at >= :since", _began(self.since)),
+            "until": ("started_at < :until", _began(self.until and self.until + timedelta(days=1))),
+            "status": (_STATUS.format(RUNNING if in_use else Status.INTERRUPTED.value), self.status),
+        }
+        given = {name: (words, value) for name, (words, value) in asked.items() if value is not None}
+        words = " AND ".join(words for words, _ in given.values()) or "true"
+        return words, {name: value for name, (_, value) in given.items()}
+
+
+_STATUS = "coalesce(status, '{}') = :status"
+
+
+def _began(day: date | None) -> str | None:
+    """Return the first moment of a local day as ``started_at`` says it."""
+    if day is None:
+        return None
+    return datetime.combine(day, time.min).astimezone(UTC).isoformat(timespec="milliseconds")
+
+
+@dataclass(frozen=True)
+class SessionTotals:
+    """How many sessions there are, by status, and the median duration of the completed ones in ms."""
+
+    by_status: Mapping[str, int]
+    median_ms: float | None
+
+    @property
+    def sessions(self) -> int:
+        """All of them."""
+        return sum(self.by_status.values())
 
 
 class SessionRepository:
@@ -85,13 +155,38 @@ class SessionRepository:
         self._database = database
         self._unended = None if in_use else Status.INTERRUPTED
 
-    def sessions(self) -> list[StoredSession]:
-        """Every session, in the order in which they began."""
-        return [self._session(row) for row in self._database["session"].rows_where(order_by="id")]
+    def sessions(
+        self, which: SessionFilter = SessionFilter(), *, newest: int = -1, skip: int = 0
+    ) -> list[StoredSession]:
+        """Return sessions in the order in which they began.
+
+        Of those that ``which`` means it returns the ``newest``, or all if that is -1, without the last ``skip``.
+        """
+        where, values = self._where(which)
+        query = f"{_SESSIONS} WHERE {where} ORDER BY session.id DESC LIMIT :newest OFFSET :skip"
+        rows = self._database.query(query, values | {"newest": newest, "skip": skip})
+        return [self._session(row) for row in rows][::-1]
+
+    def totals(self, which: SessionFilter = SessionFilter()) -> SessionTotals:
+        """Count sessions by status."""
+        where, values = self._where(which)
+        unended = RUNNING if self._unended is None else self._unended.value
+        columns = "coalesce(status, :unended) AS status, duration_ms FROM session"
+        query = f"SELECT {columns} JOIN session_summary ON session_summary.session = session.id WHERE {where}"
+        rows = self._database.execute(query, values | {"unended": unended}).fetchall()
+        durations = [duration_ms for status, duration_ms in rows if status == Status.COMPLETED.value]
+        return SessionTotals(Counter(status for status, _ in rows), median(durations) if durations else None)
 
     def session(self, number: int) -> StoredSession:
         """One session; raises UserInputError if there is none of this number."""
-        return self._session(self._row(number))
+        self._row(number)
+        (row,) = self._database.query(f"{_SESSIONS} WHERE session.id = :number", {"number": number})
+        return self._session(row)
+
+    def conditions(self) -> list[str]:
+        """Every condition that a stored session had, by name."""
+        rows = self._database.query("SELECT DISTINCT condition FROM session_tally WHERE sessions > 0 ORDER BY 1")
+        return [row["condition"] for row in rows]
 
     def counts(self, *, kind: SessionKind) -> EnrolmentCounts:
         """How many came, by condition and by what became of them: people, rehearsals or trials."""
@@ -164,38 +259,37 @@ class SessionRepository:
             return row
         raise UserInputError(f"there is no session {number}")
 
+    def _where(self, which: SessionFilter) -> tuple[str, dict[str, str | int]]:
+        return which.where(in_use=self._unended is None)
+
     def _session(self, row: dict[str, Any]) -> StoredSession:
-        wanted = ", ".join("?" * len(_SUMMARISED))
-        rows = self._database["event"].rows_where(
-            f"session = ? AND type IN ({wanted})", [row["id"], *_SUMMARISED], order_by="seq"
-        )
-        state = SessionState.from_events(
-            _event({"at_ms": row["at_ms"], "type": row["type"]} | json.loads(row["payload"])) for row in rows
-        )
-        participant = participant_of(self._database.conn, row["id"])
+        status = Status(row["status"]) if row["status"] else self._unended
+        if row["status"] is None:
+            row = row | numbers_so_far(self._database.conn, row["id"])
         return StoredSession(
-            row["id"],
-            row["started_at"],
-            row["condition"],
-            row["embodiment"],
-            self._status(row["id"]),
-            SessionKind(row["kind"]),
-            measure_game(state),
-            participant.name if participant else None,
-            participant.code if participant else None,
-            state.last_stage,
-            AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
+            id=row["id"],
+            started_at=row["started_at"],
+            condition=row["condition"],
+            embodiment=row["embodiment"],
+            status=status,
+            kind=SessionKind(row["kind"]),
+            flips=row["flips"],
+            pairs=row["pairs"],
+            hints=row["hints"],
+            duration_ms=row["duration_ms"] or 0,
+            participant=None if row["number"] is None else participant_name(row["site"], row["number"]),
+            code=row["code"],
+            stage=Stage(row["stage"]) if row["stage"] else None,
+            allocation_source=AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
         )
 
-    def _status(self, number: int) -> Status | None:
-        """Return how a session ended.
 
-        Only its very last event says so, as one that was cut off may have gone on.
-        """
-        for row in self._database["event"].rows_where("session = ?", [number], order_by="seq DESC", limit=1):
-            if row["type"] == SessionEnded.__name__:
-                return Status(json.loads(row["payload"])["status"])
-        return self._unended
+_SESSIONS = """
+    SELECT session.id, session.site, started_at, condition, embodiment, session.kind, allocation_source,
+        participant.number, participant.code, status, stage, flips, pairs, hints, duration_ms
+    FROM session JOIN session_summary ON session_summary.session = session.id
+    LEFT JOIN participant ON participant.session = session.id
+"""
 
 
 @contextmanager

@@ -30,6 +30,7 @@ from kiosk.store.participants import (
     enrol,
     participant_of,
 )
+from kiosk.store.summaries import go_on
 from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished
 
 
@@ -57,9 +58,10 @@ def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
     """End every session whose last event is not its end, where that event left it; returns their numbers."""
     open_sessions = connection.execute(
         """
-        SELECT session.id, last.seq, last.at_ms FROM session JOIN event AS last ON last.session = session.id
-        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = session.id)
-        WHERE last.type <> 'SessionEnded' ORDER BY session.id
+        SELECT under_way.session, last.seq, last.at_ms FROM session_summary AS under_way
+        JOIN event AS last ON last.session = under_way.session
+        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = under_way.session)
+        WHERE under_way.status IS NULL ORDER BY under_way.session
         """
     ).fetchall()
     for session, seq, at_ms in open_sessions:
@@ -148,6 +150,8 @@ class Recorder:
         self.site = checked_site(site)
         self._lock = lock_folder(folder)
         self._session = 0
+        self._resumed = False
+        """Whether the session had ended, and nothing has been written since."""
         self._next_seq = 1
         self.sessions_begun = 0
         """How many sessions were begun with this recorder."""
@@ -229,6 +233,7 @@ class Recorder:
             self._connection.executemany(_INSERT_EVENT, event_rows(session, 1, events))
             participant = enrol(self._connection, session)
         self._session = session
+        self._resumed = False
         self._next_seq = 1 + len(events)
         self.sessions_begun += 1
         return participant
@@ -249,12 +254,16 @@ class Recorder:
             check_not_given_out_again(self._connection, number)
         self._session = number
         self._next_seq = 1 + seq
+        self._resumed = True
         return participant
 
     def append(self, events: Sequence[Event]) -> None:
         """Write the session's next events, in one transaction; raises StorageError if the disk does not take them."""
         with self._transaction():
+            if self._resumed:
+                go_on(self._connection, self._session)
             self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
+        self._resumed = False
         self._next_seq += len(events)
 
     def append_and_withdraw(self, events: Sequence[Event], code: str) -> None:

@@ -7,7 +7,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -88,7 +88,7 @@ def read_snapshot(folder: Path, now: datetime, *, kind: SessionKind) -> Dashboar
 def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCounts, tuple[EndedSession, ...]]:
     """Count the sessions that began since midnight of ``now`` (with a time zone), and list the newest that ended.
 
-    Looks at no more than the newest DAY_LIMIT sessions. Raises UserInputError if there is no database to read.
+    Raises UserInputError if there is no database to read.
     """
     with _looking_at(folder) as connection:
         return _read_day(connection, now, kind=kind)
@@ -97,10 +97,11 @@ def read_day(folder: Path, now: datetime, *, kind: SessionKind) -> tuple[DayCoun
 def _read_day(
     connection: sqlite3.Connection, now: datetime, *, kind: SessionKind
 ) -> tuple[DayCounts, tuple[EndedSession, ...]]:
-    midnight, hour_ago = _midnight_ms(now), now.timestamp() * MS_PER_SECOND - MS_PER_HOUR
-    rows = connection.execute(_DAY, {"kind": int(kind), "limit": DAY_LIMIT}).fetchall()
-    begun = [_ms(began) for began, *_ in rows if _ms(began) >= midnight]
-    today = [(status, ended_ms, stage) for began, status, ended_ms, stage in rows if _ms(began) >= midnight]
+    hour_ago = now.timestamp() * MS_PER_SECOND - MS_PER_HOUR
+    midnight = datetime.fromtimestamp(_midnight_ms(now) / MS_PER_SECOND, UTC).isoformat(timespec="milliseconds")
+    rows = connection.execute(_DAY, {"kind": int(kind), "since": midnight}).fetchall()
+    begun = [_ms(began) for began, *_ in rows]
+    today = [ending for _, *ending in rows]
     completed = [ended_ms for status, ended_ms, _ in today if status == Status.COMPLETED.value]
     ended = [(status, ended_ms, stage) for status, ended_ms, stage in today if status is not None]
     counts = DayCounts(
@@ -121,16 +122,10 @@ def _ms(iso: str) -> float:
     return datetime.fromisoformat(iso).timestamp() * MS_PER_SECOND
 
 
-DAY_LIMIT = 500
-"""More sessions do not fit into a day: that is one every three minutes."""
-
 _DAY = """
-    SELECT started_at, json_extract(last.payload, '$.status'), last.wall_ms,
-        (SELECT json_extract(payload, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
-            AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1)
-    FROM session LEFT JOIN event AS last ON last.session = session.id AND last.type = 'SessionEnded'
-        AND last.seq = (SELECT max(seq) FROM event WHERE event.session = session.id)
-    WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit
+    SELECT started_at, status, ended_ms, stage FROM session
+    JOIN session_summary ON session_summary.session = session.id
+    WHERE kind = :kind AND started_at >= :since ORDER BY session.id DESC
 """
 
 
@@ -167,7 +162,6 @@ def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[Snap
     for number, started_at, condition, site, slot, person, stage, ending, lost, finished, reason in rows:
         status = Status(ending) if ending else None
         reached = Stage(stage) if stage else None
-        lists = AllocationLists(connection, site, kind=kind)
         cut_short = status is Status.INTERRUPTED and bool(person) and reached not in (None, Stage.GAME)
         yield SnapshotSession(
             number,
@@ -178,7 +172,8 @@ def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[Snap
             status,
             bool(lost),
             # Whether the slot is free is asked last: for the few that were cut short, not for all of every look.
-            resumable=cut_short and bool(slot is None or finished or slot not in lists.consumed()),
+            resumable=cut_short
+            and bool(slot is None or finished or not AllocationLists(connection, site, kind=kind).is_consumed(slot)),
             reason=reason or "",
         )
 
@@ -187,13 +182,13 @@ _SESSIONS = """
     SELECT session.id, started_at, condition, session.site, allocation_slot, participant.number,
         (SELECT json_extract(payload, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
             AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1),
-        (SELECT CASE type WHEN 'SessionEnded' THEN json_extract(payload, '$.status') END
-            FROM event WHERE event.session = session.id ORDER BY seq DESC LIMIT 1),
+        status,
         EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'RobotDisconnected'),
-        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
+        game_completed,
         (SELECT json_extract(payload, '$.reason') FROM event WHERE event.session = session.id
             AND type = 'AbortRequested' ORDER BY seq DESC LIMIT 1)
-    FROM session LEFT JOIN participant ON participant.session = session.id
+    FROM session JOIN session_summary ON session_summary.session = session.id
+    LEFT JOIN participant ON participant.session = session.id
     WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit
 """
 

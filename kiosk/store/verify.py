@@ -18,6 +18,7 @@ from kiosk.store.connecting import reason
 from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_code, quotas_from_json, slots_from_json
+from kiosk.store.summaries import wrong_summaries, wrong_tally
 
 
 class Verification(Enum):
@@ -35,6 +36,7 @@ class Verification(Enum):
     ALLOCATION = "lists meet their quotas, and sessions their slots"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
+    SUMMARIES = "summaries and counts say what the events say"
     VOICE = "one voice speaks each language of a study"
 
 
@@ -231,6 +233,13 @@ def _finished(connection: sqlite3.Connection) -> _Found:
         )
 
 
+def _summaries(connection: sqlite3.Connection) -> _Found:
+    for session, what in wrong_summaries(connection):
+        yield f"the summary of session {session}", what
+    if wrong_tally(connection):
+        yield "the counts of sessions", "are not what the summaries say"
+
+
 def _voice(connection: sqlite3.Connection) -> _Found:
     """Find sessions of participants in which the pack of clips, or what renders sentences, is not the one before.
 
@@ -274,6 +283,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.ALLOCATION: _places,
     Verification.WITHDRAWN: _withdrawn,
     Verification.FINISHED: _finished,
+    Verification.SUMMARIES: _summaries,
     Verification.VOICE: _voice,
 }
 """What looks for the flaws of each check."""

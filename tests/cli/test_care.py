@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from kiosk import StorageError, UserInputError
+from kiosk.cli import sessions as listing
 from kiosk.cli.main import recollect
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store import withdrawal as withdrawing
@@ -58,9 +60,40 @@ def test_the_list_says_who_it_was_where_it_ended_and_how_it_was_allocated(day: P
     assert header[:2] == ["session", "participant"]
     assert {"stage", "allocation_source"} <= set(header)
     assert first[:2] == ["1", "MI-1"]
+    assert "4 sessions: 1 abandoned, 3 completed; a completed one lasts 0:00 (median)." in listed
+    people = [line.split() for line in listed.splitlines()[-2:]]
+    assert people == [["tom", "4", "1", "0", "3", "0"], ["notom", "4", "1", "1", "3", "0"]]
     assert "list" in first
     (one, *_) = said("sessions", "--data", day)
     assert (one["participant"], one["allocation_source"], one["stage"]) == ("MI-1", "list", None)
+
+
+def test_the_list_comes_in_pages_and_only_of_what_is_asked_for(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(listing, "PER_PAGE", 3)
+
+    def numbers(*words: object) -> list[str]:
+        lines = run("sessions", "--data", day, *words).output.splitlines()
+        return [line.split()[0] for line in lines[1 : lines.index("")]]
+
+    assert numbers() == ["2", "3", "4"]
+    assert numbers("--page", 2) == ["1"]
+    assert numbers("--all") == ["1", "2", "3", "4"]
+    assert numbers("--visitor", "simulated") == ["3"]
+    assert numbers("--status", "abandoned") == ["2"]
+    assert numbers("--until", "2001-01-01") == []
+    assert "Shown: 1 to 1 of 4." in run("sessions", "--data", day, "--page", 2).output
+    assert [row["session"] for row in said("sessions", "--data", day)] == [1, 2, 3, 4]
+    assert [row["session"] for row in said("sessions", "--data", day, "--page", 2)] == [1]
+    assert run("sessions", "--data", day, "--page", 2, "--all").exit_code == 2
+    refusal = run("sessions", "--data", day, "--condition", "tomm").exception
+    assert str(refusal) == "no session is in the condition 'tomm'; there are notom, tom"
+
+
+def test_times_are_those_of_the_machine(day: Path) -> None:
+    (first, *_) = said("sessions", "--data", day)
+    began = datetime.fromisoformat(first["started_at"])
+    assert datetime.fromisoformat(first["started_local"]) == began.replace(microsecond=0)
+    assert f"{began.astimezone():%Y-%m-%d %H:%M}" in run("sessions", "--data", day).output
 
 
 def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:

@@ -35,7 +35,6 @@ def test_a_session_at_a_glance(folder: Path, provenance: Provenance, played: Dri
     with open_repository(folder) as stored:
         (session,) = stored.sessions()
     measures = played.session.measures
-    assert session.measures == measures
     assert session.to_json() == {
         "session": 1,
         "participant": "1",
@@ -48,6 +47,7 @@ def test_a_session_at_a_glance(folder: Path, provenance: Provenance, played: Dri
         "moves": measures.moves,
         "pairs": 12,
         "hints": measures.hints,
+        "duration_s": round(played.events[-1].at_ms / 1000),
         "simulated": True,
         "trial": False,
     }
@@ -184,7 +184,8 @@ def test_every_session_has_its_own_measures(folder: Path, provenance: Provenance
             measures.append(driver.session.measures)
             recorder.begin(provenance, [event for step in driver.steps for event in (step.event, *step.outcome.events)])
         with open_repository(folder) as stored:
-            assert [session.measures for session in stored.sessions()] == measures
+            told = [(session.flips, session.moves, session.pairs, session.hints) for session in stored.sessions()]
+    assert told == [(each.flips, each.moves, each.pairs, each.hints) for each in measures]
 
 
 def test_a_database_that_is_damaged_is_refused_in_words(
@@ -194,7 +195,7 @@ def test_a_database_that_is_damaged_is_refused_in_words(
         recorder.begin(provenance, played.events)
     damage(folder / FILE, "event")
     with pytest.raises(UserInputError, match="cannot be read"), open_repository(folder) as stored:
-        stored.sessions()
+        stored.events(1)
     with pytest.raises(UserInputError, match="cannot be read"):
         export_dataset(folder, tmp_path / "out", PsychDs, frozenset({ExportOption.REHEARSALS}))
     assert not (tmp_path / "out").exists()

@@ -97,7 +97,7 @@ class Result:
         counted = self.utterances
         wrong = {
             "the session did not end": self.session.status is not Status.COMPLETED,
-            "not all pairs were found": self.session.measures.pairs != self.pairs,
+            "not all pairs were found": self.session.pairs != self.pairs,
             "it began with another body": not self.session.embodiment.startswith("robot:"),
             "a sentence was neither heard nor shown": bool(self.unseen),
             "a sentence is missing in the data": counted.requested != counted.finished + counted.shown_only,

@@ -180,4 +180,4 @@ def test_a_robot_that_is_lost_between_sessions_leaves_them_to_the_avatar(
     booth.rehearse(seed=1)
     with open_repository(booth.data) as stored:
         assert stored.sessions()[0].embodiment == "avatar"
-        assert stored.sessions()[0].measures.pairs == 6
+        assert stored.sessions()[0].pairs == 6

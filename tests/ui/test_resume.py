@@ -85,7 +85,7 @@ def test_a_session_goes_on_from_the_start_of_its_stage_to_its_end(
         plan, seed = stored.plan(1), stored.seed(1)
         [session] = stored.sessions()
     assert session.status is Status.COMPLETED
-    assert session.measures.pairs == 2
+    assert session.pairs == 2
     resumed = next(i for i, event in enumerate(events) if isinstance(event, happened.SessionResumed))
     assert events[resumed + 1] == happened.StageEntered(at_ms=events[resumed].at_ms, stage=stage)
     assert all(one.at_ms <= other.at_ms for one, other in pairwise(events))

@@ -31,10 +31,10 @@ def test_a_whole_session_by_mouse_leaves_its_events_its_hints_its_answers_and_it
         (session,) = stored.sessions()
         events, plan = stored.events(session.id), stored.plan(session.id)
     assert session.status is Status.COMPLETED
-    assert session.measures.pairs == 12
-    assert session.measures.flips == 2 * session.measures.moves
+    assert session.pairs == 12
+    assert session.flips == 2 * session.moves
     hints = [event for event in events if isinstance(event, happened.HintGiven)]
-    assert len(hints) == session.measures.hints > 0
+    assert len(hints) == session.hints > 0
     assert all(hint.sentence for hint in hints)
     stages = [event.stage.value for event in events if isinstance(event, happened.StageEntered)]
     assert stages == [*STAGES, "over"]
@@ -172,7 +172,7 @@ def test_without_help_a_visitor_plays_alone(make_booth: MakeBooth) -> None:
     booth = make_booth(condition="no_assistance")
     booth.rehearse(seed=1)
     with open_repository(booth.data) as stored:
-        assert stored.sessions()[0].measures.hints == 0
+        assert stored.sessions()[0].hints == 0
 
 
 def test_one_session_after_another_is_played_in_the_same_window(booth: Booth) -> None:

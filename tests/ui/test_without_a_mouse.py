@@ -48,7 +48,7 @@ def answered(booth: Booth) -> tuple[Status | None, int, set[str]]:
     with open_repository(booth.data) as stored:
         (session,) = stored.sessions()
         given = {event.item for event in stored.events(session.id) if isinstance(event, ResponseGiven)}
-    return session.status, session.measures.pairs, given
+    return session.status, session.pairs, given
 
 
 @pytest.mark.parametrize("hand", [Keyboard, Finger])

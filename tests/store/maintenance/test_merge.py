@@ -89,7 +89,7 @@ def test_every_session_is_measured_as_it_was(milan: Path, girona: Path, out: Pat
         with open_repository(folder) as stored:
             told[folder] = {
                 session.code: (
-                    session.measures,
+                    (session.flips, session.pairs, session.hints, session.duration_ms),
                     session.status,
                     session.stage,
                     session.allocation_source,
