@@ -4,6 +4,9 @@
 
 console-pin = PIN
 console-pin-line = Enter goes on, Esc goes back
+console-cancel = Cancel
+console-key-delete = Delete
+console-key-enter = Enter
 console-wait = That was wrong. Wait { $seconds } s.
 console-reason = Why?
 console-reason-line = A digit chooses, Esc goes back

@@ -4,6 +4,9 @@
 
 console-pin = PIN
 console-pin-line = Intro para seguir, Esc para volver
+console-cancel = Cancelar
+console-key-delete = Borrar
+console-key-enter = Intro
 console-wait = No era correcto. Espere { $seconds } s.
 console-reason = ¿Por qué?
 console-reason-line = Una cifra elige, Esc para volver

@@ -4,6 +4,9 @@
 
 console-pin = PIN
 console-pin-line = Invio per continuare, Esc per tornare
+console-cancel = Annulla
+console-key-delete = Cancella
+console-key-enter = Invio
 console-wait = Non era giusto. Attendere { $seconds } s.
 console-reason = Perché?
 console-reason-line = Una cifra sceglie, Esc per tornare

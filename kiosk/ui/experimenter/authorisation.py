@@ -106,6 +106,8 @@ class AuthorisationFlow:
         """Ask on this card, in the words of the catalogue."""
         self.unlocked = False
         """Whether the PIN was given for longer than one action, as for the panel."""
+        self.by_touch = False
+        """Whether the experimenter is at the booth without a keyboard, so that the card has keys of its own."""
         self.changed: Callable[[], None] = lambda: None
         """Called when the card comes or goes."""
         self._card = card
@@ -119,6 +121,8 @@ class AuthorisationFlow:
         self._away: TimerWait | None = None
         self._tick: TimerWait | None = None
         card.typed.connect(self.type)
+        card.erased.connect(self.erase)
+        card.entered.connect(self.enter)
         card.cancelled.connect(self.cancel)
 
     @property
@@ -205,7 +209,7 @@ class AuthorisationFlow:
             self._done("")
 
     def _choose(self, reason: DeviationReason) -> None:
-        if reason is DeviationReason.OTHER:
+        if reason is DeviationReason.OTHER and not self.by_touch:
             self._show(AuthorisationStep.WORDS)
         else:
             self._done(reason.value)
@@ -235,9 +239,10 @@ class AuthorisationFlow:
                 self._text(
                     "console-pin" if step in (AuthorisationStep.PIN, AuthorisationStep.WAIT) else "console-reason"
                 ),
-                line or self._text(f"console-{step.value}-line"),
+                line or ("" if self.by_touch else self._text(f"console-{step.value}-line")),
                 DOT * len(typed) if step is AuthorisationStep.PIN else typed,
                 reasons if step is AuthorisationStep.REASON else (),
+                by_touch=self.by_touch,
             )
         self._wait_for_answer()
         if was_up is not self.asks:

@@ -363,6 +363,9 @@ WORDS = (
     "console-names-hide",
     "console-test-voice",
     "console-close",
+    "console-cancel",
+    "console-key-delete",
+    "console-key-enter",
     "console-alarms",
     "console-alarms-none",
     "console-health",
@@ -474,7 +477,8 @@ class ExperimenterConsole:
             work,
         )
         screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()})
-        screen.pressed.connect(self.actions.press)
+        screen.pressed.connect(self._pressed)
+        screen.held.connect(self._held)
         booth.voice.health_changed.connect(self._voice_changed)
         booth.embodiments.on_own_voice = self._robot_uses_own_voice
 
@@ -484,6 +488,16 @@ class ExperimenterConsole:
         self.status_file.close()
         self._keyboard.set_enabled(False)
         self._write.close()
+
+    def _pressed(self, action: str) -> None:
+        self._asking.by_touch = False
+        self.actions.press(action)
+
+    def _held(self) -> None:
+        """Ask for the PIN with keys on the screen, unless something is asked for or shown already."""
+        if not self.panel.is_open and not self._asking.asks:
+            self._asking.by_touch = True
+            self.panel.toggle()
 
     def _voice_changed(self, is_heard: bool, message: str) -> None:  # noqa: FBT001 - Qt's way to tell
         """Write down that sentences are not heard any more, or are again."""

@@ -39,11 +39,20 @@ class CardScreen(QObject):
         self._step = AuthorisationStep.NOTHING
         self._title = self._line = self._text = ""
         self._reasons: list[str] = []
+        self._by_touch = False
 
-    def show(
-        self, step: AuthorisationStep, title: str, line: str = "", text: str = "", reasons: tuple[str, ...] = ()
+    def show(  # noqa: PLR0913 - all that is on it
+        self,
+        step: AuthorisationStep,
+        title: str,
+        line: str = "",
+        text: str = "",
+        reasons: tuple[str, ...] = (),
+        *,
+        by_touch: bool = False,
     ) -> None:
-        """Ask for something; ``text`` is what was typed so far, as it may be seen."""
+        """Ask for something; ``text`` is what was typed so far, as it may be seen; ``by_touch`` brings keys for it."""
+        self._by_touch = by_touch
         self._step, self._title, self._line, self._text, self._reasons = step, title, line, text, list(reasons)
         self.changed.emit()
 
@@ -80,6 +89,26 @@ class CardScreen(QObject):
     def reasons(self) -> list[str]:
         """Return the reasons to choose from, in the order of their digits."""
         return self._reasons
+
+    @Property(bool, notify=changed)
+    def byTouch(self) -> bool:  # noqa: N802 - QML's convention
+        """Return whether the experimenter answers on the screen."""
+        return self._by_touch
+
+    @Slot(str)
+    def type(self, digit: str) -> None:
+        """Type a digit on the screen."""
+        self.typed.emit(digit)
+
+    @Slot()
+    def erase(self) -> None:
+        """Take back the last digit on the screen."""
+        self.erased.emit()
+
+    @Slot()
+    def enter(self) -> None:
+        """Submit what was typed on the screen."""
+        self.entered.emit()
 
     @Slot(int)
     def choose(self, number: int) -> None:
@@ -265,6 +294,8 @@ class ExperimenterScreen(QObject):
     calls_changed = Signal()
     pressed = Signal(str)
     """The shortcut of the action of this name was pressed."""
+    held = Signal()
+    """The corner was held."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -312,6 +343,11 @@ class ExperimenterScreen(QObject):
     def panel(self) -> PanelScreen:
         """Return the panel."""
         return self._panel
+
+    @Slot()
+    def hold(self) -> None:
+        """Report that the corner was held."""
+        self.held.emit()
 
     @Slot(str)
     def press(self, action: str) -> None:

@@ -314,6 +314,7 @@ Window {
     PanelLayer {
         anchors.fill: parent
         experimenter: root.experimenter
+        holdsRight: corner.atLeft
     }
     // A person who points at something does not work by keyboard. It lies over everything to know, and takes nothing.
     Item {

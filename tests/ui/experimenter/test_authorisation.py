@@ -7,7 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, QPoint, Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
 
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Stage
@@ -15,7 +17,7 @@ from kiosk.experiment.experimenter import Action
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.experimenter.authorisation import AWAY_MS
 from kiosk.ui.experimenter.view_model import AuthorisationStep
-from kiosk.ui.simulated_visitor import UiDriver
+from kiosk.ui.simulated_visitor import UiDriver, touch_screen
 from tests.ui.experimenter.conftest import PIN, Desk, MakeDesk, Witness
 
 
@@ -268,7 +270,7 @@ def test_without_a_pin_nothing_is_asked_but_the_reason(make_assigner: MakeDesk) 
     assigner.type("1")
     assigner.shortcut(Action.PANEL)
     assert assigner.panel.is_open
-    lines = assigner.panel.property("health")["lines"]
+    lines = assigner.panel.property("health")["more"]
     assert [line["message"] for line in lines if line["name"] == "PIN"] == [
         "none is set: every session is a trial, and anybody who knows the keys can do everything"
     ]
@@ -282,3 +284,77 @@ def test_a_action_that_the_session_has_outrun_is_refused(assigner: Desk) -> None
     assigner.type("1")
     assert assigner.noted == "Not now"
     assert "SessionAborted" not in [kind for kind, _ in assigner.notes]
+
+
+CORNER = QPoint(30, 30)
+HOLD_S = 0.05
+
+
+@pytest.fixture
+def touched(assigner: Desk) -> Desk:
+    """Return a booth whose corner needs to be held for a moment only."""
+    assigner.settle()
+    handler = assigner.app.window.findChild(QObject, "hold")
+    assert handler is not None
+    assert handler.property("longPressThreshold") == 3
+    handler.setProperty("longPressThreshold", HOLD_S)
+    return assigner
+
+
+def hold(booth: Desk, qtbot: QtBot, *, until: Callable[[], bool]) -> None:
+    """Hold a finger in the corner until something is so."""
+    window = booth.app.window
+    QTest.touchEvent(window, touch_screen()).press(0, CORNER, window).commit()
+    qtbot.waitUntil(until)
+    QTest.touchEvent(window, touch_screen()).release(0, CORNER, window).commit()
+
+
+def test_a_held_corner_and_a_pin_on_the_screen_open_the_panel(touched: Desk, qtbot: QtBot) -> None:
+    hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
+    for key in ("1", "delete", *PIN, "enter"):
+        touched.click(f"pin-{key}")
+    assert touched.panel.is_open
+    assert not touched.sees("pin-card")
+
+
+def test_a_wrong_pin_on_the_screen_waits_as_any_other(touched: Desk, qtbot: QtBot) -> None:
+    hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
+    for key in ("1", "1", "1", "1", "enter"):
+        touched.click(f"pin-{key}")
+    assert touched.card.asks_for is AuthorisationStep.WAIT
+    assert not touched.item("pin-1").isEnabled()
+    assert refusals(touched)[-1]["wait_ms"] == 1000
+
+
+def test_a_touch_of_the_corner_or_one_that_moves_asks_for_nothing(touched: Desk, qtbot: QtBot) -> None:
+    window = touched.app.window
+    QTest.touchEvent(window, touch_screen()).press(0, CORNER, window).commit()
+    QTest.touchEvent(window, touch_screen()).release(0, CORNER, window).commit()
+    QTest.touchEvent(window, touch_screen()).press(0, CORNER, window).commit()
+    QTest.touchEvent(window, touch_screen()).move(0, QPoint(400, 300), window).commit()
+    qtbot.wait(round(3000 * HOLD_S))
+    QTest.touchEvent(window, touch_screen()).release(0, QPoint(400, 300), window).commit()
+    assert touched.card.asks_for is AuthorisationStep.NOTHING
+
+
+def test_a_card_that_came_by_touch_is_put_away_by_touch(touched: Desk, qtbot: QtBot) -> None:
+    hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
+    touched.click("pin-cancel")
+    assert touched.card.asks_for is AuthorisationStep.NOTHING
+
+
+def test_by_touch_another_reason_has_no_words(touched: Desk, qtbot: QtBot) -> None:
+    touched.go_to(Stage.ABOUT)
+    touched.settle()
+    hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
+    for key in (*PIN, "enter"):
+        touched.click(f"pin-{key}")
+    touched.click("action-end")
+    touched.click("reason-5")
+    assert ("SessionAborted", {"stage": "about", "reason": "other"}) in touched.notes
+
+
+def test_by_keyboard_the_card_has_no_keys(touched: Desk) -> None:
+    touched.shortcut(Action.PANEL)
+    assert touched.sees("pin-card")
+    assert not touched.sees("pin-1")

@@ -9,6 +9,8 @@ Item {
     id: desk
 
     required property ExperimenterScreen experimenter
+    // The corner that is held is an upper one: the other than that of the visitor's buttons.
+    property bool holdsRight: false
 
     Instantiator {
         model: desk.experimenter.shortcuts
@@ -43,8 +45,21 @@ Item {
         anchors { horizontalCenter: parent.horizontalCenter; top: parent.top; topMargin: 14 * Theme.unit }
         note: desk.experimenter.note
     }
+    // For a booth without a keyboard. What lies below takes every touch as if this were not here.
+    Item {
+        objectName: "hold-corner"
+        x: desk.holdsRight ? parent.width - width : 0
+        width: 110 * Theme.unit
+        height: width
+        TapHandler {
+            objectName: "hold"
+            longPressThreshold: 3
+            onLongPressed: desk.experimenter.hold()
+        }
+    }
     PinCard {
         anchors { top: parent.top; right: parent.right; margins: Theme.gap }
         card: desk.experimenter.card
+        words: desk.experimenter.panel.words
     }
 }

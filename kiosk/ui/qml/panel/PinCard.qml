@@ -8,6 +8,9 @@ Rectangle {
     id: pin
 
     required property CardScreen card
+    required property var words
+    // The keys of a PIN, for a booth without a keyboard.
+    readonly property bool pad: card.byTouch && !listing
     readonly property bool listing: card.step === "reason"
 
     objectName: "pin-card"
@@ -66,14 +69,56 @@ Rectangle {
                 required property string modelData
                 objectName: "reason-" + (reason.index + 1)
                 width: content.width
+                height: Math.max(implicitHeight, pin.card.byTouch ? 72 * Theme.unit : 0)
                 words: (reason.index + 1) + "   " + reason.modelData
                 alignment: Text.AlignLeft
                 focusPolicy: Qt.NoFocus
                 onClicked: pin.card.choose(reason.index + 1)
             }
         }
+        Grid {
+            id: keys
+            visible: pin.pad
+            width: parent.width
+            columns: 3
+            spacing: 10 * Theme.unit
+            Repeater {
+                model: ["1", "2", "3", "4", "5", "6", "7", "8", "9", "delete", "0", "enter"]
+                delegate: PanelButton {
+                    id: key
+                    required property string modelData
+                    readonly property bool digit: modelData.length === 1
+                    objectName: "pin-" + modelData
+                    width: (keys.width - 2 * keys.spacing) / 3
+                    height: 96 * Theme.unit
+                    words: digit ? modelData : pin.words["console-key-" + modelData] ?? ""
+                    font { pixelSize: digit ? Theme.body : Theme.dense; bold: digit }
+                    filled: modelData === "enter"
+                    enabled: pin.card.step !== "wait"
+                    focusPolicy: Qt.NoFocus
+                    onClicked: {
+                        if (digit)
+                            pin.card.type(modelData)
+                        else if (modelData === "delete")
+                            pin.card.erase()
+                        else
+                            pin.card.enter()
+                    }
+                }
+            }
+        }
+        PanelButton {
+            objectName: "pin-cancel"
+            visible: pin.card.byTouch
+            width: parent.width
+            height: 72 * Theme.unit
+            words: pin.words["console-cancel"] ?? ""
+            focusPolicy: Qt.NoFocus
+            onClicked: pin.card.cancel()
+        }
         PlainText {
             objectName: "pin-line"
+            visible: text !== ""
             width: parent.width
             text: pin.card.line
             font.pixelSize: Theme.dense
