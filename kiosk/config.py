@@ -345,6 +345,10 @@ class AssistanceConfig(ConfigModel):
     target_rule: Annotated[
         Literal["most_flipped", "most_recent"], Field(description="Where a mentalised hint for a first card points.")
     ] = "most_flipped"
+    wording: Annotated[
+        str,
+        Field(description="A folder of signed wordings that replace the shipped sentences of hints; empty: none."),
+    ] = ""
     step: Annotated[
         float,
         Field(

@@ -85,7 +85,7 @@ def test_every_command_block_is_a_command_that_the_program_takes(
     monkeypatch.chdir(tmp_path)
     for typed in typed_commands(page.read_text("utf-8")):
         words = shlex.split(typed)
-        depth = next((depth for depth in (2, 1) if " ".join(words[:depth]) in commands), 0)
+        depth = next((depth for depth in (3, 2, 1) if " ".join(words[:depth]) in commands), 0)
         name, arguments = (" ".join(words[:depth]), words[depth:]) if depth else ("run", words)
         if "--help" in arguments or typed in {"--help", "--version"}:
             continue

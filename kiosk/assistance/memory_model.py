@@ -190,7 +190,7 @@ class MemoryModel:
         return alone, one * other
 
     def _not_recalled(self, alone: Array) -> Array:
-        """Return, for each pair left and node t, the mean of t to the number of its cards that are not recalled."""
+        """Return the mean of t to the number of forgotten cards, for each pair left and node t."""
         t = self._nodes
         mean: Array = alone[..., 0, None] * t**2 + (alone[..., 1, None] + alone[..., 2, None]) * t
         return mean

@@ -234,6 +234,7 @@ def _study(booth: CheckTargets) -> Iterator[Check]:
     if booth.study is not None:
         yield Check(loader.FILE, partial(loader.study_file_check, booth.study))
         yield Check(loader.LANGUAGES, partial(loader.languages_check, booth.study))
+        yield Check("wording", partial(loader.wording_check, booth.study))
         yield Check(loader.POLICY, partial(loader.policy_check, booth.study))
     if booth.settings is not None:
         yield Check(loader.PIN, partial(loader.pin_check, booth.settings.experimenter))

@@ -36,6 +36,14 @@ GUIDES = {
         "how-to/add-a-language.md",
         ("study translations study.toml", "study translations study.toml --language it --write italian.csv"),
     ),
+    "study wording draft": Guide(
+        "how-to/wording.md",
+        ('study wording draft study.toml --server http://127.0.0.1:8080/v1 --style "warm and short"',),
+    ),
+    "study wording review": Guide(
+        "how-to/wording.md", ("study wording review study.toml", "study wording review study.toml --list")
+    ),
+    "study wording sign": Guide("how-to/wording.md", ('study wording sign study.toml --name "Ada Byron"',)),
     "study import": Guide(
         "how-to/import.md", ("study import items.csv --id trust --version 1 --out questionnaires/trust.toml",)
     ),

@@ -19,6 +19,7 @@ from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
 from kiosk.cli.study_package import diff_command, pack_command, signature_of
 from kiosk.cli.study_texts import dossier_command, preview_command, translations_command
+from kiosk.cli.study_wording import wording
 from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
@@ -57,6 +58,7 @@ study.add_command(diff_command)
 study.add_command(translations_command)
 study.add_command(dossier_command)
 study.add_command(preview_command)
+study.add_command(wording)
 
 
 @study.command("check")

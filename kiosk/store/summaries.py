@@ -1,4 +1,4 @@
-"""Keep one row about each session and a count of sessions by outcome, so that no look at them grows with the data.
+"""Keep one row about each session, and counts by outcome, so that no query grows.
 
 Triggers of the database write both, in the transaction that records the session itself. Nothing else of the record
 depends on them: they say again what the events say, and ``verify`` compares the two.

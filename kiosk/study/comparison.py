@@ -54,11 +54,21 @@ _EFFECTS = {
     "game.columns": "games are of another size: scores, flips and times cannot be compared",
     "randomisation": "participants are assigned to conditions in another way",
     "conditions": "a condition of one name stands for another treatment",
+    "assistance.wording": "the helper gives its hints in other words",
     "assistance": "help is chosen in another way",
     "consent.adult": "other people may take part",
     "consent.on_withdrawal": "sessions that visitors stop are kept or deleted in another way",
 }
-_NAMED = ("questionnaires", "about_you", "consent.text", "game.deck", "practice.deck", "assistance.policy", "look.logo")
+_NAMED = (
+    "questionnaires",
+    "about_you",
+    "consent.text",
+    "game.deck",
+    "practice.deck",
+    "assistance.policy",
+    "look.logo",
+    "assistance.wording",
+)
 """Keys that name something: what is in it is compared, and not how it is called."""
 
 _SHOWN = 60

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from itertools import combinations
 from pathlib import Path
 from typing import TypeVar
@@ -43,6 +43,7 @@ from kiosk.study.decks import NAMES, CardNames, deck_faults, picture_faults, rea
 from kiosk.study.forming import as_messages, card_forms, unformed
 from kiosk.study.package import shipped_differences, study_hash
 from kiosk.study.translations import is_untranslated
+from kiosk.study.wording_drafts import SignedWording, hint_messages, messages_in, missing_languages, read_signed
 from kiosk.units import MS_PER_MINUTE
 
 _WORDS = {
@@ -125,6 +126,11 @@ def _unsaid(actions: Sequence[ActionSpec], catalogue: Catalogue) -> Iterator[str
         if lacking and action not in ACTIONS:
             yield f"the action {action.label!r} lacks {', '.join(lacking)} in {catalogue.language!r}"
 
+
+SIGNED_TEXTS = f"{REPLACING}wording.ftl"
+"""What the signed wordings of hints are called."""
+
+WORDING = "assistance.wording"
 
 OWN_TEXTS = f"{REPLACING}study.ftl"
 """What the messages are called that a study file itself replaces."""
@@ -316,6 +322,7 @@ class _Look:
         if catalogue is None:
             return None
         self.faults += _unknown_texts(catalogue, model)
+        self._check_wording(catalogue, words)
         lacking = sorted(each for each in model.messages - catalogue.messages if not each.startswith(f"{CARD}-"))
         if lacking:
             self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
@@ -334,6 +341,7 @@ class _Look:
     ) -> tuple[dict[str, str], dict[str, Path]] | None:
         """Return the texts of a language by what they are called in records, and the files of those from elsewhere."""
         words = self._words_of_decks(code) | self._words_of_actions(code, actions) | self._own_file(code)
+        words |= self._signed_file(code)
         sources = self.into(partial(sources_in, folder))
         texts = {key: self.into(partial(read_text, f"the file {file}", file)) for key, file in words.items()}
         if sources is None or None in texts.values():
@@ -359,6 +367,39 @@ class _Look:
         """Return the file of a study's own words for messages of a language."""
         file = self._settings.own_texts_file(code)
         return {} if file is None else {f"{REPLACING}own-{file.name}": file}
+
+    @cached_property
+    def _signed(self) -> SignedWording | None:
+        """The wording of hints that a person signed, if the study names one."""
+        name = self._settings.assistance.wording
+        if not name:
+            return None
+        folder = self._settings.beside(name)
+        signed = self.at("assistance.wording", partial(read_signed, folder))
+        if signed is not None:
+            for language in missing_languages(signed, self._settings.language_codes):
+                self._blame("assistance.wording", f"nothing in {folder} is signed for the language {language!r}")
+            self._came(WORDING, name, Located(folder), signed.sha256, f"signed by {signed.name} on {signed.date}")
+        return signed
+
+    def _signed_file(self, code: str) -> dict[str, Path]:
+        """Return the file of signed wordings of a language."""
+        file = self._signed.files.get(code) if self._signed else None
+        return {} if file is None else {SIGNED_TEXTS: file}
+
+    def _check_wording(self, catalogue: Catalogue, words: Mapping[str, Path]) -> None:
+        """See that the signed wordings are of hints, and that nothing else in the study replaces the same messages."""
+        if SIGNED_TEXTS not in words:
+            return
+        signed = messages_in(catalogue.sources[SIGNED_TEXTS])
+        for name in sorted(signed - set(hint_messages(catalogue))):
+            self._blame("assistance.wording", f"{words[SIGNED_TEXTS]} has the message {name}, which is not of a hint")
+        for key, source in catalogue.sources.items():
+            if key.startswith(REPLACING) and key != SIGNED_TEXTS:
+                for name in sorted(signed & messages_in(source)):
+                    self._blame(
+                        "assistance.wording", f"{words[key]} replaces the message {name}, too; take it out there"
+                    )
 
     def _names_of_decks(self, code: str) -> dict[str, CardNames]:
         """Return the tables in which decks name their cards in a language, by what to call them in records."""
@@ -834,6 +875,13 @@ def policy_check(study: StudyConfig) -> Iterator[CheckResult]:
         yield CheckResult.ok(POLICY, words)
     else:
         yield CheckResult.warning(POLICY, f"{words}; no page says how it was made", f"write {card}")
+
+
+def wording_check(study: StudyConfig) -> Iterator[CheckResult]:
+    """Yield who signed the wording of the hints, if it is not the shipped one."""
+    for source in study.sources:
+        if source.key == WORDING:
+            yield CheckResult.ok("wording", f"{source.name}, {source.version}, {source.sha256[:SHORT_SHA]}")
 
 
 def languages_check(study: StudyConfig) -> Iterator[CheckResult]:

@@ -18,6 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.assistance.assistant import Assistant
+from kiosk.assistance.claims import false_claims, false_places
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import NO_GATE, ActionSpec, FlipInMove, Gate
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, ReminderSentences, Wording, reasoning
@@ -102,65 +103,22 @@ def cell(asked: Asked) -> tuple[bool, str]:
     return found[0]
 
 
-# What a sentence claims
-
-NEVER = {
-    "en": r"never|\bnot\b|unseen|somewhere new|for the first time\.$|new, and its partner",
-    "it": r"\bmai\b|non ancora|non sono ancora|ancora no\b|non l'hai ancora|non è ancora|non l'altr"
-    r"|un[oa] sol[oa], |non hai ancora|tutta da scoprire|posto nuovo",
-    "es": r"nunca|ninguna|todavía no|aún no|no (el|la) otr|solo has visto un[oa], |por descubrir|sitio nuevo",
-}
-"""Says that one of the two cards was never turned up; every reason says so if and only if it is true."""
-OFTEN = {
-    "en": "more than once|at least twice",
-    "it": "più di una volta|almeno due volte",
-    "es": "más de una vez|al menos dos veces",
-}
-"""Says that one of the two was turned up twice or more; of the open card "before" is said instead."""
-ONCE = {
-    "en": r"\bonce\b|one time|single time",
-    "it": r"\buna volta\b|soltanto una\b",
-    "es": r"\buna vez\b|\buna sola\b|solo una\b",
-}
-"""Says, once OFTEN is taken out, that one of the two was turned up exactly once."""
-NEW = {"en": r"is new\b|up for the first time", "it": r"è nuova|prima volta", "es": r"es nueva|primera vez"}
-"""Says of the open card that it was never up before."""
-KNOWN = {
-    "en": r"have (seen|met) this|was up before|have both been up",
-    "it": r"l'avevi già|era già uscita|avevi già incontrato quest",
-    "es": r"la habías visto|ya había salido|ya te había salido est",
-}
-"""Says of the open card that it was up before."""
-PLACES = {"en": ("row", "column"), "it": ("riga", "colonna"), "es": ("fila", "columna")}
-
-
 def check_reason(reason: str, language: str, asked: Asked) -> None:
     """Check that the list of flips bears out the reason, and that it names no place."""
-    counts = (asked.other, asked.target)
-    assert bool(re.search(NEVER[language], reason)) == (0 in counts), (reason, counts)
-    said_to_be_often = asked.target if asked.second else max(counts)
-    assert bool(re.search(OFTEN[language], reason)) == (said_to_be_often >= 2), (reason, counts)
-    if re.search(ONCE[language], re.sub(f"{OFTEN[language]}|prima volta|primera vez", "", reason)):
-        assert 1 in counts, (reason, counts)
-    if asked.second and re.search(NEW[language], reason):
-        assert asked.other == 1, (reason, counts)
-    if asked.second and re.search(KNOWN[language], reason, re.IGNORECASE):
-        assert asked.other >= 2, (reason, counts)
+    card = FlipInMove.SECOND if asked.second else FlipInMove.FIRST
+    assert not [*false_claims(reason, language, card, asked.other, asked.target)], reason
     assert not re.search(r"\d", reason)
 
 
 def check_place(sentence: str, language: str, asked: Asked) -> None:
     """Check that the sentence's figures are the target's row and column, if the action gives them away."""
-    row, column = PLACES[language]
     target, action = asked.hint.target.position, asked.hint.action
-    expected = []
+    expected: dict[str, str | int] = {}
     if action in (ActionSpec.SUG_ROW, ActionSpec.SUG_CARD):
-        expected.append((row, str(target.row + 1)))
+        expected["row"] = target.row + 1
     if action in (ActionSpec.SUG_COL, ActionSpec.SUG_CARD):
-        expected.append((column, str(target.column + 1)))
-    assert re.findall(rf"({row}|{column}) (\d+)", sentence) == expected
-    assert len(re.findall(r"\d+", sentence)) == len(expected)
-    assert (row in sentence, column in sentence) == (action is not ActionSpec.SUG_COL, action is not ActionSpec.SUG_ROW)
+        expected["column"] = target.column + 1
+    assert not [*false_places(sentence, language, expected)], sentence
 
 
 @cache
