@@ -357,6 +357,55 @@ class AssistanceConfig(ConfigModel):
             description="How far one flip may move a value of the table within a session; 0 keeps it frozen.",
         ),
     ] = 0.0
+    memory_model: Annotated[
+        bool,
+        Field(description="Whether a model of the visitor's memory is kept, and recorded with every decision."),
+    ] = False
+    timing: Annotated[
+        Literal["table", "model"],
+        Field(
+            description="What decides when to help where the gate is open: the Q-table, or the model of the visitor's "
+            "memory."
+        ),
+    ] = "table"
+    threshold_first: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="With timing 'model': a first card gets help if the chance that a pair is recalled is below "
+            "this.",
+        ),
+    ] = 0.2
+    threshold_second: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="With timing 'model': a second card gets help if the chance that its mate is recalled is below "
+            "this.",
+        ),
+    ] = 0.4
+    explore: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="The chance that a decision is drawn at random among all actions, where the gate is open; 0 "
+            "never does.",
+        ),
+    ] = 0.0
+
+    @property
+    def models_memory(self) -> bool:
+        """Whether there is a model of the visitor's memory."""
+        return self.memory_model or self.timing == "model"
+
+    @model_validator(mode="after")
+    def _check_that_the_table_decides_if_it_learns(self) -> Self:
+        if self.step and self.timing == "model":
+            raise ValueError("step must be 0 with timing 'model', as no table decides that could go on learning")
+        return self
 
 
 VOICE_ENGINES = ("pico", "hibari", "system")

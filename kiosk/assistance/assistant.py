@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Iterable, Mapping
+from dataclasses import asdict, dataclass
 from random import Random
 from typing import Any, Protocol
 
 from kiosk import UserInputError
+from kiosk.assistance.memory_model import MemoryEstimate, MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, GateDecision, Phase, Precision, QTable, State
+from kiosk.config import AssistanceConfig
 from kiosk.game import Board, Concentration, IllegalFlip, Position
 
 
@@ -51,16 +53,27 @@ class Decision:
     hint: Hint | None
     actions: tuple[ActionSpec, ...] = ACTIONS
     """The actions that the values in ``q`` are of."""
+    memory: MemoryEstimate | None = None
+    """What the model of the player's memory held, where there is one."""
+    by_memory: ActionSpec | None = None
+    """What the timing by that model comes to; None where the table is asked."""
+    probability: float = 1.0
+    """The chance of this action, before chance decided."""
 
     @property
     def greedy(self) -> ActionSpec:
-        """Return what gate and table come to; none at a shut gate.
+        """Return what the gate and the table, or the model of memory, come to; none at a shut gate.
 
-        It is the action with the highest value, the lowest of equals.
+        Of a table it is the action with the highest value, the lowest of equals.
         """
         if not self.gate_decision.is_open:
             return ActionSpec.NO_HELP
-        return self.actions[self.q.index(max(self.q))]
+        return self.by_memory or self.actions[self.q.index(max(self.q))]
+
+    @property
+    def is_randomised(self) -> bool:
+        """Whether chance could have decided otherwise."""
+        return self.probability < 1
 
     @property
     def is_remark(self) -> bool:
@@ -68,45 +81,113 @@ class Decision:
         return self.hint is None and self.action is not ActionSpec.NO_HELP
 
 
-def decide(
+@dataclass(frozen=True, slots=True)
+class DecisionRules:
+    """What decides besides gate and table: timing by a model of memory, and exploration at random.
+
+    With the probability ``explore``, the action is drawn among all of the table's, each as likely, where the gate is
+    open.
+    """
+
+    timing: MemoryTiming | None = None
+    explore: float = 0.0
+    models_memory: bool = False
+
+    @classmethod
+    def of(cls, config: AssistanceConfig) -> DecisionRules:
+        """Return the rules that a study file declares."""
+        timing = MemoryTiming(config.threshold_first, config.threshold_second) if config.timing == "model" else None
+        return cls(timing, config.explore, config.models_memory)
+
+    def probability(self, action: ActionSpec, greedy: ActionSpec, actions: tuple[ActionSpec, ...]) -> float:
+        """Return the chance that an action is taken where the gate is open, and the rest comes to ``greedy``."""
+        return self.explore / len(actions) * (action in actions) + (1 - self.explore) * (action is greedy)
+
+    def draw(self, greedy: ActionSpec, actions: tuple[ActionSpec, ...], rng: Random) -> ActionSpec:
+        """Return ``greedy``, or with the probability of exploring one of all actions."""
+        return rng.choice(actions) if self.explore and rng.random() < self.explore else greedy
+
+
+BY_TABLE = DecisionRules()
+
+
+def decide(  # noqa: PLR0913 - what a decision is made from
     game: Concentration,
     last: ActionSpec,
     policy: Policy,
     point: Callable[[Concentration], Target],
     override: ActionSpec | None = None,
+    *,
+    rules: DecisionRules = BY_TABLE,
+    memory: MemoryEstimate | None = None,
+    rng: Random | None = None,
 ) -> Decision:
     """Decide about the coming flip of ``game``, after ``last``; ``point`` is asked only for a hint.
 
-    ``override`` is taken instead of the action that gate and table come to.
+    ``override`` is taken instead of the action that gate, table and chance come to. ``rules`` that time help by memory
+    need ``memory``; ``rng`` is asked only by rules that explore.
     """
     state, verdict = State.of(game, last), policy.gate.decide(game)
-    action = override
-    if action is None:
-        action = policy.action(state) if verdict.is_open else ActionSpec.NO_HELP
+    by_memory = rules.timing.action(memory) if rules.timing and memory else None
+    q = policy.row(state) if by_memory is None else ()
+    greedy, probability = ActionSpec.NO_HELP, 1.0
+    if verdict.is_open:
+        greedy = policy.action(state) if by_memory is None else by_memory
+    action = greedy if override is None else override
+    if verdict.is_open and rules.explore:
+        if override is None and rng is not None:
+            action = rules.draw(greedy, policy.actions, rng)
+        probability = rules.probability(action, greedy, policy.actions)
     hint = None
     if action.needs_target:
         target = point(game)
         hint = Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
-    return Decision(state, verdict, policy.row(state), action, hint, policy.actions)
+    return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability)
 
 
 class Assistant:
-    """Decides the help for one game; it remembers only its own last action."""
+    """Decides the help for one game; it remembers its own last action, and at most what the player may remember."""
 
-    def __init__(self, policy: Policy, mentaliser: Mentaliser) -> None:
-        """Take a table, whose gate it obeys, and a mentaliser, whose condition it does not know."""
+    def __init__(
+        self, policy: Policy, mentaliser: Mentaliser, rules: DecisionRules = BY_TABLE, rng: Random | None = None
+    ) -> None:
+        """Take a table, whose gate it obeys, and a mentaliser, whose condition it does not know.
+
+        ``rng`` is what ``rules`` explore with.
+        """
         self._policy = policy
         self._mentaliser = mentaliser
+        self._rules = rules
+        self._memory: MemoryModel | None = None
+        self._rng = rng
         self._last = ActionSpec.NO_HELP
 
-    def decide(self, game: Concentration) -> Decision:
+    def decide(self, game: Concentration, override: ActionSpec | None = None) -> Decision:
         """Decide how much to help with the coming flip of ``game``, and where to point.
 
-        The game must not be over.
+        The game must not be over. ``override`` is taken instead, where what was decided is known.
         """
-        decision = decide(game, self._last, self._policy, self._mentaliser.target)
+        decision = decide(
+            game,
+            self._last,
+            self._policy,
+            self._mentaliser.target,
+            override,
+            rules=self._rules,
+            memory=self._estimate(game),
+            rng=self._rng,
+        )
         self._last = decision.action
         return decision
+
+    def _estimate(self, game: Concentration) -> MemoryEstimate | None:
+        """Return what the player may remember, where that is modelled."""
+        if not self._rules.models_memory:
+            return None
+        if self._memory is None:
+            self._memory = MemoryModel.of(game)
+        self._memory.follow(game, hinted=self._last.needs_target)
+        return self._memory.estimate()
 
     def finish(self, game: Concentration) -> str | None:  # noqa: ARG002 - for those that learn
         """Close a game that is over; return the sha256 of the table as it came out.
@@ -143,26 +224,49 @@ class Explanation:
     sentences: tuple[str, ...]
     overridden: bool = False
     spoken: str | None = None
+    rules: DecisionRules = BY_TABLE
 
     def to_json(self) -> dict[str, Any]:
         """Return the explanation as JSON values: locations from 0 row by row, rows and columns from 1.
 
         Without a hint ``target``, ``counts`` and ``reason`` are null. ``overridden`` is there only when the action
-        was not left to gate and table, ``said`` only when it is known.
+        was not left to gate and table, ``said`` only when it is known, ``memory`` only where memory is modelled,
+        ``timing`` only where it decides (``q`` is empty then), and ``chance`` only where the action was drawn.
         """
         decision = self.decision
         return {
             "state": {part: getattr(decision.state, part).name.lower() for part in ("game", "last", "outcome")}
             | {"index": decision.state.index_in(decision.actions)},
             "gate": {"open": decision.gate_decision.is_open, "reason": decision.gate_decision.value},
-            "q": {action.label: value for action, value in zip(decision.actions, decision.q, strict=True)},
+            "q": dict(self.values),
+            **self._memory(),
             "action": decision.action.label,
+            **self._chance(),
             **({"overridden": True} if self.overridden else {}),
             **self._pointing(decision.hint),
             "targets": [self.board.location(position) for position in self.candidates],
             "sentences": list(self.sentences),
             **({"said": self.spoken} if self.spoken else {}),
         }
+
+    @property
+    def values(self) -> tuple[tuple[str, float], ...]:
+        """The values of the table by action; none where the table was not asked."""
+        return tuple(zip((action.label for action in self.decision.actions), self.decision.q, strict=False))
+
+    def _memory(self) -> dict[str, Any]:
+        memory, timing, by_memory = self.decision.memory, self.rules.timing, self.decision.by_memory
+        told: dict[str, Any] = {"memory": asdict(memory) | {"recall": list(memory.recall)}} if memory else {}
+        if timing and by_memory:
+            told["timing"] = asdict(timing) | {"action": by_memory.label}
+        return told
+
+    def _chance(self) -> dict[str, Any]:
+        decision = self.decision
+        if not decision.is_randomised:
+            return {}
+        chance = {"explore": self.rules.explore, "probability": decision.probability}
+        return {"chance": chance | {"greedy": decision.greedy.label}}
 
     def _pointing(self, hint: Hint | None) -> dict[str, Any]:
         if hint is None:
@@ -308,19 +412,26 @@ class _Pending:
 class LearningAssistant(Assistant):
     """An assistant whose table learns, at each decision, from what the one before it came to."""
 
-    def __init__(self, policy: QTable, mentaliser: Mentaliser, step: float) -> None:
+    def __init__(
+        self,
+        policy: QTable,
+        mentaliser: Mentaliser,
+        step: float,
+        rules: DecisionRules = BY_TABLE,
+        rng: Random | None = None,
+    ) -> None:
         """Start from the frozen table ``policy``; ``step`` bounds every change of a value."""
         self.table = LearningTable(policy, step)
-        super().__init__(self.table, mentaliser)
+        super().__init__(self.table, mentaliser, rules, rng)
         self._coming: UpcomingFlip | None = None
         self._pending: _Pending | None = None
 
-    def decide(self, game: Concentration) -> Decision:
+    def decide(self, game: Concentration, override: ActionSpec | None = None) -> Decision:
         """Learn from the flip that was made since the last decision, then decide about the coming one."""
         self._collect(game)
         if self.table.gate.decide(game).is_open:
             self._learn(max(self.table.row(State.of(game, self._last))))
-        decision = super().decide(game)
+        decision = super().decide(game, override)
         if decision.gate_decision.is_open:
             self._pending = _Pending(decision.state, decision.action)
         nf = game.flips_since_match + 1
@@ -347,23 +458,49 @@ class LearningAssistant(Assistant):
             self.table.learn(pending.state, pending.action, pending.paid + pending.weight * to_come)
 
 
-def assistant_with(policy: QTable, mentaliser: Mentaliser, step: float) -> Assistant:
-    """Return an assistant whose table stays as it is, or, with a step above 0, goes on learning."""
-    return LearningAssistant(policy, mentaliser, step) if step else Assistant(policy, mentaliser)
+def assistant_with(policy: QTable, mentaliser: Mentaliser, config: AssistanceConfig, rng: Random) -> Assistant:
+    """Return the assistant that a study file declares; ``rng`` is asked only if it explores."""
+    rules = DecisionRules.of(config)
+    if config.step:
+        return LearningAssistant(policy, mentaliser, config.step, rules, rng)
+    return Assistant(policy, mentaliser, rules, rng)
 
 
-def table_before_flip(policy: QTable, step: float, game: Concentration, flips: Iterable[Position]) -> Policy:
+def memory_before_flip(
+    config: AssistanceConfig, board: Board, flips: Iterable[Position], hinted: Container[int]
+) -> MemoryEstimate | None:
+    """Return what is thought of the player's memory after ``flips``, where the study models it.
+
+    ``hinted`` holds the numbers of the flips, from 1, that had a hint.
+    """
+    if not config.models_memory:
+        return None
+    game = Concentration(board)
+    model = MemoryModel.of(game)
+    for number, position in enumerate(flips, 1):
+        model.flip(board.location(position), hinted=number in hinted)
+    return model.estimate()
+
+
+def table_before_flip(
+    policy: QTable,
+    step: float,
+    game: Concentration,
+    flips: Iterable[Position],
+    actions: Mapping[int, ActionSpec] | None = None,
+) -> Policy:
     """Return the table as it stood when the flip after ``flips`` was decided.
 
-    ``game`` is a new one, and is played.
+    ``game`` is a new one, and is played. ``actions`` are what was decided before each flip, from 1, where that is
+    known and the table did not decide alone.
 
     Where the hints pointed does not matter here: only how much help there was, and what came of it, is learnt from.
     """
     if not step:
         return policy
     assistant = LearningAssistant(policy, Mentaliser(TargetRule.RANDOM, Random(0)), step)
-    for position in flips:
-        assistant.decide(game)
+    for number, position in enumerate(flips, 1):
+        assistant.decide(game, (actions or {}).get(number))
         game.flip(position)
         game.turn_back()
     assistant.decide(game)

@@ -14,9 +14,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from kiosk.assistance.policy import ActionSpec
 from kiosk.game import CARDS_IN_A_PAIR, Concentration
 
 if TYPE_CHECKING:
@@ -33,6 +35,51 @@ READING = (True, False)
 """Of several recalled pairs, a player takes the first in reading order, or any; both are as likely before a game."""
 LAPSE = 0.02
 """The share of flips that are taken to be of any closed card, so that no single flip rules a d out."""
+
+
+@dataclass(frozen=True, slots=True)
+class MemoryEstimate:
+    """What the model held before a flip, rounded as it is recorded.
+
+    ``recall`` is the chance in percent that the card on each place is recalled, row by row; ``match_recalled`` the
+    chance that a pair is recalled, or the mate of the open card; ``completes`` the chance that the coming flip
+    completes a pair without help, None before a first card; ``last_flip`` what the chance of the flip before was.
+    """
+
+    forgetting: float
+    match_recalled: float
+    completes: float | None
+    last_flip: float | None
+    recall: tuple[int, ...]
+
+
+DECIMALS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class MemoryTiming:
+    """Help by what the player remembers: where a match is recalled with a lower chance than a threshold.
+
+    ``first`` is the threshold for a recalled pair before a first card, ``second`` that for the mate of the open card.
+    """
+
+    first: float
+    second: float
+
+    def threshold(self, memory: MemoryEstimate) -> float:
+        """Return the threshold for the coming card, which is a second one if a flip can complete a pair."""
+        return self.first if memory.completes is None else self.second
+
+    def action(self, memory: MemoryEstimate) -> ActionSpec:
+        """Return the help with the coming flip: a column below the threshold, else none."""
+        return ActionSpec.SUG_COL if memory.match_recalled < self.threshold(memory) else ActionSpec.NO_HELP
+
+    def told(self, memory: MemoryEstimate) -> str:
+        """Say what the decision follows from."""
+        what = "a pair is" if memory.completes is None else "the mate of the open card is"
+        threshold = self.threshold(memory)
+        side = "below" if memory.match_recalled < threshold else "not below"
+        return f"{what} recalled with the chance {memory.match_recalled:.4f}, {side} {threshold:g}"
 
 
 class MemoryModel:
@@ -58,12 +105,30 @@ class MemoryModel:
         self._nodes, self._shares = _quadrature(len(self._pairs))
         self._expected: Array | None = None
         self._mate_recalled: Array | None = None
+        self._last_flip: float | None = None
 
     @classmethod
     def of(cls, game: Concentration) -> MemoryModel:
         """Return the model of a player who has not yet flipped a card of this game's board."""
         board = game.board
         return cls([board.location(board.mate(place)) for place in board])
+
+    def follow(self, game: Concentration, *, hinted: bool) -> None:
+        """Record the flip of ``game`` that was made since; ``hinted`` says whether it had help."""
+        if game.flips > self._flips:
+            place = next(place for place in game.board if game.history.last(place) == game.flips)
+            self.flip(game.board.location(place), hinted=hinted)
+
+    def estimate(self) -> MemoryEstimate:
+        """Return what is held before the coming flip."""
+        completes = None if self._first is None else round(self.next_card()[self._mates[self._first]], DECIMALS)
+        return MemoryEstimate(
+            forgetting=round(self.forgetting, DECIMALS),
+            match_recalled=round(self.chance_to_match(), DECIMALS),
+            completes=completes,
+            last_flip=None if self._last_flip is None else round(self._last_flip, DECIMALS),
+            recall=tuple(round(100 * chance) for chance in self.recall()),
+        )
 
     @property
     def forgetting(self) -> float:
@@ -91,9 +156,10 @@ class MemoryModel:
 
     def flip(self, place: int, *, hinted: bool = False) -> None:
         """Record a flip; one made after a hint says little about memory, and leaves the weights alone."""
+        likely = self._weights * self._expect()[:, place]
+        self._last_flip = float(likely.sum())
         if not hinted:
-            self._weights = self._weights * self._expect()[:, place]
-            self._weights /= self._weights.sum()
+            self._weights = likely / self._last_flip
         self._flips += 1
         if self._first is None:
             self._first, self._first_was_hinted = place, hinted

@@ -16,6 +16,7 @@ from pydantic_core import ErrorDetails
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
+from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
@@ -214,10 +215,17 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     yield _line("state", f"{state.label}, row {state.index_in(decision.actions)} of the table")
     yield _line("", f"{state.game.name.lower()} of the game; {_OUTCOMES[state.outcome]}")
     yield _line("gate", "open: the table is asked" if verdict.is_open else f"closed: {verdict.value}")
-    yield _line("q", "   ".join(f"{a.label} {value:g}" for a, value in zip(decision.actions, decision.q, strict=True)))
+    if explanation.values:
+        yield _line("q", "   ".join(f"{label} {value:g}" for label, value in explanation.values))
+    if decision.memory is not None:
+        yield from _memory(decision.memory, explanation.board)
+    if explanation.rules.timing and decision.by_memory and decision.memory:
+        yield _line("timing", explanation.rules.timing.told(decision.memory))
     yield _line(
         "action", decision.action.label + (", by the case and not by the table" if explanation.overridden else "")
     )
+    if decision.is_randomised:
+        yield _line("chance", f"drawn with probability {decision.probability:.4g}; else {decision.greedy.label}")
     yield _line("targets", _places(explanation))
     if decision.hint is not None:
         yield from _pointing(decision.hint, explanation.board)
@@ -225,6 +233,14 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield _line("said", explanation.spoken)
     for number, sentence in enumerate(explanation.sentences):
         yield _line("" if number else "sentences", sentence)
+
+
+def _memory(memory: MemoryEstimate, board: Board) -> Iterator[str]:
+    """Yield what the visitor may remember: each card's chance in percent, row by row."""
+    yield _line("memory", f"forgets {memory.forgetting:.2f} a flip; in percent, how likely each card is recalled:")
+    for row in range(board.rows):
+        cells = memory.recall[row * board.columns : (row + 1) * board.columns]
+        yield _line("", " ".join(f"{cell:3}" for cell in cells))
 
 
 def _pointing(hint: Hint, board: Board) -> Iterator[str]:

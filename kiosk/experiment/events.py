@@ -7,7 +7,7 @@ they follow from the world events, and are recorded beside them so that the data
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import Enum
 from functools import cache
 from typing import Any, ClassVar
@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 from cattrs import BaseValidationError, Converter, transform_error
 
 from kiosk import UserInputError
+from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
@@ -539,6 +540,31 @@ class AssistanceDecided(SessionEvent):
     greedy: ActionSpec
     probability: float
     randomised: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class MemoryEstimated(SessionEvent):
+    """What the model of the visitor's memory held at the decision about flip number ``flip``.
+
+    The fields are those of ``MemoryEstimate``; ``recall`` is in percent, for each place row by row.
+    """
+
+    flip: int
+    forgetting: float
+    match_recalled: float
+    completes: float | None
+    last_flip: float | None
+    recall: tuple[int, ...]
+
+    @classmethod
+    def of(cls, estimate: MemoryEstimate, flip: int, at_ms: int) -> MemoryEstimated:
+        """Return an estimate as it is recorded."""
+        return cls(at_ms=at_ms, flip=flip, **asdict(estimate))
+
+    @property
+    def estimate(self) -> MemoryEstimate:
+        """The estimate as the assistant had it."""
+        return MemoryEstimate(self.forgetting, self.match_recalled, self.completes, self.last_flip, self.recall)
 
 
 @dataclass(frozen=True, kw_only=True)

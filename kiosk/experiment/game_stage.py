@@ -361,11 +361,12 @@ class GameStage(StageHandler):
                 gate=decision.gate_decision,
                 action=decision.action,
                 greedy=decision.greedy,
-                # Every policy so far is a function of the state, so nothing is drawn.
-                probability=1.0,
-                randomised=False,
+                probability=decision.probability,
+                randomised=decision.is_randomised,
             )
         )
+        if decision.memory is not None:
+            outcome.emit(happened.MemoryEstimated.of(decision.memory, self.game.flips + 1, outcome.at_ms))
         return decision
 
     def _holding(self, utterance: int) -> _Given | None:

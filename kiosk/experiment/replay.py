@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from random import Random
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import (
+    BY_TABLE,
     Decision,
+    DecisionRules,
     Explanation,
     Policy,
     decide,
     explain_decision,
     game_after,
+    memory_before_flip,
     table_before_flip,
 )
+from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ActionSpec, State
 from kiosk.assistance.wording import Catalogue, Wording
@@ -94,22 +99,31 @@ class DecisionContext:
     override: ActionSpec | None = None
     target: Position | None = None
     seed: int = 0
+    rules: DecisionRules = BY_TABLE
+    memory: MemoryEstimate | None = None
+    drawn: ActionSpec | None = None
+    """The action that was taken, where chance had a part in it."""
 
     @classmethod
     def before(cls, flip: int, game: DealtBoard, plan: SessionConfig) -> DecisionContext:
         """Rebuild the moment before a flip (from 1) of a game that was played; the flip need not have come."""
         before, hint = game.decisions.get(flip - 1), game.hints.get(flip)
         flips = tuple(each.event.position for number, each in game.flips.items() if number < flip)
+        config, decision = plan.settings.assistance, game.decisions.get(flip)
+        actions = {number: each.action for number, each in game.decisions.items()} if config.explore else None
         return cls(
             board=game.board,
             flips=flips,
             last=before.action if before else ActionSpec.NO_HELP,
             condition=plan.condition,
             cell=plan.cell,
-            rule=TargetRule(plan.settings.assistance.target_rule),
-            policy=table_before_flip(plan.policy, plan.settings.assistance.step, Concentration(game.board), flips),
+            rule=TargetRule(config.target_rule),
+            policy=table_before_flip(plan.policy, config.step, Concentration(game.board), flips, actions),
             catalogue=plan.catalogue,
             target=hint.given.target if hint else None,
+            rules=DecisionRules.of(config),
+            memory=memory_before_flip(config, game.board, flips, game.hints) if plan.cell.helps else None,
+            drawn=decision.action if decision and config.explore else None,
         )
 
     def explained(self) -> Explanation:
@@ -119,8 +133,11 @@ class DecisionContext:
         if given is None:
             return explain_decision(game, self._undecided(game), None, None)
         point = partial(self._point, given.mentaliser)
-        decision = decide(game, self.last, self.policy, point, self.override)
-        return explain_decision(game, decision, given.mentaliser, given.sentences, overridden=self.override is not None)
+        taken = self.override or self.drawn
+        decision = decide(game, self.last, self.policy, point, taken, rules=self.rules, memory=self.memory)
+        overridden = self.override is not None
+        explanation = explain_decision(game, decision, given.mentaliser, given.sentences, overridden=overridden)
+        return replace(explanation, rules=self.rules)
 
     def _point(self, mentaliser: Mentaliser, game: Concentration) -> Target:
         return mentaliser.target(game) if self.target is None else mentaliser.pointing_at(self.target, game)
@@ -140,6 +157,7 @@ def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) ->
     """Tell whether a decision comes out as it was recorded for this flip, in all that was recorded of it."""
     return (
         _is_same_decision(game, flip, explanation.decision)
+        and _is_same_memory(game, flip, explanation.decision.memory)
         and _is_same_hint(game, flip, explanation)
         and _is_same_remark(game, flip, explanation)
     )
@@ -147,10 +165,24 @@ def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) ->
 
 def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
     stored, state = game.decisions.get(flip), today.state
-    return stored is None or (stored.game, stored.last, stored.outcome, stored.gate, stored.action) == (
+    if stored is None:
+        return True
+    return (stored.game, stored.last, stored.outcome, stored.gate, stored.action, stored.greedy) == (
         *(state.game, state.last, state.outcome),
-        *(today.gate_decision, today.action),
-    )
+        *(today.gate_decision, today.action, today.greedy),
+    ) and math.isclose(stored.probability, today.probability)
+
+
+def _is_same_memory(game: DealtBoard, flip: int, today: MemoryEstimate | None) -> bool:
+    """Compare within what the last digit of another machine may come to."""
+    stored = game.memories.get(flip)
+    if stored is None or today is None:
+        return stored is None and today is None
+    numbers = (stored.forgetting, today.forgetting), (stored.match_recalled, today.match_recalled)
+    return all(abs(one - other) <= _LAST_DIGIT for one, other in numbers) and len(stored.recall) == len(today.recall)
+
+
+_LAST_DIGIT = 0.0002
 
 
 def _is_same_remark(game: DealtBoard, flip: int, explanation: Explanation) -> bool:

@@ -237,10 +237,10 @@ _NOTHING = StageHandler()
 
 def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[int]) -> GameStage:
     settings = plan.settings
-    deal, targets = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets"))
+    deal, targets, explored = (Random(f"{seed}/{purpose}") for purpose in ("deal", "targets", "explore"))
     rule = TargetRule(settings.assistance.target_rule)
     given = help_in(plan.cell, rule, wording, targets)
-    assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance.step) if given else None
+    assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance, explored) if given else None
     guide = HintGuide(assistant, given.sentences) if given and assistant else None
     return GameStage(DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, plan.timing, numbers)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from itertools import islice
 from typing import TypeVar
@@ -27,6 +27,7 @@ from kiosk.experiment.events import (
     HintHighlighted,
     InputDevice,
     LanguageSelected,
+    MemoryEstimated,
     PauseEnded,
     PauseRequested,
     PracticeEnd,
@@ -149,6 +150,7 @@ class DealtBoard:
     hints: Mapping[int, BoardHint]
     decisions: Mapping[int, AssistanceDecided]
     remarks: Mapping[int, BoardRemark]
+    memories: Mapping[int, MemoryEstimated] = field(default_factory=dict)
 
     @property
     def board(self) -> Board:
@@ -334,6 +336,7 @@ _OF_BOARDS: frozenset[type[Event]] = frozenset(
         CardFlipped,
         TimerExpired,
         AssistanceDecided,
+        MemoryEstimated,
         HintGiven,
         RemarkGiven,
         HintHighlighted,
@@ -429,6 +432,7 @@ class _Boards:
         self._hints: dict[int, BoardHint] = {}
         self._decisions: dict[int, AssistanceDecided] = {}
         self._remarks: dict[int, BoardRemark] = {}
+        self._memories: dict[int, MemoryEstimated] = {}
         self._open_since = 0
         self._tap: CardSelected | None = None
         """The last tap; a card is turned by the tap before."""
@@ -438,18 +442,14 @@ class _Boards:
             self._tap = event
         match event:
             case BoardDealt():
-                self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
-                number = len(self.dealt) + 1
-                self.dealt.append(
-                    DealtBoard(number, stage, event, self._flips, self._hints, self._decisions, self._remarks)
-                )
+                self._flips, self._hints, self._decisions, self._remarks, self._memories = {}, {}, {}, {}, {}
+                number, helped = len(self.dealt) + 1, (self._hints, self._decisions, self._remarks)
+                self.dealt.append(DealtBoard(number, stage, event, self._flips, *helped, self._memories))
             case CardFlipped():
                 self._flip(event, pauses)
             case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
                 self._cover(at_ms, pauses)
-            case AssistanceDecided(flip=flip):
-                self._decisions[flip] = event
-            case HintGiven() | RemarkGiven() | HintHighlighted() | BoardUnlocked():
+            case _:
                 self._take_help(event)
         match event:
             case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
@@ -470,8 +470,12 @@ class _Boards:
                 exposure_ms = elapsed_ms(flip.event.at_ms, at_ms, pauses)
                 self._flips[number] = BoardFlip(flip.event, flip.decision_ms, exposure_ms)
 
-    def _take_help(self, event: HintGiven | RemarkGiven | HintHighlighted | BoardUnlocked) -> None:
+    def _take_help(self, event: Event) -> None:
         match event:
+            case AssistanceDecided(flip=flip):
+                self._decisions[flip] = event
+            case MemoryEstimated(flip=flip):
+                self._memories[flip] = event
             case RemarkGiven(flip=flip):
                 self._remarks[flip] = BoardRemark(event)
             case HintGiven(flip=flip):

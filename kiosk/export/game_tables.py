@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
-from kiosk.experiment.events import AssistanceDecided, InputDevice
+from kiosk.experiment.events import AssistanceDecided, InputDevice, MemoryEstimated
 from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
     ACTION,
@@ -218,6 +218,99 @@ DECISIONS = Table(
     _DECISION_COLUMNS,
     _decisions,
 )
+
+
+@dataclass(frozen=True)
+class _Memory:
+    kept: SessionRecord
+    dealt: DealtBoard
+    event: MemoryEstimated
+    place: int
+
+
+def _memories(kept: SessionRecord) -> Iterator[_Memory]:
+    for dealt in kept.state.boards:
+        for event in dealt.memories.values():
+            yield from (_Memory(kept, dealt, event, place) for place in range(len(event.recall)))
+
+
+_MEMORY_COLUMNS: tuple[Column[_Memory], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (FLIP, lambda row: row.event.flip),
+    (ROW, lambda row: row.place // row.dealt.event.columns + 1),
+    (COLUMN, lambda row: row.place % row.dealt.event.columns + 1),
+    (
+        Variable(
+            "recalled_percent",
+            "How likely the model of the visitor's memory took the card there to be recalled; 0 for cards that were "
+            "found or never turned up.",
+            ColumnKind.WHOLE,
+            "percent",
+        ),
+        lambda row: row.event.recall[row.place],
+    ),
+)
+
+MEMORY = Table(
+    "memory",
+    "One row for every card at every decision: what the model of the visitor's memory held before the flip. Only of "
+    "studies with a model of memory.",
+    (PARTICIPANT.name, BOARD.name, FLIP.name, ROW.name, COLUMN.name),
+    _MEMORY_COLUMNS,
+    _memories,
+)
+
+
+def _of_memory(name: str) -> Callable[[_Decision], float | None]:
+    """Return what reads a number of the estimate at a decision."""
+
+    def read(row: _Decision) -> float | None:
+        memory = row.dealt.memories.get(row.event.flip)
+        return None if memory is None else getattr(memory, name)
+
+    return read
+
+
+_MODELLED: tuple[Column[_Decision], ...] = make_columns(
+    (
+        Variable(
+            "forgetting",
+            "What the model of memory held of the visitor's forgetting a flip, the mean over its grid.",
+            ColumnKind.NUMBER,
+        ),
+        _of_memory("forgetting"),
+    ),
+    (
+        Variable(
+            "match_recalled",
+            "How likely, for the model, a pair was recalled, or before a second card the mate of the open one.",
+            ColumnKind.NUMBER,
+        ),
+        _of_memory("match_recalled"),
+    ),
+    (
+        Variable(
+            "completes_predicted",
+            "How likely, for the model, the coming flip completes a pair without help.",
+            ColumnKind.NUMBER,
+            empty="a first card was coming",
+        ),
+        _of_memory("completes"),
+    ),
+    (
+        Variable(
+            "last_flip_predicted",
+            "How likely, for the model and without help, the card of the flip before was.",
+            ColumnKind.NUMBER,
+            empty="there was no flip before",
+        ),
+        _of_memory("last_flip"),
+    ),
+)
+
+MODELLED_DECISIONS = replace(DECISIONS, columns=(*_DECISION_COLUMNS, *_MODELLED))
+"""The decisions of a study that has a model of memory, some of whose sessions may have had none."""
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,8 @@ class Difference:
 _NONE = ("title", "experimenter", "shortcuts", "robot.host", "robot.port", "screen.display", "voice.device")
 _DATA = (
     *("languages", "stages", "game.rows", "game.columns", "assistance.condition", "assistance.policy"),
-    *("assistance.target_rule", "assistance.step", "conditions", "randomisation", "consent.adult"),
+    *("assistance.target_rule", "assistance.step", "assistance.memory_model", "assistance.timing"),
+    *("assistance.threshold", "assistance.explore", "conditions", "randomisation", "consent.adult"),
     "consent.on_withdrawal",
 )
 """The beginnings of keys; every other key is something that visitors see, hear or wait for."""

@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 
 from kiosk import UserInputError
-from kiosk.assistance.policy import Gate
+from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.cli.main import main
 from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, PolicyUpdated, Stage
+from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, MemoryEstimated, PolicyUpdated, Stage
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
@@ -90,6 +90,71 @@ def test_what_a_table_came_to_is_recorded_and_the_table_it_began_as_is_unchanged
     assert driver.plan.policy.sha256 == before
     assert adapted.sha256 != before
     assert not stored(tmp_path / "frozen").noted(PolicyUpdated)
+
+
+MODELLED = {"memory_model": True}
+BY_MODEL = {"timing": "model", "threshold_first": 0.3, "threshold_second": 0.6}
+EXPLORING = {"explore": 0.5, "step": 0.05}
+
+
+@pytest.mark.parametrize(
+    ("condition", "options"),
+    [(Condition.TOM, MODELLED), (Condition.NOTOM, BY_MODEL), (Condition.RANDOM_EXPLAINED, EXPLORING)],
+    ids=["modelled", "by model", "exploring"],
+)
+def test_decisions_by_memory_and_by_chance_come_out_as_they_were_decided(
+    tmp_path: Path, condition: Condition, options: dict[str, Any]
+) -> None:
+    driver = stored(tmp_path, condition, assistance=options)
+    memories = {memory.flip: memory.estimate for memory in driver.noted(MemoryEstimated)}
+    with open_repository(tmp_path) as sessions:
+        explainer = DecisionExplainer(sessions, 1)
+        for then in driver.noted(AssistanceDecided)[1::5]:
+            now = explainer.explain(then.flip).decision
+            assert (now.action, now.greedy, now.probability) == (then.action, then.greedy, then.probability)
+            assert now.memory == memories.get(then.flip)
+    assert len(memories) == (0 if options is EXPLORING else len(driver.noted(AssistanceDecided)))
+
+
+def test_a_model_of_memory_changes_nothing_but_what_is_recorded_of_it() -> None:
+    without, modelled = (played(Condition.TOM, json.dumps({"assistance": each})) for each in ({}, MODELLED))
+    assert [event for event in modelled.events if not isinstance(event, MemoryEstimated)] == list(without.events)
+
+
+def test_help_by_the_model_comes_below_the_threshold_and_the_explanation_says_so(tmp_path: Path) -> None:
+    driver = stored(tmp_path, assistance=BY_MODEL)
+    memories = {memory.flip: memory for memory in driver.noted(MemoryEstimated)}
+    opened = [then for then in driver.noted(AssistanceDecided) if then.gate.is_open]
+    for then in opened:
+        below = memories[then.flip].match_recalled < (0.3 if then.card is FlipInMove.FIRST else 0.6)
+        assert then.action is (ActionSpec.SUG_COL if below else ActionSpec.NO_HELP)
+    helped = next(then for then in opened if then.action is ActionSpec.SUG_COL and then.card is FlipInMove.SECOND)
+    with open_repository(tmp_path) as sessions:
+        told = explain_stored_decision(sessions, 1, helped.flip).to_json()
+    assert told["q"] == {}
+    assert told["timing"] == {"first": 0.3, "second": 0.6, "action": "sug_col"}
+    assert told["memory"]["match_recalled"] < 0.6
+
+
+def test_the_model_is_shown_as_a_board_of_chances(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    driver = stored(tmp_path, assistance=BY_MODEL)
+    sys.argv = ["recollect", "explain", "1", "--flip", "20", "--data", str(tmp_path)]
+    with pytest.raises(SystemExit):
+        main()
+    printed = capsys.readouterr().out
+    recall = next(memory.recall for memory in driver.noted(MemoryEstimated) if memory.flip == 20)
+    assert " ".join(f"{percent:3}" for percent in recall[:6]) in printed
+    assert "the mate of the open card is recalled with the chance" in printed
+
+
+def test_where_the_gate_is_open_any_action_may_be_drawn_and_its_probability_is_recorded() -> None:
+    driver = played(Condition.TOM, json.dumps({"assistance": {"explore": 0.5}}))
+    opened = [then for then in driver.noted(AssistanceDecided) if then.gate.is_open]
+    shut = [then for then in driver.noted(AssistanceDecided) if not then.gate.is_open]
+    assert {(then.action, then.probability, then.randomised) for then in shut} == {(ActionSpec.NO_HELP, 1.0, False)}
+    assert all(then.probability == (0.625 if then.action is then.greedy else 0.125) for then in opened)
+    assert len({then.action for then in opened}) == 4
+    assert 0 < sum(then.action is not then.greedy for then in opened) < len(opened)
 
 
 def test_the_plan_of_a_session_is_kept_whole(tmp_path: Path) -> None:
