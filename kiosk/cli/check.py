@@ -48,7 +48,7 @@ from kiosk.store import checks as store_checks
 from kiosk.store.database import in_use
 from kiosk.store.maintenance import FOLDER
 from kiosk.store.participants import checked_site
-from kiosk.study import loader
+from kiosk.study import checks
 from kiosk.study.loader import read_study
 from kiosk.ui.checks import DRAWN_S, READY_S, CannotDraw, found_in_pictures, run_check_process
 from kiosk.ui.fonts import WITHIN_S, missing_characters
@@ -230,15 +230,15 @@ def all_checks(booth: CheckTargets) -> Iterator[Check]:
 
 def _study(booth: CheckTargets) -> Iterator[Check]:
     if booth.faults:
-        yield Check(loader.FILE, partial(loader.faults_check, booth.faults))
+        yield Check(checks.FILE, partial(checks.faults_check, booth.faults))
     if booth.study is not None:
-        yield Check(loader.FILE, partial(loader.study_file_check, booth.study))
-        yield Check(loader.LANGUAGES, partial(loader.languages_check, booth.study))
-        yield Check("wording", partial(loader.wording_check, booth.study))
-        yield Check(loader.POLICY, partial(loader.policy_check, booth.study))
+        yield Check(checks.FILE, partial(checks.study_file_check, booth.study))
+        yield Check(checks.LANGUAGES, partial(checks.languages_check, booth.study))
+        yield Check("wording", partial(checks.wording_check, booth.study))
+        yield Check(checks.POLICY, partial(checks.policy_check, booth.study))
     if booth.settings is not None:
-        yield Check(loader.PIN, partial(loader.pin_check, booth.settings.experimenter))
-        yield Check(loader.KEYS, partial(loader.shortcuts_check, booth.settings.shortcuts))
+        yield Check(checks.PIN, partial(checks.pin_check, booth.settings.experimenter))
+        yield Check(checks.KEYS, partial(checks.shortcuts_check, booth.settings.shortcuts))
 
 
 def _shown(booth: CheckTargets) -> Iterator[Check]:

@@ -30,10 +30,11 @@ from kiosk.extensions import ExtensionGroup, find, registered_names
 from kiosk.files import write_file
 from kiosk.robots.registry import check_robot, load_driver
 from kiosk.store.connecting import atomic_directory
+from kiosk.study.checks import expected_minutes, study_warnings
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.decks import NAMES, names_in, names_table
 from kiosk.study.forming import card_forms
-from kiosk.study.loader import expected_minutes, located, read_study, study_warnings
+from kiosk.study.loader import located, read_study
 from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
 from kiosk.study.reference import as_page, as_study_file

@@ -18,8 +18,9 @@ from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
+from kiosk.study.checks import expected_minutes
 from kiosk.study.editing import TextPlace, change_text, find_text, text_places, why_not_editable
-from kiosk.study.loader import expected_minutes, read_study
+from kiosk.study.loader import read_study
 from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts
 
 if TYPE_CHECKING:

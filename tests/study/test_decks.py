@@ -9,8 +9,9 @@ import pytest
 from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue, card_message
 from kiosk.config import ASSETS, Settings, pictures_in
+from kiosk.study.checks import study_warnings
 from kiosk.study.decks import deck_faults, names_table, picture_faults, read_names
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.loader import read_study
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 240">{}<circle cx="120" cy="120" r="80"/></svg>'
 PNG = b"\x89PNG\r\n\x1a\n"

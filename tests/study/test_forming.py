@@ -15,8 +15,9 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.events import Stage
+from kiosk.study.checks import study_warnings
 from kiosk.study.forming import unformed
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.loader import read_study
 from tests.experiment.driver import driven_to
 from tests.samples import ANIMALS, ENGLISH
 

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from kiosk.config import POLICIES, ExperimenterConfig, Keys, Settings
 from kiosk.preflight import Severity
-from kiosk.study import loader
+from kiosk.study import checks
 from kiosk.study.loader import read_study
 
 HASHED = f"scrypt:{'0' * 32}:{'1' * 64}"
 
 
 def test_every_fault_of_a_study_file_keeps_a_session_from_being_held() -> None:
-    faults = list(loader.faults_check(("one thing", "another")))
+    faults = list(checks.faults_check(("one thing", "another")))
     assert [(each.severity, each.message) for each in faults] == [
         (Severity.ERROR, "one thing"),
         (Severity.ERROR, "another"),
@@ -22,7 +22,7 @@ def test_every_fault_of_a_study_file_keeps_a_session_from_being_held() -> None:
 
 
 def test_a_study_is_told_with_all_its_cautions() -> None:
-    told, *cautions = loader.study_file_check(read_study(Settings()))
+    told, *cautions = checks.study_file_check(read_study(Settings()))
     assert (told.severity, "minutes" in told.message) == (Severity.OK, True)
     assert {each.severity for each in cautions} == {Severity.WARNING}
     assert any("ethics board" in each.message for each in cautions)
@@ -30,7 +30,7 @@ def test_a_study_is_told_with_all_its_cautions() -> None:
 
 def test_a_policy_is_told_by_its_hash_and_missed_its_page() -> None:
     study = read_study(Settings())
-    (told,) = loader.policy_check(study)
+    (told,) = checks.policy_check(study)
     assert told.message == f"default {study.plans[0].policy.sha256[:8]}"
 
 
@@ -39,32 +39,32 @@ def test_a_policy_without_a_page_about_it_is_told_of(tmp_path: Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text('[assistance]\npolicy = "mine.json"\n')
     study = read_study(Settings.read(file))
-    (without,) = loader.policy_check(study)
+    (without,) = checks.policy_check(study)
     assert (without.severity, without.remedy) == (Severity.WARNING, f"write {tmp_path / 'mine.md'}")
     (tmp_path / "mine.md").touch()
-    (told,) = loader.policy_check(study)
+    (told,) = checks.policy_check(study)
     assert told.severity is Severity.OK
 
 
 def test_the_policy_that_never_helps_needs_no_page() -> None:
-    (told,) = loader.policy_check(read_study(Settings.model_validate({"assistance": {"policy": "none"}})))
+    (told,) = checks.policy_check(read_study(Settings.model_validate({"assistance": {"policy": "none"}})))
     assert told.severity is Severity.OK
 
 
 def test_every_language_is_told() -> None:
-    (told,) = loader.languages_check(read_study(Settings(languages=("en", "it"))))
+    (told,) = checks.languages_check(read_study(Settings(languages=("en", "it"))))
     assert [part.split()[0] for part in told.message.split(", ")] == ["en", "it"]
 
 
 def test_a_study_without_a_pin_is_told_of_and_none_is_ever_repeated() -> None:
-    (without,) = loader.pin_check(ExperimenterConfig())
-    (told,) = loader.pin_check(ExperimenterConfig(pin_hash=HASHED))
+    (without,) = checks.pin_check(ExperimenterConfig())
+    (told,) = checks.pin_check(ExperimenterConfig(pin_hash=HASHED))
     assert [without.severity, told.severity] == [Severity.WARNING, Severity.OK]
     assert HASHED not in told.message
 
 
 def test_an_experimenter_who_could_not_get_out_is_told() -> None:
-    (told,) = loader.shortcuts_check(Keys())
-    (locked,) = loader.shortcuts_check(Keys(quit=""))
+    (told,) = checks.shortcuts_check(Keys())
+    (locked,) = checks.shortcuts_check(Keys(quit=""))
     assert (told.severity, Keys().quit in told.message) == (Severity.OK, True)
     assert (locked.severity, "quit" in locked.message) == (Severity.WARNING, True)

@@ -13,7 +13,8 @@ from kiosk.config import ASSETS, Settings
 from kiosk.experiment.items import ShortText
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.session_config import StudyConfig
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.checks import study_warnings
+from kiosk.study.loader import read_study
 
 
 def asking(tmp_path: Path, language: str, words: str, rows: str = "", **screen: Any) -> StudyConfig:

@@ -10,7 +10,8 @@ import pytest
 from kiosk import UserInputError
 from kiosk.config import ASSETS, POLICIES, Settings
 from kiosk.experiment.session_config import Source, StudyConfig
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.checks import study_warnings
+from kiosk.study.loader import read_study
 
 
 @pytest.fixture

@@ -12,7 +12,8 @@ from kiosk.cli.study import check_free
 from kiosk.config import Settings, shipped_names
 from kiosk.experiment.events import Stage
 from kiosk.experiment.session_config import StudyConfig
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.checks import study_warnings
+from kiosk.study.loader import read_study
 from kiosk.study.new import NewStudy, find_template, templates
 from tests.experiment.driver import Driver, with_memory
 

@@ -17,7 +17,8 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.checks import study_warnings
+from kiosk.study.loader import read_study
 from kiosk.study.package import (
     Package,
     open_study,

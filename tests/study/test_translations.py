@@ -13,7 +13,8 @@ from click.testing import CliRunner
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.config import ASSETS, Settings
-from kiosk.study.loader import read_study, study_warnings
+from kiosk.study.checks import study_warnings
+from kiosk.study.loader import read_study
 from kiosk.study.translations import State, Translation, Unit, export_texts, import_texts, is_untranslated
 from tests.study.test_comparison import FORM
 

@@ -22,7 +22,8 @@ from kiosk.cli.study_wording import wording
 from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.robots.language_model import LanguageModel
-from kiosk.study.loader import read_study, wording_check
+from kiosk.study.checks import wording_check
+from kiosk.study.loader import read_study
 from kiosk.study.wording_drafts import (
     Candidate,
     Checker,
