@@ -100,6 +100,7 @@ _TABLES = (
     ) STRICT
     """,
     # at_ms counts from the start of the session; wall_ms is the time of day at which it was written, ms since 1970.
+    # Each hash is chained to the one before it, as the module chain says.
     """
     CREATE TABLE event (
         session INTEGER NOT NULL REFERENCES session (id),
@@ -109,8 +110,17 @@ _TABLES = (
         type TEXT NOT NULL,
         payload TEXT NOT NULL CHECK (json_valid(payload)),
         wall_ms INTEGER,
+        hash BLOB NOT NULL CHECK (length(hash) = 32),
         PRIMARY KEY (session, seq)
     ) STRICT, WITHOUT ROWID
+    """,
+    # Where the events of each session end, so that a lost end is found.
+    """
+    CREATE TABLE head (
+        session INTEGER PRIMARY KEY REFERENCES session (id),
+        events INTEGER NOT NULL,
+        hash BLOB NOT NULL CHECK (length(hash) = 32)
+    ) STRICT
     """,
     # Every session that begins asks who finished a game.
     "CREATE INDEX game_finished ON event (session) WHERE type = 'GameFinished'",
@@ -196,7 +206,7 @@ _IN_ITS_WAY = {
 }
 """Which row a new one would replace: INSERT OR REPLACE deletes it without asking the triggers on delete."""
 
-_GONE_WHEN_WITHDRAWN = {"event": "session", "session": "id", "participant": "session"}
+_GONE_WHEN_WITHDRAWN = {"event": "session", "session": "id", "participant": "session", "head": "session"}
 """Tables whose rows may be deleted once there is a tombstone of their session, which this column names."""
 
 _TRIGGERS = (
@@ -225,17 +235,29 @@ _TRIGGERS = (
         for table, column in _GONE_WHEN_WITHDRAWN.items()
     ),
     """
+    CREATE TRIGGER event_moves_the_head AFTER INSERT ON event
+    BEGIN
+        INSERT INTO head VALUES (NEW.session, NEW.seq, NEW.hash)
+        ON CONFLICT DO UPDATE SET events = NEW.seq, hash = NEW.hash WHERE NEW.seq > events;
+    END
+    """,
+    """
+    CREATE TRIGGER head_never_goes_back BEFORE update ON head
+    WHEN NEW.session <> OLD.session OR NEW.events <= OLD.events
+    BEGIN SELECT RAISE(ABORT, 'what is recorded is never changed'); END
+    """,
+    """
     CREATE TRIGGER session_that_was_withdrawn_stays_so BEFORE INSERT ON session
     WHEN EXISTS (SELECT 1 FROM tombstone WHERE session = NEW.id)
     BEGIN SELECT RAISE(ABORT, 'what was withdrawn does not come back'); END
     """,
 )
 
-MIGRATIONS: tuple[Migration, ...] = (
-    Migration(1, "the tables of 0.2", (*_TABLES, *_TRIGGERS)),
-    Migration(2, "a summary of each session", SUMMARIES),
-)
-"""Every step so far, the first one creates the database; a step that was released never changes."""
+MIGRATIONS: tuple[Migration, ...] = (Migration(3, "the tables of 0.2", (*_TABLES, *_TRIGGERS, *SUMMARIES)),)
+"""Every step so far, the first one creates the database; a step that was released never changes.
+
+Earlier steps were never released, and their databases are not read.
+"""
 
 SCHEMA = MIGRATIONS[-1].number
 """The newest step this program knows."""
@@ -421,7 +443,10 @@ def _refuse_foreign_or_newer(connection: Connection, path: Path) -> None:
         return
     if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION_ID:
         raise _foreign(path)
-    _refuse_newer(connection.execute("PRAGMA user_version").fetchone()[0], path)
+    schema = connection.execute("PRAGMA user_version").fetchone()[0]
+    _refuse_newer(schema, path)
+    if schema < MIGRATIONS[0].number:
+        raise Foreign(f"{path} has the schema {schema}, which no released Recollect wrote; it was left as it is")
 
 
 def _foreign(path: Path) -> Foreign:
@@ -442,7 +467,7 @@ def _migrate(connection: sqlite3.Connection) -> None:
         return
     connection.execute("BEGIN IMMEDIATE")
     try:
-        for migration in MIGRATIONS[schema:]:
+        for migration in (step for step in MIGRATIONS if step.number > schema):
             for statement in migration.statements:
                 connection.execute(statement)
             connection.execute(

@@ -228,7 +228,7 @@ def _check_no_older_copies(parts: Sequence[_Part]) -> None:
 
 def _is_copy(part: _Part, other: _Part) -> bool:
     """Whether one database was copied from the other: both were made in the same microsecond."""
-    made = "SELECT * FROM migration WHERE number = 1"
+    made = "SELECT * FROM migration ORDER BY number LIMIT 1"
     return bool(part.connection.execute(made).fetchone() == other.connection.execute(made).fetchone())
 
 

@@ -20,6 +20,7 @@ from kiosk.experiment.condition import AllocationSlot, AllocationSource, Conditi
 from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
+from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
 from kiosk.store.connecting import failure, primary_code, reason
 from kiosk.store.database import BUSY, lock_folder, open_for_writing
 from kiosk.store.participants import (
@@ -45,28 +46,37 @@ def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | i
     return cursor.lastrowid or 0
 
 
-def event_rows(session: int, first_seq: int, events: Sequence[Event]) -> list[tuple[object, ...]]:
-    """Return the rows of a session's next events, in the order of the table's columns."""
+EventRow = tuple[int, int, int, str, str, str, int, bytes]
+"""The columns of an event, in the order of the table; the last one is its hash."""
+
+
+def event_rows(session: int, first_seq: int, events: Sequence[Event], before: bytes) -> list[EventRow]:
+    """Return the rows of a session's next events; ``before`` is the hash that the first of them is chained to."""
     written_ms = now_ms()
-    return [
-        (session, seq, event.at_ms, _origin(event), *_type_and_payload(event), written_ms)
-        for seq, event in enumerate(events, first_seq)
-    ]
+    rows: list[EventRow] = []
+    for seq, event in enumerate(events, first_seq):
+        origin, (kind, payload) = _origin(event), _type_and_payload(event)
+        before = next_hash(before, (seq, event.at_ms, origin, kind, written_ms, payload))
+        rows.append((session, seq, event.at_ms, origin, kind, payload, written_ms, before))
+    return rows
 
 
 def mark_interrupted(connection: sqlite3.Connection) -> tuple[int, ...]:
     """End every session whose last event is not its end, where that event left it; returns their numbers."""
     open_sessions = connection.execute(
         """
-        SELECT under_way.session, last.seq, last.at_ms FROM session_summary AS under_way
+        SELECT under_way.session, last.seq, last.at_ms, last.hash FROM session_summary AS under_way
         JOIN event AS last ON last.session = under_way.session
         AND last.seq = (SELECT max(seq) FROM event WHERE event.session = under_way.session)
         WHERE under_way.status IS NULL ORDER BY under_way.session
         """
     ).fetchall()
-    for session, seq, at_ms in open_sessions:
-        end = SessionEnded(at_ms=at_ms, status=Status.INTERRUPTED)
-        connection.execute(_INSERT_EVENT, (session, seq + 1, at_ms, "recovery", *_type_and_payload(end), now_ms()))
+    for session, seq, at_ms, before in open_sessions:
+        kind, payload = _type_and_payload(SessionEnded(at_ms=at_ms, status=Status.INTERRUPTED))
+        written_ms = now_ms()
+        sha256 = next_hash(before, (seq + 1, at_ms, "recovery", kind, written_ms, payload))
+        row = (session, seq + 1, at_ms, "recovery", kind, payload, written_ms, sha256)
+        connection.execute(_INSERT_EVENT, row)
     return tuple(session for session, *_ in open_sessions)
 
 
@@ -95,7 +105,9 @@ def now_ms() -> int:
     return time.time_ns() // 1_000_000
 
 
-_INSERT_EVENT = "INSERT INTO event (session, seq, at_ms, origin, type, payload, wall_ms) VALUES (?, ?, ?, ?, ?, ?, ?)"
+_INSERT_EVENT = (
+    "INSERT INTO event (session, seq, at_ms, origin, type, payload, wall_ms, hash) VALUES (?, ?, ?, ?, ?, ?, ?, ?)"
+)
 
 
 def _origin(event: Event) -> str:
@@ -153,6 +165,8 @@ class Recorder:
         self._resumed = False
         """Whether the session had ended, and nothing has been written since."""
         self._next_seq = 1
+        self._head = b""
+        self._heads = HeadsFile(folder)
         self.sessions_begun = 0
         """How many sessions were begun with this recorder."""
         try:
@@ -230,11 +244,14 @@ class Recorder:
         with self._transaction():
             mark_interrupted(self._connection)
             session = self._insert_session(provenance)
-            self._connection.executemany(_INSERT_EVENT, event_rows(session, 1, events))
+            rows = event_rows(session, 1, events, first_hash(self._connection, session))
+            self._connection.executemany(_INSERT_EVENT, rows)
             participant = enrol(self._connection, session)
         self._session = session
         self._resumed = False
-        self._next_seq = 1 + len(events)
+        self._next_seq = 1
+        self._heads.begin()
+        self._written(rows)
         self.sessions_begun += 1
         return participant
 
@@ -252,30 +269,34 @@ class Recorder:
                     f"session {number} is from before people were numbered, so it cannot be gone on with"
                 )
             check_not_given_out_again(self._connection, number)
+            self._head = last_hash(self._connection, number)
         self._session = number
         self._next_seq = 1 + seq
         self._resumed = True
+        self._heads.begin()
         return participant
 
     def append(self, events: Sequence[Event]) -> None:
         """Write the session's next events, in one transaction; raises StorageError if the disk does not take them."""
+        rows = event_rows(self._session, self._next_seq, events, self._head)
         with self._transaction():
             if self._resumed:
                 go_on(self._connection, self._session)
-            self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
+            self._connection.executemany(_INSERT_EVENT, rows)
         self._resumed = False
-        self._next_seq += len(events)
+        self._written(rows)
 
     def append_and_withdraw(self, events: Sequence[Event], code: str) -> None:
         """Write a session's last events and delete its rows, in one transaction; a tombstone stays.
 
         What is left of it in free pages and backups goes when the kiosk is opened next.
         """
+        rows = event_rows(self._session, self._next_seq, events, self._head)
         with self._transaction():
             self._connection.execute("PRAGMA secure_delete = ON")
-            self._connection.executemany(_INSERT_EVENT, event_rows(self._session, self._next_seq, events))
+            self._connection.executemany(_INSERT_EVENT, rows)
             bury(self._connection, self._session, code)
-        self._next_seq += len(events)
+        self._written(rows)
 
     # Outside sessions
 
@@ -312,7 +333,15 @@ class Recorder:
     def _lists(self, *, kind: SessionKind) -> AllocationLists:
         return AllocationLists(self._connection, self.site, kind=kind)
 
+    def _written(self, rows: Sequence[EventRow]) -> None:
+        """Go on from events that are on the disk."""
+        self._next_seq += len(rows)
+        if rows:
+            self._head = rows[-1][-1]
+            self._heads.write(Head(self._session, self._next_seq - 1, self._head))
+
     def _close(self) -> None:
+        self._heads.close()
         self._connection.close()
         self._lock.release()
 

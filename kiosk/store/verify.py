@@ -10,10 +10,12 @@ from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
 from pathlib import Path
 
 from kiosk import UserInputError
 from kiosk.experiment.events import from_record
+from kiosk.store.chain import broken_links, lost_ends, missing_since_written
 from kiosk.store.connecting import reason
 from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
@@ -29,6 +31,8 @@ class Verification(Enum):
     SCHEMA = "tables and triggers are as they were made"
     RECEIPTS = "every step of the schema has its receipt"
     SOURCES = "what sessions followed is as it was kept"
+    CHAIN = "every event is as it was recorded"
+    HEADS = "no session, and no end of one, is missing"
     NUMBERING = "events are numbered from 1 without a gap"
     TIME = "time never goes back within a session"
     READABLE = "every event can be read"
@@ -57,8 +61,9 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
     flaws: list[Flaw] = []
     with closing(open_as_it_is(folder)) as connection:
         connection.execute("BEGIN")
-        for done, (check, look) in enumerate(_LOOKS.items()):
-            tell(done, len(_LOOKS))
+        looks = _LOOKS | {Verification.HEADS: partial(_heads, folder=folder)}
+        for done, (check, look) in enumerate(looks.items()):
+            tell(done, len(looks))
             try:
                 flaws += [Flaw(check, where, what) for where, what in look(connection)]
             except (sqlite3.Error, ValueError) as error:
@@ -86,7 +91,7 @@ def _schema(connection: sqlite3.Connection) -> _Found:
     """Hold every table, index and trigger against those of a database that is made on the spot."""
     steps = connection.execute("PRAGMA user_version").fetchone()[0]
     with closing(sqlite3.connect(":memory:")) as made:
-        for migration in MIGRATIONS[:steps]:
+        for migration in (step for step in MIGRATIONS if step.number <= steps):
             for statement in migration.statements:
                 made.execute(statement)
         expected = _texts(made)
@@ -108,7 +113,7 @@ def _texts(connection: sqlite3.Connection) -> dict[tuple[str, str], str]:
 def _receipts(connection: sqlite3.Connection) -> _Found:
     steps = connection.execute("PRAGMA user_version").fetchone()[0]
     there = {number: row for number, *row in connection.execute("SELECT number, name, sha256 FROM migration")}
-    for step in MIGRATIONS[:steps]:
+    for step in (step for step in MIGRATIONS if step.number <= steps):
         if there.pop(step.number, None) != [step.name, step.sha256]:
             yield f"step {step.number}", "has no receipt, or that of another step"
     for number in sorted(there):
@@ -119,6 +124,19 @@ def _sources(connection: sqlite3.Connection) -> _Found:
     for sha256, content in connection.execute("SELECT sha256, content FROM source"):
         if hashlib.sha256(content.encode()).hexdigest() != sha256:
             yield f"source {sha256[:12]}", "is not what its hash says"
+
+
+def _chain(connection: sqlite3.Connection) -> _Found:
+    for session, seq in broken_links(connection):
+        first = ", or what the session followed," if seq == 1 else ""
+        yield f"session {session}, event {seq}", f"it{first} is not what was recorded: it does not match its hash"
+
+
+def _heads(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
+    told = dict(missing_since_written(connection, folder)) if folder is not None else {}
+    told |= lost_ends(connection)
+    for session, what in sorted(told.items()):
+        yield f"session {session}", what
 
 
 def _numbering(connection: sqlite3.Connection) -> _Found:
@@ -217,7 +235,7 @@ def _places(connection: sqlite3.Connection) -> _Found:
 
 
 def _withdrawn(connection: sqlite3.Connection) -> _Found:
-    for table, key in (("session", "id"), ("participant", "session"), ("event", "session")):
+    for table, key in (("session", "id"), ("participant", "session"), ("event", "session"), ("head", "session")):
         for session, rows in connection.execute(
             f"SELECT {key}, count(*) FROM {table} WHERE {key} IN (SELECT session FROM tombstone) GROUP BY {key}"  # noqa: S608
         ):
@@ -276,6 +294,8 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.SCHEMA: _schema,
     Verification.RECEIPTS: _receipts,
     Verification.SOURCES: _sources,
+    Verification.CHAIN: _chain,
+    Verification.HEADS: _heads,
     Verification.NUMBERING: _numbering,
     Verification.TIME: _time,
     Verification.READABLE: _readable,

@@ -171,6 +171,7 @@ def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
         (session, datetime.now(UTC).date().isoformat()),
     )
     connection.execute("INSERT INTO unfinished_withdrawal VALUES (?, ?)", (session, _sha256(checked_code(code))))
+    connection.execute("DELETE FROM head WHERE session = ?", (session,))
     connection.execute("DELETE FROM event WHERE session = ?", (session,))
     connection.execute("DELETE FROM participant WHERE session = ?", (session,))
     connection.execute("DELETE FROM session WHERE id = ?", (session,))

@@ -202,8 +202,8 @@ def test_people_who_were_not_stored_are_counted_by_reason(tmp_path: Path) -> Non
 def test_of_an_event_that_cannot_be_read_no_field_is_told_unless_texts_are_asked_for(tmp_path: Path) -> None:
     store(tmp_path / "data", [(visitor(1), 1)])
     with closing(sqlite3.connect(tmp_path / "data" / FILE)) as connection, connection:
-        row = "1, 0, 0, 'world', 'NameTyped', '{\"name\": \"Zaphod\"}'"
-        connection.execute(f"INSERT INTO event (session, seq, at_ms, origin, type, payload) VALUES ({row})")  # noqa: S608
+        row = "1, 0, 0, 'world', 'NameTyped', '{\"name\": \"Zaphod\"}', zeroblob(32)"
+        connection.execute(f"INSERT INTO event (session, seq, at_ms, origin, type, payload, hash) VALUES ({row})")  # noqa: S608
     told = {}
     for extras in (frozenset[ExportOption](), frozenset({ExportOption.TEXTS})):
         export_dataset(tmp_path / "data", tmp_path / f"with-{len(extras)}", PsychDs, extras)

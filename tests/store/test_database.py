@@ -46,7 +46,7 @@ def made(folder: Path) -> Path:
 def with_steps(monkeypatch: pytest.MonkeyPatch, *steps: Migration) -> None:
     """Act as a later program, which knows more steps."""
     monkeypatch.setattr(database, "MIGRATIONS", (*MIGRATIONS, *steps))
-    monkeypatch.setattr(database, "SCHEMA", len(MIGRATIONS) + len(steps))
+    monkeypatch.setattr(database, "SCHEMA", SCHEMA + len(steps))
 
 
 # Made and migrated
@@ -70,7 +70,7 @@ def test_every_step_leaves_a_receipt(folder: Path) -> None:
 
 
 def test_steps_are_numbered_without_a_gap() -> None:
-    assert [step.number for step in MIGRATIONS] == list(range(1, SCHEMA + 1))
+    assert [step.number for step in MIGRATIONS] == list(range(MIGRATIONS[0].number, SCHEMA + 1))
 
 
 def test_a_step_that_is_edited_has_another_hash() -> None:
@@ -102,7 +102,7 @@ def test_a_step_that_fails_leaves_nothing_behind(folder: Path, monkeypatch: pyte
     with pytest.raises(UserInputError, match=r"the database .* cannot be used: table event already exists"):
         open_for_writing(folder)
     assert ask(folder, "SELECT name FROM sqlite_master WHERE name = 'half'") == []
-    assert ask(folder, "PRAGMA user_version") == ask(folder, "SELECT count(*) FROM migration") == [(SCHEMA,)]
+    assert ask(folder, "PRAGMA user_version") == ask(folder, "SELECT max(number) FROM migration") == [(SCHEMA,)]
     monkeypatch.undo()
     made(folder)
 
@@ -111,7 +111,7 @@ def test_an_empty_file_becomes_a_database(folder: Path) -> None:
     folder.mkdir()
     (folder / FILE).touch()
     made(folder)
-    assert ask(folder, "SELECT count(*) FROM migration") == [(SCHEMA,)]
+    assert ask(folder, "SELECT max(number) FROM migration") == [(SCHEMA,)]
 
 
 # Refused

@@ -225,7 +225,7 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
 @pytest.mark.parametrize(
     "action",
     [
-        "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, payload, 0 FROM event",
+        "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, payload, 0, hash FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
         "REPLACE INTO participant SELECT session, site, kind, number, 'forged' FROM participant",
@@ -235,7 +235,7 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
         "SELECT id, site, kind, 99, block_size, quotas, slots, fixed_at FROM allocation_list",
         "REPLACE INTO visit SELECT id, 'declined', kind FROM visit",
         "REPLACE INTO audit_event SELECT id, 0, type, payload FROM audit_event",
-        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'SessionStarted', '{}', 0)",
+        "REPLACE INTO event VALUES (1, 1, 99, 'world', 'SessionStarted', '{}', 0, zeroblob(32))",
     ],
 )
 def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Provenance, action: str) -> None:
@@ -280,7 +280,7 @@ def test_an_event_s_number_is_taken_once(folder: Path, provenance: Provenance) -
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, pytest.raises(sqlite3.IntegrityError):
-        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'SessionStarted', '{}', 0)")
+        connection.execute("INSERT INTO event VALUES (1, 1, 0, 'world', 'SessionStarted', '{}', 0, zeroblob(32))")
 
 
 # On the disk

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
@@ -13,22 +14,35 @@ import pytest
 from kiosk import UserInputError
 from kiosk.experiment.events import SpeechStarted
 from kiosk.experiment.session_config import SessionKind
+from kiosk.store.chain import FILE as HEADS
+from kiosk.store.chain import read_heads
 from kiosk.store.database import FILE
+from kiosk.store.maintenance import back_up
 from kiosk.store.participants import codes
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
 from kiosk.store.withdrawal import withdraw
-from tests.store.visitors import BEGUN, a_day
+from tests.samples import mixed, plan
+from tests.store.visitors import BEGUN, COMPLETED, a_day
 
+_OF_A_SESSION = (("event", "session"), ("participant", "session"), ("session", "id"), ("head", "session"))
 OTHER_CODE = next(codes("MI", 12345))
 
 
-@pytest.fixture
-def day(folder: Path, provenance: Provenance) -> Path:
+@pytest.fixture(scope="module")
+def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a day at a booth, after which a participant withdrew."""
-    people = a_day(folder, provenance, "MI")
+    folder = tmp_path_factory.mktemp("pristine") / "data"
+    session = Provenance(plan(policy=mixed(4)), 4, "avatar", "abc123", kind=SessionKind.SIMULATED)
+    people = a_day(folder, session, "MI")
     withdraw(folder, people[1].code)
     return folder
+
+
+@pytest.fixture
+def day(pristine: Path, folder: Path) -> Path:
+    """Return a copy of that day."""
+    return Path(shutil.copytree(pristine, folder))
 
 
 def tamper(folder: Path, *statements: str) -> None:
@@ -94,13 +108,53 @@ def test_it_says_how_far_it_is(day: Path) -> None:
             "SessionStarted cannot be read",
             ["UPDATE event SET payload = '{\"x\": 1}' WHERE seq = 1"],
         ),
+        (
+            Verification.CHAIN,
+            "session 1, event 3: it is not what was recorded: it does not match its hash",
+            ["UPDATE event SET payload = replace(payload, 'one', 'two') WHERE session = 1"],
+        ),
+        (Verification.CHAIN, "session 1, event 2: ", ["UPDATE event SET at_ms = 6 WHERE session = 1 AND seq = 2"]),
+        (Verification.CHAIN, "session 1, event 2: ", ["UPDATE event SET wall_ms = 6 WHERE session = 1 AND seq = 2"]),
+        (
+            Verification.CHAIN,
+            "session 1, event 2: ",
+            ["UPDATE event SET origin = 'recovery' WHERE session = 1 AND seq = 2"],
+        ),
+        (
+            Verification.CHAIN,
+            "session 1, event 2: ",
+            ["UPDATE event SET hash = zeroblob(32) WHERE session = 1 AND seq = 2"],
+        ),
+        (
+            Verification.CHAIN,
+            "session 1, event 1: it, or what the session followed, is not what",
+            ["UPDATE session SET seed = seed + 1 WHERE id = 1"],
+        ),
+        (Verification.CHAIN, "event 1: it, or what", ["UPDATE session SET started_at = '1999-01-01' WHERE id = 1"]),
+        (
+            Verification.HEADS,
+            "session 1: had 4 events, of which the last is missing or changed",
+            ["DELETE FROM event WHERE session = 1 AND seq = 4"],
+        ),
+        (Verification.HEADS, "session 1: had 4 events", ["UPDATE event SET hash = zeroblob(32) WHERE seq = 4"]),
+        (Verification.HEADS, "session 1: has no head", ["DELETE FROM head"]),
+        (
+            Verification.HEADS,
+            "session 1: is missing; it had 4 events",
+            [f"DELETE FROM {table} WHERE {key} = 1" for table, key in _OF_A_SESSION[:3]],  # noqa: S608
+        ),
+        (
+            Verification.HEADS,
+            "session 4: is missing; its number was given out",
+            [f"DELETE FROM {table} WHERE {key} = 4" for table, key in _OF_A_SESSION],  # noqa: S608
+        ),
         (Verification.SOURCES, "is not what its hash says", ["UPDATE source SET content = content || ' '"]),
         (
             Verification.RECEIPTS,
-            "step 1: has no receipt, or that of another",
-            ["UPDATE migration SET sha256 = 'x' WHERE number = 1"],
+            "step 3: has no receipt, or that of another",
+            ["UPDATE migration SET sha256 = 'x' WHERE number = 3"],
         ),
-        (Verification.RECEIPTS, "step 1: has no receipt", ["DELETE FROM migration WHERE number = 1"]),
+        (Verification.RECEIPTS, "step 3: has no receipt", ["DELETE FROM migration WHERE number = 3"]),
         (Verification.RECEIPTS, "step 99: has a receipt", ["INSERT INTO migration VALUES (99, '', '', '')"]),
         (Verification.REFERENCES, "points at nothing in source", ["DELETE FROM source"]),
         (
@@ -214,6 +268,75 @@ def test_one_code_that_two_people_have_is_found(day: Path) -> None:
     told = found(day)
     assert "sessions 1, 4: have one code, 2 times" in told[Verification.PARTICIPANTS]
     assert "table participant: is not as it was made" in told[Verification.SCHEMA]
+
+
+def lost(folder: Path) -> list[str]:
+    """Return what is told of sessions and ends that are missing."""
+    return found(folder).get(Verification.HEADS, [])
+
+
+def test_a_log_that_was_deleted_is_found(folder: Path, provenance: Provenance) -> None:
+    """The database is then whole, as it stood some events ago."""
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, BEGUN)
+        with closing(sqlite3.connect(folder / FILE)) as connection:
+            connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        recorder.append(COMPLETED[1:])
+        left = shutil.copytree(folder, folder.with_name("left"))
+    (left / f"{FILE}-wal").unlink()
+    assert lost(left) == ["session 1: 3 events of it were written here, and 1 are left"]
+    with Recorder(left) as recorder:
+        recorder.begin(provenance, COMPLETED)
+    assert lost(left) == ["session 1: 3 events of it were written here, and 2 are left"]
+
+
+def test_an_older_copy_in_place_of_the_database_is_found(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, COMPLETED)
+        copy = back_up(folder, folder.with_name("copies"))
+        recorder.begin(replace(provenance, seed=5), COMPLETED)
+    shutil.copy(copy, folder / FILE)
+    assert lost(folder) == ["session 2: is missing; 3 events of it were written here"]
+    with Recorder(folder) as recorder:
+        recorder.begin(replace(provenance, seed=6), COMPLETED)
+    assert lost(folder) == ["session 2: event 3 is not the one that was written here"]
+
+
+def test_a_new_database_in_place_of_one_that_was_deleted_is_found(day: Path) -> None:
+    (day / FILE).unlink()
+    with Recorder(day):
+        pass
+    assert [words.partition(":")[0] for words in lost(day)] == ["session 1", "session 2", "session 3", "session 4"]
+
+
+def test_a_session_that_goes_on_is_written_on_a_line_of_its_own(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, BEGUN)
+    with Recorder(folder) as recorder:
+        recorder.resume(1)
+        recorder.append(COMPLETED[1:])
+    assert [(head.session, head.events) for head in read_heads(folder)] == [(1, 1), (1, 4)]
+    assert verify(folder) == []
+
+
+def test_a_line_that_a_crash_has_torn_is_no_flaw_and_is_written_over(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, COMPLETED)
+    with (folder / HEADS).open("ab") as file:
+        file.write(b"         2      ")
+    assert verify(folder) == []
+    with Recorder(folder) as recorder:
+        recorder.begin(replace(provenance, seed=5), COMPLETED)
+    assert [(head.session, head.events) for head in read_heads(folder)] == [(1, 3), (2, 3)]
+    assert verify(folder) == []
+
+
+def test_a_file_of_heads_that_cannot_be_written_costs_no_session(folder: Path, provenance: Provenance) -> None:
+    (folder / HEADS).mkdir(parents=True)
+    with Recorder(folder) as recorder:
+        recorder.begin(provenance, BEGUN)
+        recorder.append(COMPLETED[1:])
+    assert verify(folder) == []
 
 
 def test_a_page_that_is_damaged_is_found(day: Path) -> None:

@@ -1,0 +1,201 @@
+"""The chain of hashes that proves the record of a session, and the file that remembers its heads.
+
+Every event carries a SHA-256 hash of itself and of the hash before it; the first one goes on from what the session
+followed. The hash of the last event is the head of the session. The database keeps the heads, and so does a file beside
+it, which is written after each commit: where the database lost its end, or a whole session, the file still knows.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import sqlite3
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder
+
+FILE = "recollect.heads"
+"""The file of heads, beside the database."""
+
+_ANCHORED = (
+    *("started_at", "seed", "condition", "embodiment", "language", "kind", "version", "code_commit", "deck"),
+    *("policy_sha256", "study_sha256", "settings_sha256", "policy_source", "questionnaire_source", "sentences_source"),
+    *("information_source", "about_you_source", "practice_deck", "translations"),
+    *("allocation_slot", "allocation_source"),
+)
+"""What the first hash stands for, without what a merge changes: the number, the site and the list of a session."""
+
+_CHECK_DIGITS = 8
+_LINE = 10 + 1 + 10 + 1 + 64 + 1 + _CHECK_DIGITS + 1
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Head:
+    """The end of a session's record: how many events it has, and the hash of the last one."""
+
+    session: int
+    events: int
+    hash: bytes
+
+
+def first_hash(connection: sqlite3.Connection, session: int) -> bytes:
+    """Return what the first event of a session is chained to: the hash of what the session followed."""
+    row = connection.execute(
+        f"SELECT {', '.join(_ANCHORED)} FROM session WHERE id = ?",  # noqa: S608 - the names are ours
+        (session,),
+    ).fetchone()
+    return hashlib.sha256(json.dumps(row, ensure_ascii=False, separators=(",", ":")).encode()).digest()
+
+
+EventFields = tuple[int, int, str, str, int | None, str]
+"""What is stored of an event: seq, at_ms, origin, type, wall_ms and payload."""
+
+
+def next_hash(before: bytes, event: EventFields) -> bytes:
+    """Return the hash of an event: SHA-256 of the one before it and of all that is stored of it.
+
+    All but the payload are free of spaces, so no two events come out as the same bytes.
+    """
+    return hashlib.sha256(before + " ".join(map(str, event)).encode()).digest()
+
+
+def last_hash(connection: sqlite3.Connection, session: int) -> bytes:
+    """Return the hash of the last event of a session."""
+    row = connection.execute(
+        "SELECT hash FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
+    ).fetchone()
+    return bytes(row[0]) if row else first_hash(connection, session)
+
+
+def broken_links(connection: sqlite3.Connection) -> Iterator[tuple[int, int]]:
+    """Yield the session and the number of every event that does not follow from the one before it as it stands."""
+    session, before = None, b""
+    for number, *event, written in connection.execute(
+        "SELECT session, seq, at_ms, origin, type, wall_ms, payload, hash FROM event ORDER BY session, seq"
+    ):
+        if number != session:
+            session, before = number, first_hash(connection, number)
+        if next_hash(before, tuple(event)) != written:
+            yield number, event[0]
+        before = written if isinstance(written, bytes) else b""
+
+
+def lost_ends(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]:
+    """Yield every session whose events do not reach its head, and those that are gone, each with what is wrong."""
+    heads = {session: (events, head) for session, events, head in connection.execute("SELECT * FROM head")}
+    for (session,) in connection.execute("SELECT id FROM session ORDER BY id"):
+        if session not in heads:
+            yield session, "has no head, which tells where its events end"
+            continue
+        events, head = heads.pop(session)
+        last = connection.execute(
+            "SELECT seq, hash FROM event WHERE session = ? ORDER BY seq DESC LIMIT 1", (session,)
+        ).fetchone()
+        if last != (events, head):
+            yield session, f"had {events} events, of which the last is missing or changed"
+    for session, (events, _) in heads.items():
+        yield session, f"is missing; it had {events} events"
+    yield from _gaps(connection)
+
+
+def _gaps(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]:
+    there = {number for (number,) in connection.execute("SELECT id FROM session UNION SELECT session FROM tombstone")}
+    there |= {number for (number,) in connection.execute("SELECT session FROM head")}
+    given = connection.execute("SELECT seq FROM sqlite_sequence WHERE name = 'session'").fetchone()
+    for number in sorted(set(range(1, 1 + max([*there, *(given or (0,))], default=0))) - there):
+        yield number, "is missing; its number was given out"
+
+
+def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Iterator[tuple[int, str]]:
+    """Yield every session that the file of heads knows and the database does not have as it was written then."""
+    gone = {number for (number,) in connection.execute("SELECT session FROM tombstone")}
+    for head in read_heads(folder):
+        if head.session in gone:
+            continue
+        row = connection.execute(
+            "SELECT (SELECT count(*) FROM event WHERE session = ?1),"
+            " (SELECT hash FROM event WHERE session = ?1 AND seq = ?2)",
+            (head.session, head.events),
+        ).fetchone()
+        there, written = row
+        if not there:
+            yield head.session, f"is missing; {head.events} events of it were written here"
+        elif written is None:
+            yield head.session, f"{head.events} events of it were written here, and {there} are left"
+        elif written != head.hash:
+            yield head.session, f"event {head.events} is not the one that was written here"
+
+
+def read_heads(folder: Path) -> list[Head]:
+    """Return the heads in the file of a data folder; a line that a crash has torn is passed over."""
+    try:
+        content = (folder / FILE).read_bytes()
+    except OSError:
+        return []
+    heads = []
+    for start in range(0, len(content), _LINE):
+        with suppress(ValueError):
+            told, _, check = content[start : start + _LINE].decode("ascii").rstrip("\n").rpartition(" ")
+            session, events, sha256 = told.split()
+            if check == _check(told):
+                heads.append(Head(int(session), int(events), bytes.fromhex(sha256)))
+    return heads
+
+
+def _check(told: str) -> str:
+    return hashlib.sha256(told.encode()).hexdigest()[:_CHECK_DIGITS]
+
+
+class HeadsFile:
+    """Writes the head of the session that is under way, on one line that changes with every commit.
+
+    It follows the database and is not waited for: where it cannot be written, that is logged and costs no session.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        """Write in a data folder; the file is opened for the first session."""
+        self._path = folder / FILE
+        self._file: BinaryIO | None = None
+        self._at = 0
+
+    def begin(self) -> None:
+        """Start a new line, for a session that begins or goes on; earlier lines stay."""
+        self.close()
+        try:
+            if not self._path.exists():
+                self._path.touch(mode=PRIVATE)
+                give_to_owner_of_folder(self._path)
+            self._file = self._path.open("r+b", buffering=0)
+            # What a crash left of a line is written over.
+            self._at = self._file.seek(0, 2) // _LINE * _LINE
+        except OSError as error:
+            self._give_up(error)
+
+    def write(self, head: Head) -> None:
+        """Write the head of the session over the one that it had before."""
+        if self._file is None:
+            return
+        told = f"{head.session:>10} {head.events:>10} {head.hash.hex()}"
+        try:
+            self._file.seek(self._at)
+            self._file.write(f"{told} {_check(told)}\n".encode("ascii"))
+        except OSError as error:
+            self._give_up(error)
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def _give_up(self, error: OSError) -> None:
+        _log.error("the file of heads cannot be written: %s", error)
+        with suppress(OSError):
+            self.close()
