@@ -15,8 +15,7 @@ from kiosk.experiment.condition import AllocationSource, Condition
 from kiosk.experiment.events import EmbodimentName, Stage, Status
 from kiosk.experiment.projections import measure
 from kiosk.experiment.session_config import SessionKind
-from kiosk.store import database
-from kiosk.store.database import FILE, MIGRATIONS, open_for_writing
+from kiosk.store.database import FILE
 from kiosk.store.participants import AllocationLists, Disposition
 from kiosk.store.queries import RUNNING, SessionFilter, open_repository
 from kiosk.store.recorder import Provenance, Recorder
@@ -89,27 +88,6 @@ def test_a_session_that_was_resumed_is_under_way_until_it_ends_again(folder: Pat
         assert summary(folder)[:2] == (None, 1)
         recorder.append([happened.SessionEnded(at_ms=9, status=Status.COMPLETED)])
         assert summary(folder)[:2] == ("completed", 1)
-    assert flaws(folder) == []
-
-
-def test_a_database_from_before_gets_the_summaries_of_its_sessions(
-    folder: Path, provenance: Provenance, played: Driver, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder.mkdir()
-    with monkeypatch.context() as before, closing(sqlite3.connect(folder / FILE, isolation_level=None)) as connection:
-        before.setattr(database, "MIGRATIONS", MIGRATIONS[:1])
-        before.setattr(database, "SCHEMA", 1)
-        database._migrate(connection)
-    with Recorder(folder.with_name("new")) as recorder:
-        for events in (played.events, LEFT, BEGUN):
-            recorder.begin(provenance, events)
-    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
-        connection.execute("ATTACH ? AS new", (str(folder.with_name("new") / FILE),))
-        for table in ("source", "session", "event", "participant"):
-            connection.execute(f"INSERT INTO {table} SELECT * FROM new.{table}")  # noqa: S608 - ours
-    open_for_writing(folder).close()
-    assert [summary(folder, n) for n in (1, 2)] == [summary(folder.with_name("new"), n) for n in (1, 2)]
-    assert summary(folder, 3)[0] is None
     assert flaws(folder) == []
 
 
