@@ -1,4 +1,4 @@
-"""The chain of hashes that proves the record of a session, and the file that remembers its heads.
+"""The chain of hashes that proves the record of a session, and the file of heads.
 
 Every event carries a SHA-256 hash of itself and of the hash before it; the first one goes on from what the session
 followed. The hash of the last event is the head of the session. The database keeps the heads, and so does a file beside
@@ -46,7 +46,7 @@ class Head:
 
 
 def first_hash(connection: sqlite3.Connection, session: int) -> bytes:
-    """Return what the first event of a session is chained to: the hash of what the session followed."""
+    """Return the hash of what a session followed, to which its first event is chained."""
     row = connection.execute(
         f"SELECT {', '.join(_ANCHORED)} FROM session WHERE id = ?",  # noqa: S608 - the names are ours
         (session,),
@@ -59,9 +59,9 @@ EventFields = tuple[int, int, str, str, int | None, str]
 
 
 def next_hash(before: bytes, event: EventFields) -> bytes:
-    """Return the hash of an event: SHA-256 of the one before it and of all that is stored of it.
+    """Return the hash of an event, from the one before it and all that is stored.
 
-    All but the payload are free of spaces, so no two events come out as the same bytes.
+    It is SHA-256. All but the payload are free of spaces, so no two events come out as the same bytes.
     """
     return hashlib.sha256(before + " ".join(map(str, event)).encode()).digest()
 
@@ -75,7 +75,7 @@ def last_hash(connection: sqlite3.Connection, session: int) -> bytes:
 
 
 def broken_links(connection: sqlite3.Connection) -> Iterator[tuple[int, int]]:
-    """Yield the session and the number of every event that does not follow from the one before it as it stands."""
+    """Yield the session and the number of every event whose hash does not fit."""
     session, before = None, b""
     for number, *event, written in connection.execute(
         "SELECT session, seq, at_ms, origin, type, wall_ms, payload, hash FROM event ORDER BY session, seq"
@@ -88,7 +88,7 @@ def broken_links(connection: sqlite3.Connection) -> Iterator[tuple[int, int]]:
 
 
 def lost_ends(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]:
-    """Yield every session whose events do not reach its head, and those that are gone, each with what is wrong."""
+    """Yield every session that is missing or does not reach its head, and what is wrong."""
     heads = {session: (events, head) for session, events, head in connection.execute("SELECT * FROM head")}
     for (session,) in connection.execute("SELECT id FROM session ORDER BY id"):
         if session not in heads:
@@ -114,7 +114,7 @@ def _gaps(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]:
 
 
 def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Iterator[tuple[int, str]]:
-    """Yield every session that the file of heads knows and the database does not have as it was written then."""
+    """Yield every session that the database lacks, in whole or in part, by the file of heads."""
     gone = {number for (number,) in connection.execute("SELECT session FROM tombstone")}
     for head in read_heads(folder):
         if head.session in gone:
@@ -154,7 +154,7 @@ def _check(told: str) -> str:
 
 
 class HeadsFile:
-    """Writes the head of the session that is under way, on one line that changes with every commit.
+    """Writes the head of the session under way, on a line that changes with every commit.
 
     It follows the database and is not waited for: where it cannot be written, that is logged and costs no session.
     """

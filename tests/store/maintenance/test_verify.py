@@ -271,7 +271,7 @@ def test_one_code_that_two_people_have_is_found(day: Path) -> None:
 
 
 def lost(folder: Path) -> list[str]:
-    """Return what is told of sessions and ends that are missing."""
+    """Return what verify says of missing sessions and ends."""
     return found(folder).get(Verification.HEADS, [])
 
 
