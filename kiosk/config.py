@@ -1099,14 +1099,14 @@ def _is_there(path: Path, ending: str) -> bool:
         return False
 
 
-def _beside_or_inside(name: str) -> Path:
+def beside_or_inside(name: str) -> Path:
     """Return a folder that stands inside the installed package, or beside it in a checkout."""
     package = Path(__file__).parent
     return package / name if (package / name).is_dir() else package.parent / name
 
 
-ASSETS = _beside_or_inside("assets")
-POLICIES = _beside_or_inside("policies")
+ASSETS = beside_or_inside("assets")
+POLICIES = beside_or_inside("policies")
 
 
 def policy_path(name: str) -> Path:

@@ -147,9 +147,11 @@ def check(_arguments: Sequence[str]) -> int:
 
 
 def docs(_arguments: Sequence[str]) -> int:
-    """Write the pages that are made from the code."""
+    """Write the generated pages and build all pages as a site; a broken link is a failure."""
     with development() as environment:
-        return run(["python", "packaging/reference.py"], environment, ROOT)
+        return run(["python", "packaging/reference.py"], environment, ROOT) or run(
+            ["mkdocs", "build", "--strict", "--quiet"], environment, ROOT
+        )
 
 
 def packages(_arguments: Sequence[str]) -> int:

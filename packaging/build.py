@@ -24,7 +24,12 @@ NAME = "recollect"
 PYINSTALLER = "import gc; gc.disable(); from PyInstaller.__main__ import run; run()"
 """PyInstaller, which keeps all that it reads: looking for what it could free takes a sixth of its time."""
 
-DATA = {"assets": "kiosk/assets", "policies": "kiosk/policies", "kiosk/ui/qml": "kiosk/ui/qml"}
+DATA = {
+    "assets": "kiosk/assets",
+    "policies": "kiosk/policies",
+    "kiosk/ui/qml": "kiosk/ui/qml",
+    "kiosk/site": "kiosk/site",
+}
 """Folders of the checkout, and where kiosk/config.py looks for them in a build."""
 HIDDEN = ("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
 """What is imported by a name that is only known at run time."""
@@ -83,7 +88,11 @@ def folder() -> str:
         *("--name", NAME, "--noconfirm", "--clean", "--log-level", "ERROR", "--noupx", "--console"),
         *("--paths", str(ROOT), "--collect-submodules", "kiosk"),
         *("--distpath", str(DIST), "--workpath", str(WORK), "--specpath", str(WORK)),
-        *(f"--add-data={ROOT / source}{os.pathsep}{place}" for source, place in DATA.items()),
+        *(
+            f"--add-data={ROOT / source}{os.pathsep}{place}"
+            for source, place in DATA.items()
+            if (ROOT / source).is_dir()
+        ),
         f"--add-data={commit}{os.pathsep}kiosk",
         *(f"--hidden-import={name}" for name in (*HIDDEN, *engines)),
         *(f"--collect-data={name}" for name in engines),

@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib.util
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 from queue import SimpleQueue
 from types import ModuleType
@@ -37,7 +39,7 @@ def load(name: str) -> ModuleType:
     return module
 
 
-REFERENCE, BOOTSTRAP = load("reference"), load("bootstrap")
+REFERENCE, BOOTSTRAP, SITE = load("reference"), load("bootstrap"), load("site_hooks")
 
 
 def test_the_diagram_of_the_stages_is_drawn_from_the_table() -> None:
@@ -125,7 +127,7 @@ def test_ci_runs_tasks_that_there_are_on_three_systems_and_every_python() -> Non
     jobs = yaml.safe_load((ROOT / ".github" / "workflows" / "tests.yml").read_text("utf-8"))["jobs"]
     runs = [step["run"] for job in jobs.values() for step in job["steps"] if "run" in step]
     tasks = {task for line in runs for task in re.findall(r"bootstrap\.py (\w+)", line)}
-    assert tasks == {"packages", "fast", "test"}
+    assert tasks == {"packages", "docs", "fast", "test"}
     matrix = jobs["fast"]["strategy"]["matrix"]
     assert [system.partition("-")[0] for system in matrix["system"]] == ["ubuntu", "windows", "macos"]
     assert matrix["python"] == ["3.11", "3.12", "3.13", "3.14"]
@@ -149,3 +151,32 @@ def test_a_step_that_works_in_silence_says_that_it_is_at_work(monkeypatch: pytes
     monkeypatch.setattr(BOOTSTRAP, "say", said.put)
     with BOOTSTRAP.still_at_work():
         assert said.get(timeout=10) == "  still at work after 0 s"
+
+
+def test_the_index_lists_every_page_once() -> None:
+    docs = ROOT / "docs"
+    listed = [
+        page for section in SITE.navigation((docs / "README.md").read_text("utf-8"))[1:] for page in pages(section)
+    ]
+    written = [page.relative_to(docs).as_posix() for page in docs.glob("*/*.md")]
+    assert sorted(listed) == sorted(written), "list each page once in docs/README.md"
+
+
+def pages(section: dict[str, list[dict[str, str]]]) -> list[str]:
+    """Return the files of a section of the navigation."""
+    return [file for entries in section.values() for entry in entries for file in entry.values()]
+
+
+def test_a_link_that_leaves_the_pages_is_only_text_in_the_site() -> None:
+    written = "[a](../../kiosk/game.py#x) [b](../reference/b.md#c) [d](#e) ![f](../f.png) [g](https://example.org)"
+    assert SITE.inside_only(written, "how-to/page.md") == written.replace("[a](../../kiosk/game.py#x)", "a")
+
+
+def test_the_pages_make_a_site_without_a_broken_link_and_without_a_network(tmp_path: Path) -> None:
+    pytest.importorskip("mkdocs")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path)]
+    built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (built.returncode, built.stdout) == (0, ""), built.stderr
+    for page in tmp_path.rglob("*.html"):
+        loaded = re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"?(https?:[^\" >]*)", page.read_text("utf-8"))
+        assert loaded == []

@@ -1,17 +1,24 @@
-"""Examples of every command and the page about it, for its help and for the reference of all commands."""
+"""The documentation from the command line: examples and a page for every command, and the built pages."""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
+import json
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
 import click
 
+from kiosk import UserInputError
+from kiosk.cli.options import json_option
+from kiosk.config import beside_or_inside
+
 PAGES_ADDRESS = "docs/"
 """Where the pages are, in a checkout."""
+KINDS = ("tutorials", "how-to", "reference", "explanation")
+"""The folders of the pages, by kind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +113,7 @@ GUIDES = {
     "policy compare": Guide("explanation/learning.md", ("policy compare default table.json",)),
     "policy card": Guide("explanation/learning.md", ("policy card table.json",)),
     "policy evidence": Guide("explanation/learning.md", ("policy evidence --games 200",)),
+    "docs": Guide("README.md", ("docs", "docs check", "docs study-file")),
 }
 """The guide of every command that does something, by its name with that of its group."""
 
@@ -211,3 +219,57 @@ def suggestion(mistyped: str) -> str:
     if not near:
         return "'recollect --help' lists all commands"
     return f"did you mean {' or '.join(f'{each!r}' for each in near)}?"
+
+
+@click.command("docs")
+@click.argument("topic", required=False)
+@json_option
+def docs_command(topic: str | None, *, as_json: bool) -> None:
+    """Open the documentation in the browser, without a network.
+
+    TOPIC is a command or the name of a page, such as 'check', "study new" or 'glossary'. With --json it opens nothing
+    and prints where each page is.
+    """
+    found = built_pages(beside_or_inside("site")) or pages_as_text(beside_or_inside("docs"))
+    if not found:
+        raise UserInputError("the documentation is not part of this installation; its pages are in docs/ of a checkout")
+    if as_json:
+        click.echo(json.dumps({name: str(file) for name, file in found.items()}))
+        return
+    page = found[page_about(topic, found) if topic else "README"]
+    click.echo(page)
+    if page.suffix == ".md":
+        click.echo("In a checkout 'python3 packaging/bootstrap.py docs' makes pages for the browser of this text.")
+    elif not _opened(page):
+        click.echo("No browser could be opened here; any browser shows this file.")
+
+
+def built_pages(site: Path) -> dict[str, Path]:
+    """Return the pages for a browser by their names; none where they were not built."""
+    index = site / "index.html"
+    below = {file.stem: file for file in sorted(site.glob("*/*.html")) if file.parent.name in KINDS}
+    return {"README": index, **below} if index.exists() else {}
+
+
+def pages_as_text(docs: Path) -> dict[str, Path]:
+    """Return the pages as they are written in a checkout, by their names."""
+    return {file.stem: file for file in [*sorted(docs.glob("*.md")), *sorted(docs.glob("*/*.md"))]}
+
+
+def page_about(topic: str, pages: Mapping[str, object]) -> str:
+    """Return the name of the page about a command or a subject; raise UserInputError if there is none."""
+    if topic in pages:
+        return topic
+    guide = GUIDES.get(topic) or next((each for name, each in GUIDES.items() if name.split()[0] == topic), None)
+    if guide is not None:
+        return Path(guide.page).stem
+    near = get_close_matches(topic, [*pages, *GUIDES])
+    meant = f"did you mean {' or '.join(map(repr, near))}?" if near else "'recollect docs' opens the list of all pages"
+    raise UserInputError(f"there is no page about {topic!r}; {meant}")
+
+
+def _opened(page: Path) -> bool:
+    """Open a file in the browser and return whether there is one."""
+    import webbrowser  # noqa: PLC0415 - no other command needs it
+
+    return webbrowser.open(page.as_uri())

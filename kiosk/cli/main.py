@@ -60,6 +60,9 @@ _GROUPS = {
         "simulate": ("kiosk.cli.learning:simulate_command", "Play games with a simulated player under a frozen table."),
         "policy": ("kiosk.cli.learning:policy_group", "Look at policy files and their evidence."),
     },
+    "Read on": {
+        "docs": ("kiosk.cli.guide:docs_command", "Open the documentation in the browser, without a network."),
+    },
 }
 """Each command by what it is for and its name: where it is, and the first sentence of its help, which loads none."""
 _COMMANDS = {name: entry for group in _GROUPS.values() for name, entry in group.items()}

@@ -156,3 +156,45 @@ def test_the_help_loads_no_command_and_no_large_library() -> None:
     loaded = set(done.stdout.splitlines()[-1].split())
     assert {name for name in loaded if name.startswith("kiosk")} == {"kiosk", "kiosk.cli", "kiosk.cli.main"}
     assert not loaded & {"pydantic", "numpy", "PySide6", "rich", "cattrs"}
+
+
+@pytest.fixture
+def site(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder of built pages, which the program takes for its own."""
+    folder = tmp_path / "site"
+    for page in ("index.html", "how-to/booth.html", "reference/glossary.html", "assets/404.html"):
+        (folder / page).parent.mkdir(parents=True, exist_ok=True)
+        (folder / page).touch()
+    monkeypatch.setattr("kiosk.cli.guide.beside_or_inside", lambda name: tmp_path / name)
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("words", "page"),
+    [
+        ((), "index.html"),
+        (("booth",), "how-to/booth.html"),
+        (("check",), "how-to/booth.html"),
+        (("glossary",), "reference/glossary.html"),
+    ],
+)
+def test_docs_opens_the_page_about_a_command_or_a_subject(
+    words: tuple[str, ...], page: str, site: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened = list[str]()
+    monkeypatch.setattr("webbrowser.open", lambda address: not opened.append(address))
+    told = CliRunner().invoke(commands()["docs"], words)
+    assert opened == [(site / page).as_uri()]
+    assert told.output == f"{site / page}\n"
+
+
+def test_docs_says_which_page_may_be_meant(site: Path) -> None:
+    assert site.exists()
+    refused = CliRunner().invoke(commands()["docs"], ["glosary"]).exception
+    assert str(refused) == "there is no page about 'glosary'; did you mean 'glossary'?"
+
+
+def test_docs_names_the_text_where_no_pages_were_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kiosk.cli.guide.beside_or_inside", lambda name: {"site": tmp_path, "docs": DOCS}[name])
+    told = CliRunner().invoke(commands()["docs"], ["mentaliser"])
+    assert told.output.splitlines()[0] == str(DOCS / "explanation" / "mentaliser.md")
