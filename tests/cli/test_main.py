@@ -182,7 +182,12 @@ def test_docs_opens_the_page_about_a_command_or_a_subject(
     words: tuple[str, ...], page: str, site: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = list[str]()
-    monkeypatch.setattr("webbrowser.open", lambda address: not opened.append(address))
+
+    def opens(address: str) -> bool:
+        opened.append(address)
+        return True
+
+    monkeypatch.setattr("webbrowser.open", opens)
     told = CliRunner().invoke(commands()["docs"], words)
     assert opened == [(site / page).as_uri()]
     assert told.output == f"{site / page}\n"
