@@ -8,7 +8,7 @@ import queue
 import subprocess
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from functools import partial
@@ -346,7 +346,10 @@ NOT_READY = 1
 
 _MARKS = {Severity.OK: "OK", Severity.WARNING: "WARN", Severity.ERROR: "FAIL"}
 _STYLES = {Severity.OK: "green", Severity.WARNING: "yellow", Severity.ERROR: "bold red"}
+_FIRST = (Severity.ERROR, Severity.WARNING, Severity.OK)
 LEAST_WIDTH = 100
+WATCH_S = 10
+"""Seconds between two looks at the booth."""
 
 
 @click.command()
@@ -356,6 +359,7 @@ LEAST_WIDTH = 100
 @robot_host_option
 @robot_port_option
 @click.option("--say", is_flag=True, help="Say a test sentence in every language, so that you hear the voice.")
+@click.option("--watch", is_flag=True, help=f"Check again every {WATCH_S} s until Ctrl+C, and say what has changed.")
 @json_option
 @click.pass_context
 def check_command(
@@ -367,29 +371,87 @@ def check_command(
     robot_port: int | None,
     *,
     say: bool,
+    watch: bool,
     as_json: bool,
 ) -> None:
     """Try everything that a booth needs, and say what to do.
 
-    The exit code is 1 if no session can be held. Nothing is shown or kept, and nothing is heard without --say.
+    What fails comes first. The exit code is 1 if no session can be held. Nothing is shown or kept, and nothing is heard
+    without --say.
     """
-    booth = _booth(data, checked_site(site), study, robot_host, robot_port)
-    looks = tuple(all_checks(booth))
-    with progress_bar("looking", len(looks), hidden=as_json) as tell:
-        found = run_checks(looks, tell)
+    if watch and say:
+        raise click.UsageError("choose --watch or --say: a sentence every few seconds is no help")
+    look = partial(_look_at_booth, data, checked_site(site), study, robot_host, robot_port)
+    booth, found = look(as_json=as_json)
     if say:
         found = (*found, *_said(booth))
-    ready = all(result.severity is not Severity.ERROR for result in found)
-    if as_json:
-        rows = [asdict(result) | {"severity": result.severity.value} for result in found]
-        click.echo(json.dumps({"ready": ready, "results": rows}))
-    else:
-        _show(found, ready=ready)
+    _tell(found, as_json=as_json)
+    if watch:
+        click.echo(f"Looking again every {WATCH_S} s until Ctrl+C.", err=True)
+    try:
+        while watch:
+            _wait(WATCH_S)
+            before, (booth, found) = found, look(as_json=as_json)
+            if changed := _changes(before, found):
+                _tell(found, as_json=as_json, changed=changed)
+    except KeyboardInterrupt:
+        # That is how it ends.
+        click.echo(err=True)
     nouns = tuple(f"{group.noun} " for group in ExtensionGroup)
     broken = [each.message for each in found if each.severity is Severity.ERROR and each.name.startswith(nouns)]
     if booth.faults or broken:
         raise UserInputError(*dict.fromkeys((*booth.faults, *broken)))
-    context.exit(0 if ready else NOT_READY)
+    context.exit(0 if is_ready(found) else NOT_READY)
+
+
+def is_ready(found: Iterable[CheckResult]) -> bool:
+    """Whether a session can be held."""
+    return all(result.severity is not Severity.ERROR for result in found)
+
+
+def _look_at_booth(
+    data: Path, site: str, study: Path | None, robot_host: str | None, robot_port: int | None, *, as_json: bool
+) -> tuple[CheckTargets, tuple[CheckResult, ...]]:
+    """Read the study file and try everything; what needs you comes first."""
+    booth = _booth(data, site, study, robot_host, robot_port)
+    looks = tuple(all_checks(booth))
+    with progress_bar("looking", len(looks), hidden=as_json) as tell:
+        return booth, in_order_of_severity(run_checks(looks, tell))
+
+
+def in_order_of_severity(found: Iterable[CheckResult]) -> tuple[CheckResult, ...]:
+    """Return the results with the failures first, then the warnings; each kind stays in the order of the looks."""
+    return tuple(sorted(found, key=lambda result: _FIRST.index(result.severity)))
+
+
+def _wait(seconds: float) -> None:
+    """Wait; Ctrl+C raises KeyboardInterrupt."""
+    time.sleep(seconds)
+
+
+def _changes(before: Iterable[CheckResult], now: Iterable[CheckResult]) -> list[str]:
+    """Name what is better or worse than before, or new.
+
+    Words alone do not count: how much memory is free changes all the time.
+    """
+    was = {(each.name, each.remedy): each.severity for each in before}
+    names = {name: severity for (name, _), severity in was.items()}
+    return [
+        f"{each.name}: {_MARKS[names[each.name]] if each.name in names else 'new'} -> {_MARKS[each.severity]}"
+        for each in now
+        if was.get((each.name, each.remedy)) is not each.severity
+    ]
+
+
+def _tell(found: tuple[CheckResult, ...], *, as_json: bool, changed: Sequence[str] = ()) -> None:
+    ready = is_ready(found)
+    if as_json:
+        rows = [asdict(result) | {"severity": result.severity.value} for result in found]
+        click.echo(json.dumps({"ready": ready, "results": rows} | ({"changed": changed} if changed else {})))
+        return
+    if changed:
+        click.echo(f"\n{datetime.now().astimezone():%H:%M:%S}  {', '.join(changed)}")
+    _show(found, ready=ready)
 
 
 def _said(booth: CheckTargets) -> Iterator[CheckResult]:

@@ -1,14 +1,18 @@
-"""The command `explain`: why the assistant did what it did."""
+"""The command `explain`: why the assistant did what it did, and how the board lay."""
 
 from __future__ import annotations
 
 import json
 import reprlib
-from collections.abc import Iterator
+import sys
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from random import Random
-from typing import Annotated, Literal
+from textwrap import wrap
+from typing import Annotated, Any, Literal
 
 import click
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -21,12 +25,12 @@ from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
-from kiosk.config import AssistanceConfig, Game
+from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.replay import DecisionContext
-from kiosk.game import Board, Position
-from kiosk.store import queries
-from kiosk.store.queries import open_repository
+from kiosk.files import write_file
+from kiosk.game import Board, Concentration, Position
+from kiosk.store.queries import DecisionExplainer, open_repository
 
 SHAPE = Game()
 """The board of a case is the study's."""
@@ -169,47 +173,239 @@ _OUTCOMES = {
     MoveOutcome.S_WRONG: "a second card is coming, and the last move was no match",
 }
 _LABEL = 11
+DIFFERS = 1
+"""The exit code if a decision comes out otherwise today than it was recorded."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The game before a flip (from 1), and the decision about it; ``differs`` says why there is none."""
+
+    flip: int
+    game: Concentration
+    explanation: Explanation | None
+    differs: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as JSON values; cards go by their locations, from 0."""
+        board, opened = self.game.board, self.game.first_card
+        told = {} if self.explanation is None else self.explanation.to_json()
+        return {
+            "flip": self.flip,
+            "open": None if opened is None else board.location(opened),
+            "found": sorted(map(board.location, self.game.found)),
+            "turned": {board.location(place): n for place in board if (n := self.game.history.count(place))},
+            **told,
+            **({"differs": self.differs} if self.differs else {}),
+        }
 
 
 @click.command()
 @click.argument("case_or_session", required=False, metavar="CASE.json|SESSION")
-@click.option("--flip", type=click.IntRange(min=1), help="Explain the decision before this flip of a stored session.")
+@click.option("--flip", type=click.IntRange(min=1), help="Only the decision before this flip of a stored session.")
+@click.option(
+    "--picture", type=click.Path(path_type=Path), help="Draw the board at each decision into this file (SVG)."
+)
 @sessions_data_option
 @json_option
 @click.option("--table", is_flag=True, help="Print the table of all reasons that docs/explanation/mentaliser.md shows.")
-def explain_command(case_or_session: str | None, flip: int | None, data: Path, *, as_json: bool, table: bool) -> None:
-    """Explain one decision of a stored session or a case file.
+def explain_command(
+    case_or_session: str | None, flip: int | None, picture: Path | None, data: Path, *, as_json: bool, table: bool
+) -> None:
+    """Explain the decisions of a stored session, or one of a case file.
 
-    Name the flip of a session with --flip.
+    Each comes with the board as it was. Name a flip of a session with --flip for one decision and all that could have
+    been said. Exit code 1 if a decision comes out otherwise today than it was recorded.
     """
     if table:
         click.echo(reasons_table(), nl=False)
         return
     if case_or_session is None:
-        raise click.UsageError("say what to explain: a case file, or a session and --flip")
-    if flip is None and case_or_session.isdecimal():
-        raise click.UsageError("a stored session needs --flip")
-    explanation = _of_case(Path(case_or_session)) if flip is None else _of_session(case_or_session, flip, data)
-    click.echo(json.dumps(explanation.to_json()) if as_json else "\n".join(_lines(explanation)))
+        raise click.UsageError("say what to explain: a session, or a case file")
+    if flip is None and not case_or_session.isdecimal():
+        moments = [_of_case(Path(case_or_session))]
+    else:
+        moments = _of_session(case_or_session, flip, data)
+    if picture is not None:
+        write_file(picture, board_picture(moments))
+    one = flip is not None or not case_or_session.isdecimal()
+    if as_json:
+        click.echo(json.dumps(_of_one(moments[0]) if one else _of_all(int(case_or_session), moments)))
+    else:
+        click.echo("\n".join(_one(moments[0]) if one else _all(moments)))
+    if picture is not None:
+        click.echo(f"The boards are drawn in {picture}.", err=True)
+    if any(moment.differs for moment in moments):
+        sys.exit(DIFFERS)
 
 
-def _of_case(path: Path) -> Explanation:
+def _of_one(moment: Moment) -> dict[str, Any]:
+    return {} if moment.explanation is None else moment.explanation.to_json()
+
+
+def _of_all(session: int, moments: Sequence[Moment]) -> dict[str, Any]:
+    cards = list(moments[0].game.board.cards)
+    return {"session": session, "cards": cards, "decisions": [moment.to_json() for moment in moments]}
+
+
+def _of_case(path: Path) -> Moment:
     described = read_case(path)
     try:
-        return described.moment().explained()
+        moment = described.moment()
+        game = game_after(moment.board, moment.flips)
+        return Moment(game.flips + 1, game, moment.explained())
     except (UserInputError, ValueError) as refusal:
         raise UserInputError(f"the case {path}: {refusal}") from refusal
 
 
-def _of_session(number: str, flip: int, data: Path) -> Explanation:
+def _of_session(number: str, flip: int | None, data: Path) -> list[Moment]:
     if not number.isdecimal():
         raise UserInputError(f"a stored session goes by its number, not by {number!r}")
     with open_repository(data) as stored:
-        return queries.explain_stored_decision(stored, int(number), flip)
+        explainer = DecisionExplainer(stored, int(number))
+        if flip is not None:
+            return [Moment(flip, explainer.game_before(flip), explainer.explain(flip))]
+        if not explainer.flips:
+            raise UserInputError(f"in session {number} nothing was decided: the game ended before its first flip")
+        return [_moment(explainer, each) for each in explainer.flips]
 
 
-def _lines(explanation: Explanation) -> Iterator[str]:
-    """Yield the explanation for a person: each step on its line."""
+def _moment(explainer: DecisionExplainer, flip: int) -> Moment:
+    game = explainer.game_before(flip)
+    try:
+        return Moment(flip, game, explainer.explain(flip))
+    except UserInputError as differs:
+        return Moment(flip, game, None, str(differs))
+
+
+def _one(moment: Moment) -> Iterator[str]:
+    if moment.explanation is not None:
+        yield from _lines(moment.explanation)
+        yield ""
+    yield from _board_lines(moment)
+    yield ""
+    yield LEGEND
+
+
+def _all(moments: Sequence[Moment]) -> Iterator[str]:
+    yield LEGEND
+    for moment in moments:
+        move, which = divmod(moment.flip - 1, 2)
+        yield f"\nflip {moment.flip} (move {move + 1}, {'second' if which else 'first'} card)"
+        yield from _board_lines(moment)
+        if moment.explanation is None:
+            yield _line("differs", moment.differs)
+        else:
+            yield from _lines(moment.explanation, brief=True)
+
+
+LEGEND = "\N{MIDDLE DOT} never turned   name turned before   [name] open   (name) found   >name< where the hint points"
+
+
+def _board_lines(moment: Moment) -> Iterator[str]:
+    """Draw the board as text, a row a line."""
+    game, target = moment.game, _target(moment)
+    width = max(map(len, game.board.cards)) + 2
+    for row in range(game.board.rows):
+        places = (Position(row, column) for column in range(game.board.columns))
+        yield "  " + " ".join(_cell(game, place, target).ljust(width) for place in places).rstrip()
+
+
+def _cell(game: Concentration, place: Position, target: Position | None) -> str:
+    card, seen = game.board.card(place), game.history.count(place) > 0
+    if place in game.found:
+        return f"({card})"
+    if place == game.first_card:
+        return f"[{card}]"
+    if place == target:
+        return f">{card}<" if seen else ">\N{MIDDLE DOT}<"
+    return f" {card}" if seen else " \N{MIDDLE DOT}"
+
+
+def _target(moment: Moment) -> Position | None:
+    hint = moment.explanation.decision.hint if moment.explanation else None
+    return hint.target.position if hint else None
+
+
+_SIDE, _GAP, _HEAD, _CAPTION_LINES, _CAPTION = 46, 4, 26, 3, 18
+_ACROSS = 3
+"""How many boards are drawn side by side."""
+
+
+def board_picture(moments: Sequence[Moment]) -> str:
+    """Return an SVG of the board at each moment, with its flip, action and sentence."""
+    board = moments[0].game.board
+    width = board.columns * (_SIDE + _GAP) + 24
+    height = board.rows * (_SIDE + _GAP) + _HEAD + _CAPTION_LINES * _CAPTION + 24
+    across = min(_ACROSS, len(moments))
+    down = -(-len(moments) // across)
+    pictures = _card_pictures(frozenset(board.cards))
+    images = (
+        f'<image id="{card}" width="{_SIDE - 8}" height="{_SIDE - 8}" href="{picture}"/>'
+        for card, picture in pictures.items()
+    )
+    tiles = (
+        f'<g transform="translate({number % across * width + 12} {number // across * height + 12})">'
+        f"{''.join(_tile(moment, frozenset(pictures), width))}</g>"
+        for number, moment in enumerate(moments)
+    )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{across * width}" height="{down * height}"'
+        ' font-family="sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="#fff"/>\n'
+        f"<defs>{''.join(images)}</defs>\n" + "\n".join(tiles) + "\n</svg>\n"
+    )
+
+
+def _tile(moment: Moment, pictured: frozenset[str], width: int) -> Iterator[str]:
+    game, target, explanation = moment.game, _target(moment), moment.explanation
+    action = explanation.decision.action.label if explanation else "comes out otherwise today"
+    yield f'<text y="14" font-weight="bold">flip {moment.flip}: {escape(action)}</text>'
+    for place in game.board:
+        x, y = place.column * (_SIDE + _GAP), place.row * (_SIDE + _GAP) + _HEAD
+        card, found, opened = game.board.card(place), place in game.found, place == game.first_card
+        fill = "#dff0e4" if found else "#fff7d6" if opened else "#eceff2"
+        edge = ("#c05500", 4) if place == target else ("#1f5f6b", 2) if opened else ("#b8c0c8", 1)
+        yield (
+            f'<g transform="translate({x} {y})"><rect width="{_SIDE}" height="{_SIDE}" rx="6" fill="{fill}"'
+            f' stroke="{edge[0]}" stroke-width="{edge[1]}"/>'
+        )
+        if game.history.count(place):
+            shade = 1 if opened else 0.75 if found else 0.4
+            if card in pictured:
+                yield f'<use href="#{card}" x="4" y="4" opacity="{shade}"/>'
+            else:
+                middle = f'x="{_SIDE / 2}" y="{_SIDE / 2 + 4}" text-anchor="middle" font-size="10"'
+                yield f"<text {middle}>{escape(card)}</text>"
+        yield "</g>"
+    below = game.board.rows * (_SIDE + _GAP) + _HEAD
+    said = _caption(explanation) if explanation else moment.differs
+    for number, line in enumerate(
+        wrap(said, width // 7, max_lines=_CAPTION_LINES, placeholder=" \N{HORIZONTAL ELLIPSIS}")
+    ):
+        yield f'<text y="{below + 16 + number * _CAPTION}">{escape(line)}</text>'
+
+
+def _caption(explanation: Explanation) -> str:
+    """Return what was said, or why nothing was."""
+    verdict = explanation.decision.gate_decision
+    return explanation.spoken or ("the table came to no help" if verdict.is_open else verdict.value)
+
+
+def _card_pictures(cards: frozenset[str]) -> dict[str, str]:
+    """Return the pictures of the shipped decks that these cards have, as data addresses."""
+    shipped = {
+        card: file
+        for deck in sorted((ASSETS / "cards").iterdir())
+        for card, file in pictures_in(deck).items()
+        if card in cards and file.suffix == ".svg"
+    }
+    return {
+        card: f"data:image/svg+xml;base64,{b64encode(file.read_bytes()).decode()}" for card, file in shipped.items()
+    }
+
+
+def _lines(explanation: Explanation, *, brief: bool = False) -> Iterator[str]:
+    """Yield the explanation for a person: each step on its line; ``brief`` leaves out what could have been said."""
     decision = explanation.decision
     state, verdict = decision.state, decision.gate_decision
     yield _line("state", f"{state.label}, row {state.index_in(decision.actions)} of the table")
@@ -231,7 +427,7 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield from _pointing(decision.hint, explanation.board)
     if explanation.spoken:
         yield _line("said", explanation.spoken)
-    for number, sentence in enumerate(explanation.sentences):
+    for number, sentence in enumerate(() if brief else explanation.sentences):
         yield _line("" if number else "sentences", sentence)
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import sqlite_utils
 
 from kiosk import UserInputError
-from kiosk.assistance.assistant import Explanation
+from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
@@ -27,6 +27,7 @@ from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.replay import DecisionContext, agrees_with_record
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.experiment.session_state import CARDS_IN_A_MOVE, SessionState, language_before_flip
+from kiosk.game import Concentration
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_name
 from kiosk.store.summaries import numbers_so_far
@@ -321,6 +322,19 @@ class DecisionExplainer:
             raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")
         self._game = game
         self._plan = archive.plan(number)
+
+    @property
+    def flips(self) -> tuple[int, ...]:
+        """The flips (from 1) that have a decision.
+
+        In a condition without help they are all flips, as the table had its values all the same.
+        """
+        return tuple(sorted(self._game.decisions if self._plan.cell.helps else self._game.flips))
+
+    def game_before(self, flip: int) -> Concentration:
+        """Return the game as it stood before a flip, with unmatched cards turned back."""
+        flips = (each.event.position for number, each in self._game.flips.items() if number < flip)
+        return game_after(self._game.board, flips)
 
     def explain(self, flip: int) -> Explanation:
         """Return the decision before a flip (from 1), laid open.

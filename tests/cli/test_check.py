@@ -150,12 +150,43 @@ def test_the_table_says_what_is_and_what_to_do(
     finding(GOOD, WARNING, BAD)
     lines = recollect("--data", tmp_path / "data").out.splitlines()
     assert [line.split() for line in lines[:5]] == [
-        ["OK", "a", "fine"],
-        ["WARN", "b", "so-so", "[1]"],
-        ["->", "mend"],
         ["FAIL", "c", "no"],
         ["->", "mend"],
+        ["WARN", "b", "so-so", "[1]"],
+        ["->", "mend"],
+        ["OK", "a", "fine"],
     ]
+
+
+def test_what_is_watched_is_told_again_only_when_it_has_changed(
+    recollect: Recollect, finding: Callable[..., None], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    mended = CheckResult.ok("c", "yes")
+    rounds = [(GOOD, BAD), (mended, GOOD), (mended, GOOD)]
+
+    def wait(_: float) -> None:
+        if not rounds:
+            raise KeyboardInterrupt
+        finding(*rounds.pop(0))
+
+    monkeypatch.setattr(command, "_wait", wait)
+    finding(GOOD, BAD)
+    called = recollect("--data", tmp_path / "data", "--watch", "--json")
+    first, second = map(json.loads, called.out.splitlines())
+    assert (called.code, first["ready"], "changed" in first) == (0, False, False)
+    assert (second["ready"], second["changed"]) == (True, ["c: FAIL -> OK"])
+
+
+def test_a_booth_that_is_watched_ends_with_what_was_found_last(
+    recollect: Recollect, finding: Callable[..., None], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def leave(_: float) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "_wait", leave)
+    finding(BAD)
+    assert recollect("--data", tmp_path / "data", "--watch").code == 1
+    assert recollect("--data", tmp_path / "data", "--watch", "--say").code == 2
 
 
 def test_programs_get_what_people_get(recollect: Recollect, finding: Callable[..., None], tmp_path: Path) -> None:
@@ -163,8 +194,8 @@ def test_programs_get_what_people_get(recollect: Recollect, finding: Callable[..
     assert json.loads(recollect("--data", tmp_path / "data", "--json").out) == {
         "ready": False,
         "results": [
-            {"name": "a", "severity": "ok", "message": "fine", "remedy": ""},
             {"name": "c", "severity": "error", "message": "no", "remedy": "mend"},
+            {"name": "a", "severity": "ok", "message": "fine", "remedy": ""},
         ],
     }
 

@@ -284,7 +284,7 @@ def test_a_file_that_is_not_there_is_refused(
     assert capsys.readouterr().err == "recollect: the case nowhere.json cannot be read: No such file or directory\n"
 
 
-@pytest.mark.parametrize("arguments", [(), ("7",), ("7", "--data", "."), ("7", "--flip", "0"), ("7", "--flip", "x")])
+@pytest.mark.parametrize("arguments", [(), ("7", "--flip", "0"), ("7", "--flip", "x")])
 def test_half_a_command_is_refused(
     arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -8,6 +8,7 @@ import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -273,6 +274,69 @@ def test_the_command_line_tells_a_stored_decision(
     assert told["counts"] == {"target": hint.seen, "other": hint.mate_seen}
     assert run(monkeypatch, 1, "--flip", hint.flip, "--data", tmp_path) == 0
     assert f"said       {hint.sentence}\n" in capsys.readouterr().out
+
+
+def test_without_a_flip_every_decision_is_told_with_its_board(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    driver = stored(tmp_path)
+    decisions, hints = driver.noted(AssistanceDecided), driver.noted(HintGiven)
+    assert run(monkeypatch, 1, "--data", tmp_path, "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [each["flip"] for each in told["decisions"]] == [then.flip for then in decisions]
+    assert [each["action"] for each in told["decisions"]] == [then.action.label for then in decisions]
+    flips = driver.noted(CardFlipped)
+    for each in told["decisions"]:
+        before = [flip for flip in flips if flip.number < each["flip"]]
+        assert sum(each["turned"].values()) == len(before)
+        assert len(each["found"]) == 2 * sum(flip.matched is True for flip in before)
+        assert (each["open"] is None) is (each["flip"] % 2 == 1)
+    assert run(monkeypatch, 1, "--data", tmp_path) == 0
+    text = capsys.readouterr().out
+    assert text.count("\nflip ") == len(decisions)
+    hint = hints[-1]
+    drawn = text.split(f"\nflip {hint.flip} ")[1].splitlines()[1:5]
+    marked = [cell.strip(">") for cell in drawn[hint.target.row].split() if cell.startswith(">")]
+    card = told["cards"][6 * hint.target.row + hint.target.column]
+    assert marked in ([f"{card}<"], ["\N{MIDDLE DOT}<"])
+    assert f"said       {hint.sentence}\n" in text
+
+
+def test_the_boards_are_drawn_as_a_picture(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    decisions = stored(tmp_path).noted(AssistanceDecided)
+    picture = tmp_path / "boards.svg"
+    assert run(monkeypatch, 1, "--data", tmp_path, "--picture", picture, "--json") == 0
+    json.loads(capsys.readouterr().out)
+    drawing = ET.fromstring(picture.read_text("utf-8"))  # noqa: S314 - our own
+    titles = [text.text for text in drawing.iter("{http://www.w3.org/2000/svg}text") if text.get("font-weight")]
+    assert titles == [f"flip {then.flip}: {then.action.label}" for then in decisions]
+    cells = len(list(drawing.iter("{http://www.w3.org/2000/svg}rect"))) - 1
+    assert cells == 24 * len(decisions)
+
+
+def test_a_decision_that_comes_out_otherwise_is_marked_among_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    flip = stored(tmp_path).noted(HintGiven)[0].flip
+    tamper(
+        tmp_path,
+        "UPDATE event SET payload = json_set(payload, '$.gate', 'opening') "  # noqa: S608 - a test's own words
+        f"WHERE type = 'AssistanceDecided' AND payload ->> '$.flip' = {flip}",
+    )
+    assert run(monkeypatch, 1, "--data", tmp_path, "--json") == 1
+    differing = [each["flip"] for each in json.loads(capsys.readouterr().out)["decisions"] if "differs" in each]
+    assert differing == [flip]
+
+
+def test_where_nobody_helped_every_flip_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    flips = stored(tmp_path, Condition.NO_ASSISTANCE).noted(CardFlipped)
+    assert run(monkeypatch, 1, "--data", tmp_path, "--json") == 0
+    told = json.loads(capsys.readouterr().out)["decisions"]
+    assert [each["flip"] for each in told] == [flip.number for flip in flips]
 
 
 @pytest.mark.parametrize(
