@@ -65,6 +65,7 @@ OUTSIDE: dict[str, set[str]] = {
     "matplotlib": {"analysis"},
     "pandas": {"analysis"},
     "numpy": {"assistance", "robots", "training", "analysis"},
+    "av": {"ui"},
     "numba": {"training"},
     "gymnasium": {"training"},
     "click": {"cli"},

@@ -86,7 +86,10 @@ GUIDES = {
     "status": Guide("how-to/booth.md", ("status", "status --json")),
     "sessions": Guide("reference/data-set.md", ("sessions", "sessions --codes")),
     "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
-    "replay": Guide("explanation/how-it-works.md", ("replay 1", "replay 1 --headless --frames pictures")),
+    "replay": Guide(
+        "explanation/how-it-works.md",
+        ("replay 1", "replay 1 --headless --frames pictures", "replay 1 --film session.webm"),
+    ),
     "explain": Guide("explanation/mentaliser.md", ("explain 1 --flip 14", "explain case.json")),
     "day": Guide("how-to/booth.md", ("day", "day --date 2026-05-09 --out saturday.html")),
     "backup": Guide("how-to/booth.md", ("backup", "backup --to stick")),

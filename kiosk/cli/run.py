@@ -34,6 +34,7 @@ from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.supervisor import REFUSED, Supervisor, SupervisorEvent, SupervisorEventKind, Timeouts, guarded
 from kiosk.ui.app import App
+from kiosk.ui.film import check_film, write_film
 from kiosk.ui.rehearsal import make_folder
 from kiosk.ui.replay import Replay
 from kiosk.ui.replay_controls import FASTEST, SLOWEST
@@ -184,6 +185,8 @@ def _write_down(happening: SupervisorEvent) -> None:
 @click.option("--window", is_flag=True, help="Open a window instead of the full screen.")
 @click.option("--headless", is_flag=True, help="Use no screen, and save every picture in a folder.")
 @click.option("--frames", type=click.Path(path_type=Path), help="That folder; by default session-N here.")
+@click.option("--film", type=click.Path(path_type=Path), help="Write a film instead: a .webm or .mp4 file.")
+@click.option("--memory", is_flag=True, help="Show in the film how likely each card is remembered, by a model.")
 @json_option
 def replay_command(
     session: int,
@@ -191,7 +194,9 @@ def replay_command(
     study: Path | None,
     speed: float,
     frames: Path | None,
+    film: Path | None,
     *,
+    memory: bool,
     window: bool,
     headless: bool,
     as_json: bool,
@@ -202,6 +207,12 @@ def replay_command(
     with the record; --study names a study file beside whose folder the session's own pictures lie, if they do not
     come with Recollect.
     """
+    if memory and film is None:
+        raise UserInputError("--memory is for a film; name the film with --film")
+    if film is not None:
+        if frames is not None or window or headless:
+            raise UserInputError("--film cannot be used with --window, --headless or --frames")
+        check_film(film)
     with open_repository(data) as stored:
         events, plan = stored.story(session), stored.plan(session)
         seed = stored.seed(session)
@@ -212,13 +223,18 @@ def replay_command(
     mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN, ClockMode.WALL, speed)
     if frames is not None:
         make_folder(frames)
-        mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL)
+    if frames is not None or film is not None:
+        mode = RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL, speed if film else 1.0)
     check_screen(mode.display)
     with guarded() as beat, Replay(mode, plan, steps, f"Session {session}", beat) as played:
-        saved = _save(played, frames, hidden=as_json) if frames is not None else None
-        if saved is None:
+        if film is not None:
+            said = _film(played, plan, film, memory=memory, hidden=as_json)
+        elif frames is not None:
+            said = _save(played, frames, session, hidden=as_json)
+        else:
+            said = ("", {"pictures": None})
             played.run()
-    _tell(session, steps, events, saved, frames, as_json=as_json)
+    _tell(session, steps, events, said, as_json=as_json)
 
 
 def _check_pictures(plan: SessionConfig) -> None:
@@ -228,30 +244,33 @@ def _check_pictures(plan: SessionConfig) -> None:
             raise UserInputError(f"the pictures of the deck {deck!r} are not here; name the study file with --study")
 
 
-def _save(played: Replay, folder: Path, *, hidden: bool) -> int:
+_Said = tuple[str, dict[str, Any]]
+"""A sentence on what was written, and the same for programs."""
+
+
+def _save(played: Replay, folder: Path, session: int, *, hidden: bool) -> _Said:
     saved: list[Path] = []
     with progress_bar("steps", len(played.player.steps), hidden=hidden) as tell:
         for file in played.frames(folder):
             saved.append(file)
             tell(played.player.played)
-    return len(saved)
+    return f"{len(saved)} pictures of session {session} are in {folder}.", {"pictures": len(saved)}
 
 
-def _tell(
-    session: int,
-    steps: tuple[ReplayStep, ...],
-    events: list[Event],
-    saved: int | None,
-    frames: Path | None,
-    *,
-    as_json: bool,
-) -> None:
+def _film(played: Replay, plan: SessionConfig, out: Path, *, memory: bool, hidden: bool) -> _Said:
+    with progress_bar("steps", len(played.player.steps), hidden=hidden) as tell:
+        seconds = write_film(played, plan.catalogue, out, memory=memory, tell=tell)
+    return f"A film of {seconds:.0f} s is in {out}.", {"pictures": None, "film": str(out), "seconds": seconds}
+
+
+def _tell(session: int, steps: tuple[ReplayStep, ...], events: list[Event], said: _Said, *, as_json: bool) -> None:
+    sentence, written = said
     differs = first_difference(steps, events)
     if as_json:
-        click.echo(json.dumps({"session": session, "steps": len(steps), "pictures": saved, "differs_at": differs}))
+        click.echo(json.dumps({"session": session, "steps": len(steps), **written, "differs_at": differs}))
         return
-    if saved is not None:
-        click.echo(f"{saved} pictures of session {session} are in {frames}.")
+    if sentence:
+        click.echo(sentence)
     if differs is None:
         click.echo(f"Every event of session {session} leads to what was recorded.")
     else:

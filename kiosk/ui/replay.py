@@ -30,6 +30,11 @@ _UNSEEN = (do.StartTimer, do.StopTimer)
 """Effects that change nothing on the screen."""
 
 
+def changes_screen(step: ReplayStep) -> bool:
+    """Whether a step can change what is to be seen."""
+    return any(not isinstance(effect, _UNSEEN) for effect in step.outcome.effects)
+
+
 class MuteVoice(Voice):
     """Says nothing, and reports nothing: what became of every sentence stands in the record."""
 
@@ -73,7 +78,8 @@ class Replay:
         beat: Callable[[], None] = lambda: None,
     ) -> None:
         """Show the window as it was before the first step; ``beat`` is called as long as it goes on."""
-        self._beat = beat
+        self.beat = beat
+        """To be called now and then while it is played."""
         self._window = Window(StudyConfig((plan,)), mode)
         with ExitStack() as undo:
             undo.callback(self._window.close)
@@ -91,7 +97,7 @@ class Replay:
         self._renderer.embodiments = avatar_alone(self._window, self._clock, plan)
         self.player = ReplayPlayer(self._renderer, self._clock, plan, steps)
         self.player.change_speed(mode.speed)
-        self._loop = EventLoop(self._clock, owner, self._fault, self._beat)
+        self._loop = EventLoop(self._clock, owner, self._fault, self.beat)
         undo.callback(self._loop.close)
         self._bar = ReplayControls(title, self.player, owner)
         self._bar.left.connect(self._loop.quit)
@@ -129,15 +135,19 @@ class Replay:
 
         Raises UserInputError if a picture cannot be saved, and StorageError on a full disk.
         """
-        self._window.set_replay(None)
+        self.hide_controls()
         for index, step in enumerate(self.player.steps, 1):
-            self._beat()
+            self.beat()
             self.player.step()
-            if any(not isinstance(effect, _UNSEEN) for effect in step.outcome.effects):
+            if changes_screen(step):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
                 if not self._window.shown.grabWindow().save(str(file)):
                     raise unwritten(file)
                 yield file
+
+    def hide_controls(self) -> None:
+        """Show the screens without the bar below them."""
+        self._window.set_replay(None)
 
     def _fault(self, kind: type[BaseException], fault: BaseException, at: TracebackType | None) -> None:
         """End the replay at a fault of ours; no visitor waits in front of it."""

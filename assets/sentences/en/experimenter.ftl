@@ -213,3 +213,17 @@ console-alarm-no-visitor = No visitor for a long time
 ## The window of recollect study preview
 
 preview-answer = Answer the questions
+
+## The film of a replay
+
+film-left-out = The visitor answers questions. This is left out.
+film-hint = Hint.
+film-hint-row = Hint: row { $row }.
+film-hint-column = Hint: column { $column }.
+film-hint-card = Hint: row { $row }, column { $column }.
+film-counts = Turned up before: the target { $seen } ×, its partner { $other } ×.
+film-gate-opening = No hint: the first flips of a game are the player's own.
+film-gate-doing-well = No hint: the last move was a pair.
+film-gate-still-exploring = No hint: no pair was found yet, and it is early.
+film-no-hint = No hint: the policy prefers none here.
+film-memory = % remembered, by the model

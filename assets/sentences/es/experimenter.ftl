@@ -213,3 +213,17 @@ console-alarm-no-visitor = Ningún visitante desde hace mucho tiempo
 ## La ventana de recollect study preview
 
 preview-answer = Responder a las preguntas
+
+## La película de una repetición
+
+film-left-out = El visitante responde a preguntas. Esta parte se omite.
+film-hint = Ayuda.
+film-hint-row = Ayuda: fila { $row }.
+film-hint-column = Ayuda: columna { $column }.
+film-hint-card = Ayuda: fila { $row }, columna { $column }.
+film-counts = Vueltas antes: la carta señalada { $seen } ×, su pareja { $other } ×.
+film-gate-opening = Sin ayuda: las primeras cartas de una partida son del jugador.
+film-gate-doing-well = Sin ayuda: la última jugada fue una pareja.
+film-gate-still-exploring = Sin ayuda: es pronto y aún no hay ninguna pareja.
+film-no-hint = Sin ayuda: aquí la política prefiere ninguna.
+film-memory = % recordadas, según el modelo

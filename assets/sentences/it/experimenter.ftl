@@ -213,3 +213,17 @@ console-alarm-no-visitor = Nessun visitatore da molto tempo
 ## La finestra di recollect study preview
 
 preview-answer = Rispondi alle domande
+
+## Il film di una riproduzione
+
+film-left-out = Il visitatore risponde a delle domande. Questa parte è omessa.
+film-hint = Aiuto.
+film-hint-row = Aiuto: riga { $row }.
+film-hint-column = Aiuto: colonna { $column }.
+film-hint-card = Aiuto: riga { $row }, colonna { $column }.
+film-counts = Girate prima: la carta indicata { $seen } ×, la sua compagna { $other } ×.
+film-gate-opening = Nessun aiuto: le prime carte di una partita si girano da soli.
+film-gate-doing-well = Nessun aiuto: l'ultima mossa era una coppia.
+film-gate-still-exploring = Nessun aiuto: è presto, e non c'è ancora una coppia.
+film-no-hint = Nessun aiuto: qui la politica non ne dà.
+film-memory = % ricordate, secondo il modello
