@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import UserInputError
+from kiosk.config import ASSETS
 from kiosk.experiment.information import Information, check_alike
 
 SHEET = """
@@ -87,3 +88,12 @@ def test_the_hash_of_a_sheet_without_points_and_drawings_is_that_of_its_texts(tm
     plain = sheet(tmp_path, "en")
     assert plain.sha256 == "14c5336a1ccd5834632d9246edb81cf1174144e7f52363c77596ee955ea2c28a"
     assert sheet(tmp_path, "it", '["A game."]', '["A game."]\nsigns = ["cards"]').sha256 != plain.sha256
+
+
+@pytest.mark.parametrize("folder", sorted(map(str, ASSETS.glob("templates/*/information"))))
+def test_the_sheets_of_every_template_say_the_most_important_in_short_points_first(folder: str) -> None:
+    for file in sorted(Path(folder).glob("*.toml")):
+        sheet = Information.read(file)
+        assert len(sheet.consent.points) == len(sheet.consent.signs) == 3
+        assert max(map(len, sheet.consent.points)) < 90
+        assert len(sheet.about.signs) == len(sheet.about.paragraphs)

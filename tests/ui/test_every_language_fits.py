@@ -384,7 +384,7 @@ def let_go(window: QQuickWindow) -> None:
     window.releaseResources()
 
 
-FRAMED = ("about", "consent", "age", "introduction", "about you", "debrief", "thanks")
+FRAMED = ("about", "consent", "age", "introduction", "about you", "result", "debrief", "thanks")
 """Pages with a title, a way back and a way on; the age is answered by its own buttons."""
 
 

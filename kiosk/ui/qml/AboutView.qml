@@ -16,6 +16,19 @@ PageFrame {
     onVisibleChanged: way.focus = true
     Keys.onPressed: event => pane.turn(event)
 
+    // Where the lines are short they are set larger: a page that is read at a glance.
+    FontMetrics {
+        id: letters
+        font.pixelSize: 100
+    }
+    readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
+    function fits(size: real): bool {
+        const wide = (column - 2.5 * size - Theme.gap) * 0.88
+        const tall = about.lines.reduce((sum, line) =>
+            sum + Math.max(2.5 * size, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
+        return tall + about.lines.length * pane.spacing <= 0.92 * room
+    }
+
     ScrollPane {
         id: pane
         y: view.sink(height)
@@ -33,7 +46,7 @@ PageFrame {
                 sign: modelData.sign
                 // What it takes of the visitor, by which they decide.
                 strong: index > 0 && index === view.about.lines.length - 1
-                size: Theme.size(36)
+                size: view.size
             }
         }
     }

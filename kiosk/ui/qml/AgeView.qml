@@ -28,15 +28,16 @@ PageFrame {
         Grid {
             id: answers
             // Both are as wide as the longer one needs; side by side, or where that is too wide, one above the other.
-            readonly property real wish: Math.min(width, Math.max(yes.implicitWidth, no.implicitWidth, 420 * Theme.unit))
+            readonly property bool abreast: 2 * Math.max(yes.implicitWidth, no.implicitWidth) + spacing <= width
+            readonly property real wish: abreast ? (width - spacing) / 2 : width
             width: parent.width
-            columns: 2 * wish + spacing <= width ? 2 : 1
-            spacing: 2 * Theme.gap
+            columns: abreast ? 2 : 1
+            spacing: 1.5 * Theme.gap
             BigButton {
                 id: yes
                 objectName: "age-yes"
                 width: answers.wish
-                height: Math.max(implicitHeight, 220 * Theme.unit)
+                height: Math.max(implicitHeight, (answers.abreast ? 320 : 200) * Theme.unit)
                 words: view.words["age-yes"]
                 font.pixelSize: Theme.pageTitle
                 focus: true

@@ -61,9 +61,11 @@ PageFrame {
             width: parent.width
             room: view.room
             more: view.words["scroll-more"]
-            spacing: 0.5 * Theme.gap
+            // What there is to tick stands apart from what is read, as far as the page has room.
+            spacing: Math.max(0.5 * Theme.gap, Math.min(2.2 * Theme.gap, view.room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Column {
+                id: points
                 visible: view.short
                 width: pane.width
                 spacing: 0.6 * Theme.gap
@@ -130,18 +132,23 @@ PageFrame {
                     size: Theme.small
                 }
             }
-            Repeater {
-                id: purposes
-                model: view.consent.purposes
-                TickBox {
-                    required property var modelData
-                    objectName: "purpose-" + modelData.id
-                    width: pane.width
-                    words: modelData.text
-                    on: view.consent.ticks.includes(modelData.id)
-                    note: view.words[modelData.required ? "consent-required" : "consent-optional"]
-                    warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
-                    onClicked: view.consent.tick(modelData.id, !on)
+            Column {
+                id: boxes
+                width: pane.width
+                spacing: 0.5 * Theme.gap
+                Repeater {
+                    id: purposes
+                    model: view.consent.purposes
+                    TickBox {
+                        required property var modelData
+                        objectName: "purpose-" + modelData.id
+                        width: boxes.width
+                        words: modelData.text
+                        on: view.consent.ticks.includes(modelData.id)
+                        note: view.words[modelData.required ? "consent-required" : "consent-optional"]
+                        warning: view.consent.missing.includes(modelData.id) ? view.words["consent-missing"] : ""
+                        onClicked: view.consent.tick(modelData.id, !on)
+                    }
                 }
             }
         }

@@ -89,44 +89,20 @@ PageFrame {
         anchors.fill: parent
         TapHandler { onTapped: view.way.button.forceActiveFocus() }
     }
-    // Which page this is: a dot for each, or where there are many, in words.
-    Item {
+    // Which page this is, in words: dots tell how far the whole visit is.
+    Text {
         id: progress
-        readonly property bool dotted: view.form.pages <= 12
-        visible: view.form.progress !== ""
-        width: dotted ? dots.width : told.width
-        height: Math.max(dots.height, told.height)
-        x: Theme.across(Math.min(view.titleWidth + 1.6 * Theme.gap, view.column - width), width, view.column)
+        objectName: "form-progress"
+        textFormat: Text.PlainText
+        visible: text !== ""
+        text: view.form.progress
+        font.pixelSize: Theme.reading
+        x: Theme.across(view.column - width, width, view.column)
         // In the title's line.
-        y: -height - Theme.gap - 0.5 * (Theme.pageTitle * 1.36 - height)
+        y: -Theme.gap - 0.5 * (Theme.pageTitle * 1.36 + height)
+        color: Theme.faintInk
         Accessible.role: Accessible.StaticText
-        Accessible.name: view.form.progress
-        Row {
-            id: dots
-            anchors.verticalCenter: parent.verticalCenter
-            visible: progress.dotted
-            spacing: 10 * Theme.unit
-            Repeater {
-                model: progress.dotted ? view.form.pages : 0
-                Rectangle {
-                    required property int index
-                    width: (index + 1 === view.form.page ? 42 : 18) * Theme.unit
-                    height: 18 * Theme.unit
-                    radius: height / 2
-                    color: index < view.form.page ? Theme.sea : Theme.paper
-                    border { color: Theme.sea; width: 2 * Theme.unit }
-                }
-            }
-        }
-        Text {
-            id: told
-            textFormat: Text.PlainText
-            visible: !progress.dotted
-            text: view.form.progress
-            font.pixelSize: Theme.small
-            color: Theme.faintInk
-            Accessible.ignored: true
-        }
+        Accessible.name: text
     }
     FocusScope {
         id: home
@@ -142,7 +118,17 @@ PageFrame {
             width: parent.width
             room: view.room
             more: view.words["scroll-more"]
-            spacing: (view.dense || view.tight ? 8 : 12) * Theme.unit
+            // Further apart where the page has room for it.
+            readonly property real tall: {
+                let sum = 0
+                for (let i = 0; i < boxes.count; i++) {
+                    const box = boxes.itemAt(i) as FormItem
+                    sum += box?.visible ? box.height : 0
+                }
+                return sum
+            }
+            spacing: Math.max((view.dense || view.tight ? 8 : 12) * Theme.unit,
+                Math.min((view.width < view.height ? 40 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
             Repeater {
                 id: boxes
                 model: view.form.items

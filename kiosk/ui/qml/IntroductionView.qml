@@ -32,6 +32,10 @@ PageFrame {
         ScriptAction { script: view.beat = (view.beat + 1) % 16 }
     }
 
+    // Boards side by side have two cards in a row, so that they fill the page; on a low page, or below each other, three.
+    readonly property int across: abreast && room > 560 * Theme.unit ? 2 : 3
+    readonly property int down: 6 / across
+
     // Six cards, some of them up or marked, above a sentence or beside it.
     component Scene: Rectangle {
         id: scene
@@ -47,9 +51,9 @@ PageFrame {
         // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
         readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 5, 190 * Theme.unit,
             ((view.room - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
-        readonly property real cell: view.abreast
-            ? Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / 3, (view.room - telling.height - numbers - 0.6 * Theme.gap - 2 * pad) / 2))
-            : small
+        readonly property real most: Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / view.across,
+                (view.room - telling.height - numbers - 0.6 * Theme.gap - 2 * pad) / view.down))
+        readonly property real cell: view.abreast ? scenes.cell : small
         readonly property real numbers: 34 * Theme.unit
         readonly property real pad: 0.8 * Theme.gap
 
@@ -63,8 +67,8 @@ PageFrame {
             id: board
             x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers, width, scene.width)
             y: scene.pad + scene.numbers
-            width: 3 * scene.cell
-            height: 2 * scene.cell
+            width: view.across * scene.cell
+            height: view.down * scene.cell
             Mark {
                 anchors.fill: parent
                 row: scene.markRow
@@ -77,8 +81,8 @@ PageFrame {
                     id: place
                     required property int index
                     readonly property bool open: scene.up.includes(index)
-                    x: index % 3 * scene.cell
-                    y: Math.floor(index / 3) * scene.cell
+                    x: index % view.across * scene.cell
+                    y: Math.floor(index / view.across) * scene.cell
                     width: scene.cell
                     height: scene.cell
                     Rectangle {
@@ -108,7 +112,7 @@ PageFrame {
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
             width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
             text: scene.text
-            font { pixelSize: Theme.body; bold: true }
+            font { pixelSize: view.abreast ? Theme.reading : Theme.body; bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             wrapMode: Text.Wrap
             color: Theme.ink
@@ -119,6 +123,7 @@ PageFrame {
     Grid {
         id: scenes
         y: view.sink(height)
+        readonly property real cell: Math.min(turn.most, match.most, hint.visible ? hint.most : Infinity)
         readonly property real tallest: Math.max(turn.wish, match.wish, hint.visible ? hint.wish : 0)
         columns: view.abreast ? 3 : 1
         spacing: Theme.gap
@@ -144,11 +149,13 @@ PageFrame {
             id: hint
             visible: view.introduction.helped
             text: view.words["introduction-help"]
-            pictures: [3, 0, 4, 2, 4, 1]
+            // The partner of the card that is up, in another row and column than that.
+            readonly property int partner: view.across === 2 ? 3 : 2
+            pictures: view.across === 2 ? [3, 0, 2, 4, 4, 1] : [3, 0, 4, 2, 4, 1]
             plays: view.beat >= 9
-            markColumn: view.introduction.points && (view.still || view.beat === 10 || view.beat === 11 || view.beat === 14) ? 2 : -1
-            markRow: view.introduction.points && !view.still && (view.beat === 12 || view.beat === 13 || view.beat === 14) ? 0 : -1
-            up: view.still || view.beat === 9 || view.beat > 9 && view.beat < 15 ? [4] : view.beat === 15 ? [4, 2] : []
+            markColumn: view.introduction.points && (view.still || view.beat === 10 || view.beat === 11 || view.beat === 14) ? partner % view.across : -1
+            markRow: view.introduction.points && !view.still && (view.beat === 12 || view.beat === 13 || view.beat === 14) ? Math.floor(partner / view.across) : -1
+            up: view.still || view.beat === 9 || view.beat > 9 && view.beat < 15 ? [4] : view.beat === 15 ? [4, partner] : []
             found: view.beat === 15
         }
     }

@@ -174,6 +174,7 @@ Window {
             visible: root.kiosk.screen === "result"
             focus: visible && root.kiosk.bare
             result: root.result
+            kiosk: root.kiosk
             words: root.kiosk.words
         }
         DebriefView {

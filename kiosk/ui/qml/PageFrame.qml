@@ -37,7 +37,7 @@ FocusScope {
 
     // How far below the title a content of this height stands: a little lower where there is much room.
     function sink(tall: real): real {
-        return Math.max(0, Math.min((room - tall) / 3, (width < height ? 8 : 2.5) * Theme.gap))
+        return Math.max(0, Math.min((room - tall) / 3, (width < height ? 6 : 2.5) * Theme.gap))
     }
 
     PlainText {

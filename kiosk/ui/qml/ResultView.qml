@@ -5,19 +5,17 @@ import QtQuick.Shapes
 import Recollect
 import "."
 
-FocusScope {
+PageFrame {
     id: view
 
     required property ResultScreen result
-    required property var words
 
-    // The pairs in as many rows as the screen has room for.
+    // The pairs in as many rows as the page has room for.
     readonly property int count: result.pictures.length
     readonly property int columns: Math.max(1, Math.ceil(count / (count > 6 ? 2 : 1)))
     readonly property int rows: Math.ceil(count / columns)
     readonly property real slot: count === 0 ? 0 : Math.floor(Math.min(
-        (width - 6 * Theme.gap) / columns, 170 * Theme.unit,
-        (height - title.height - line.height - board.height - go.height - 8 * Theme.gap) / rows))
+        column / columns, 230 * Theme.unit, (room - line.implicitHeight - board.height - 2 * Theme.gap) / rows))
     // Stands up when the screen comes, one pair after another.
     property real shown: visible ? 1 : 0
     Behavior on shown { enabled: view.visible; NumberAnimation { duration: 5 * Theme.motion; easing.type: Easing.OutQuad } }
@@ -40,10 +38,13 @@ FocusScope {
         property string value
         property string label
         default property alias sign: corner.data
-        readonly property real most: (view.width - 14 * Theme.gap) / 2
+        // The same for those who hear it.
+        property string spoken: value
+        readonly property real wish: Math.max(figured.width, caption.implicitWidth)
         spacing: 0.2 * Theme.gap
-        width: Math.max(170 * Theme.unit, implicitWidth + 1.4 * Theme.gap)
+        width: Math.min(wish + figures.spare, figures.room)
         Row {
+            id: figured
             anchors.horizontalCenter: parent.horizontalCenter
             spacing: 0.5 * Theme.gap
             Item {
@@ -61,41 +62,41 @@ FocusScope {
             }
         }
         PlainText {
-            anchors.horizontalCenter: parent.horizontalCenter
-            width: Math.min(implicitWidth, figure.most)
+            id: caption
+            width: figure.width
             text: figure.label
             horizontalAlignment: Text.AlignHCenter
             wrapMode: Text.Wrap
             font.pixelSize: Theme.small
             color: Theme.faintInk
             Accessible.role: Accessible.StaticText
-            Accessible.name: text + ": " + figure.value
+            Accessible.name: text + ": " + figure.spoken
         }
     }
 
-    Column {
-        anchors.centerIn: parent
-        spacing: 1.4 * Theme.gap
+    title: words["result-title"]
+    label: words["result-continue"]
+    onWent: result.proceed()
+    onVisibleChanged: way.focus = true
 
-        Line {
-            id: title
-            anchors.horizontalCenter: parent.horizontalCenter
-            room: view.width - 4 * Theme.gap
-            text: view.words["result-title"]
-            font { pixelSize: Theme.title; bold: true }
-        }
-        Line {
+    Column {
+        y: view.sink(height)
+        width: parent?.width ?? 0
+        spacing: Theme.gap
+
+        PlainText {
             id: line
-            anchors.horizontalCenter: parent.horizontalCenter
-            room: view.width - 4 * Theme.gap
+            width: parent.width
             visible: view.count > 0
             text: view.words["result-line"]
-            font.pixelSize: Theme.body
+            font.pixelSize: Theme.size(36)
+            horizontalAlignment: Text.AlignLeft
+            wrapMode: Text.Wrap
             color: Theme.faintInk
         }
         Item {
-            anchors.horizontalCenter: parent.horizontalCenter
-            visible: view.count > 0
+            x: Theme.across(0, width, parent.width)
+            visible: view.slot > 70 * Theme.unit
             width: view.slot * view.columns
             height: view.slot * view.rows
             Repeater {
@@ -106,7 +107,7 @@ FocusScope {
                     required property string modelData
                     // Each has its share of the time, from left to right.
                     readonly property real come: Math.max(0, Math.min(1, view.shown * (view.count + 3) / 3 - index / 3))
-                    x: index % view.columns * view.slot
+                    x: Theme.across(index % view.columns * view.slot, width, view.columns * view.slot)
                     y: Math.floor(index / view.columns) * view.slot
                     width: view.slot
                     height: view.slot
@@ -136,8 +137,7 @@ FocusScope {
         }
         Rectangle {
             id: board
-            anchors.horizontalCenter: parent.horizontalCenter
-            width: figures.width + 2 * Theme.gap
+            width: parent.width
             height: figures.height + 1.6 * Theme.gap
             radius: Theme.radius
             color: Theme.white
@@ -146,9 +146,13 @@ FocusScope {
             Grid {
                 id: figures
                 // All in one row; or where that is too narrow, two and two.
-                readonly property real wish: pairs.width + moves.width + time.width + (hints.visible ? hints.width : 0)
+                readonly property int shown: hints.visible ? 4 : 3
+                readonly property real wish: pairs.wish + moves.wish + time.wish + (hints.visible ? hints.wish : 0)
+                readonly property real widest: Math.max(pairs.wish + moves.wish, time.wish + (hints.visible ? hints.wish : 0))
+                readonly property real room: board.width - Theme.gap
+                readonly property real spare: Math.max(0, columns === shown ? (room - wish) / shown : (room - widest) / 2)
                 anchors.centerIn: parent
-                columns: wish <= view.width - 6 * Theme.gap ? 4 : 2
+                columns: wish + shown * Theme.gap <= room ? shown : 2
                 rowSpacing: 0.5 * Theme.gap
                 horizontalItemAlignment: Grid.AlignHCenter
                 Figure {
@@ -171,7 +175,8 @@ FocusScope {
                 }
                 Figure {
                     id: time
-                    value: view.result.time
+                    value: view.result.clock
+                    spoken: view.result.time
                     label: view.words["result-time-label"]
                     Sign { // a clock
                         Stroke { PathAngleArc { centerX: 32; centerY: 34; radiusX: 25; radiusY: 25; sweepAngle: 360 } }
@@ -189,15 +194,6 @@ FocusScope {
                     }
                 }
             }
-        }
-        BigButton {
-            id: go
-            objectName: "continue"
-            most: view.width - 4 * Theme.gap
-            anchors.horizontalCenter: parent.horizontalCenter
-            words: view.words["result-continue"]
-            focus: true
-            onClicked: view.result.proceed()
         }
     }
 }

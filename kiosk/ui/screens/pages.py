@@ -125,7 +125,7 @@ class ResultScreen(ReadingScreen):
     def __init__(self, catalogue: Catalogue, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._catalogue = catalogue
-        self._pairs = self._moves = self._time = self._hints = ""
+        self._pairs = self._moves = self._time = self._clock = self._hints = ""
         self._pictures: list[str] = []
 
     def set_language(self, catalogue: Catalogue) -> None:
@@ -139,11 +139,12 @@ class ResultScreen(ReadingScreen):
         minutes, seconds = divmod(round(time_ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
         self._pairs, self._moves = str(pairs), str(moves)
         self._time = self._catalogue.text("result-time", minutes=minutes, seconds=seconds)
+        self._clock = f"{minutes}:{seconds:02}"
         self.changed.emit()
 
     def clear(self) -> None:
         """Show no figures."""
-        self._pairs = self._moves = self._time = self._hints = ""
+        self._pairs = self._moves = self._time = self._clock = self._hints = ""
         self._pictures = []
         self.changed.emit()
 
@@ -169,8 +170,13 @@ class ResultScreen(ReadingScreen):
 
     @Property(str, notify=changed)
     def time(self) -> str:
-        """In what time."""
+        """Return the time in words, to be read aloud."""
         return self._time
+
+    @Property(str, notify=changed)
+    def clock(self) -> str:
+        """Return the time as minutes and seconds, such as "1:05"."""
+        return self._clock
 
 
 @QmlElement

@@ -30,7 +30,7 @@ Item {
     readonly property real least: 0.42 * size * (points - 1)
     readonly property bool below: alone || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
     readonly property real gap: pictured ? 0.4 * size : alone ? 0.25 * size
-        : Math.min(0.9 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
+        : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
     readonly property real words: Math.max(lowest.height, highest.height)
