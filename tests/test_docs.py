@@ -180,3 +180,19 @@ def test_the_pages_make_a_site_without_a_broken_link_and_without_a_network(tmp_p
     for page in tmp_path.rglob("*.html"):
         loaded = re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"?(https?:[^\" >]*)", page.read_text("utf-8"))
         assert loaded == []
+
+
+def test_the_messages_of_check_are_read_from_the_calls_that_make_them() -> None:
+    source = """
+ROOM, FREE_MIB = "disk", 500
+def room(free, failure):
+    words = f"{free} MiB are free"
+    yield CheckResult.warning(ROOM, words, f"make room, to {FREE_MIB} MiB")
+    yield CheckResult.error(ROOM, str(failure), "see that the disk is there")
+    yield CheckResult.error(ROOM, failure.words, failure.remedy)
+    yield CheckResult.ok(ROOM, words)
+"""
+    assert list(REFERENCE.check_messages(source)) == [
+        ("WARN", "disk", "… MiB are free", "make room, to 500 MiB"),
+        ("FAIL", "disk", "…", "see that the disk is there"),
+    ]

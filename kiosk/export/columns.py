@@ -200,7 +200,7 @@ def enum_levels(members: type[Enum] | Iterable[Enum], **meanings: str) -> tuple[
 
 MARKED = (
     "A text that a spreadsheet, pandas or R would take for a formula, a number, a date, true or false, or a missing "
-    "value has an apostrophe (') before it, and so has a text that itself begins with an apostrophe or a quote. To "
+    "value has an apostrophe (') before it. So has a text that itself begins with an apostrophe or a quote. To "
     "have every text as it was, take one apostrophe away where a cell begins with one. Numbers never have it, nor do "
     "true and false of the program's own."
 )

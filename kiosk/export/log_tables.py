@@ -237,8 +237,8 @@ _SENTENCE_COLUMNS: tuple[Column[_Attempt], ...] = make_columns(
     (
         Variable(
             "sound_device",
-            "What kind of sound device it was, after its name. The name itself may tell a person or a place, so it is "
-            "told only in an export with texts, in the events.",
+            "What kind of sound device it was, after its name. The name itself may tell a person or a place, so it "
+            "stands only in an export with texts, in the events.",
             levels=enum_levels(
                 SoundDevice,
                 bluetooth="a wireless device",
