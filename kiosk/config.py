@@ -781,6 +781,18 @@ class Privacy(ConfigModel):
     ] = False
 
 
+class MarkersConfig(ConfigModel):
+    """Whether the moments of a session go to recorders of gaze or EEG."""
+
+    lsl: Annotated[
+        bool,
+        Field(description="Sends a marker of every recorded event to the Lab Streaming Layer; needs the extra 'lsl'."),
+    ] = False
+    stream: Annotated[
+        str, Field(min_length=1, max_length=MOST_CHARACTERS, description="What the stream of markers is called.")
+    ] = "Recollect"
+
+
 class Settings(ConfigModel):
     """Everything that one study may set."""
 
@@ -838,6 +850,7 @@ class Settings(ConfigModel):
     shortcuts: Keys = Keys()
     experimenter: ExperimenterConfig = ExperimenterConfig()
     privacy: Privacy = Privacy()
+    markers: MarkersConfig = MarkersConfig()
 
     _file: Path | None = PrivateAttr(None)
     """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""

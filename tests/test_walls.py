@@ -61,6 +61,7 @@ OUTSIDE: dict[str, set[str]] = {
     "websocket": {"robots"},
     "websockets": {"robots"},
     "pyttsx3": {"robots"},
+    "pylsl": {"robots"},
     "scipy": {"analysis"},
     "matplotlib": {"analysis"},
     "pandas": {"analysis"},

@@ -40,8 +40,8 @@ from kiosk.experiment.questionnaire import load_item
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
 from kiosk.preflight import WHAT, Check, CheckResult, Severity, autostart_check
+from kiosk.robots import lsl_worker, voice_program
 from kiosk.robots import registry as robots_checks
-from kiosk.robots import voice_program
 from kiosk.robots.embodiment import Health
 from kiosk.robots.registry import check_robot, load_driver
 from kiosk.store import checks as store_checks
@@ -223,6 +223,7 @@ def all_checks(booth: CheckTargets) -> Iterator[Check]:
     yield from _study(booth)
     yield from _shown(booth)
     yield from _heard(booth)
+    yield from _sent(booth)
     yield from _kept(booth)
     yield from _machine(booth.folder)
     yield Check(EXTENSIONS, extensions_check)
@@ -313,6 +314,11 @@ def _voice_of_kiosk(folder: Path) -> Health | None:
     if not status.is_alive(datetime.now(UTC)):
         return None
     return next((Health(part.ok, part.message) for part in status.parts if part.name == "voice"), None)
+
+
+def _sent(booth: CheckTargets) -> Iterator[Check]:
+    if booth.settings is not None and booth.settings.markers.lsl:
+        yield Check(lsl_worker.CHECK, partial(lsl_worker.lsl_check, booth.settings.markers.stream))
 
 
 def _kept(booth: CheckTargets) -> Iterator[Check]:

@@ -37,7 +37,10 @@ _GROUPS = {
         "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),
         "events": ("kiosk.cli.sessions:events_command", "List what happened in a SESSION, in order."),
         "replay": ("kiosk.cli.run:replay_command", "Play a stored SESSION on the screen again."),
-        "explain": ("kiosk.cli.explain:explain_command", "Explain one decision of a stored session or a case file."),
+        "explain": (
+            "kiosk.cli.explain:explain_command",
+            "Explain the decisions of a stored session, or one of a case file.",
+        ),
         "day": ("kiosk.cli.day:day_command", "Write one page about a day at the booth."),
     },
     "Keep the data": {
@@ -68,6 +71,7 @@ _GROUPS = {
 _COMMANDS = {name: entry for group in _GROUPS.values() for name, entry in group.items()}
 _WORKERS = {
     "_display": "kiosk.cli.workers:display_command",
+    "_markers": "kiosk.cli.workers:markers_command",
     "_splash": "kiosk.cli.workers:splash_command",
     "_voice": "kiosk.cli.workers:voice_command",
 }

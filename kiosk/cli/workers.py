@@ -102,6 +102,16 @@ def voice_command(options: str) -> None:
 
 
 @click.command(hidden=True)
+@click.argument("name")
+@click.argument("source")
+def markers_command(name: str, source: str) -> None:
+    """Send the markers on standard input as a stream; the kiosk starts it."""
+    from kiosk.robots.lsl_worker import run_lsl_worker
+
+    run_lsl_worker(name, source)
+
+
+@click.command(hidden=True)
 def splash_command() -> None:
     """Show the calm window that lies underneath the kiosk; the supervisor starts it."""
     if obstacle() is not None:

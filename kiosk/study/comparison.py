@@ -38,7 +38,7 @@ class Difference:
     effect: str
 
 
-_NONE = ("title", "experimenter", "shortcuts", "robot.host", "robot.port", "screen.display", "voice.device")
+_NONE = ("title", "experimenter", "shortcuts", "robot.host", "robot.port", "screen.display", "voice.device", "markers")
 _DATA = (
     *("languages", "stages", "game.rows", "game.columns", "assistance.condition", "assistance.policy"),
     *("assistance.target_rule", "assistance.step", "assistance.memory_model", "assistance.timing"),

@@ -10,12 +10,13 @@ from functools import partial
 from random import Random
 from types import TracebackType
 from typing import Any, Self
+from uuid import uuid4
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk.config import Settings
+from kiosk.config import MarkersConfig, Settings, VoiceConfig
 from kiosk.experiment.events import EmbodimentName, SessionSetup
 from kiosk.experiment.session_config import SessionKind
 from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, RobotDriver
@@ -35,6 +36,7 @@ from kiosk.ui.experimenter.actions import Services
 from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
 from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
 from kiosk.ui.kiosk_window import KioskWindow
+from kiosk.ui.markers import MarkerStream
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
 from kiosk.ui.screens.avatar import AvatarBody
@@ -105,10 +107,8 @@ class App:
             self._heard(not isinstance(self.voice, NoVoice))
             self.voice.health_changed.connect(self._heard)
         self.runner.spoken_by = self._spoken_by
-        if settings.voice.sounds:
-            self.runner.play_sound = self._play
-            self.screens.board.refused.connect(partial(self._play, SoundEffect.NUDGE))
-            self.screens.kiosk.pressed.connect(partial(self._play, SoundEffect.BUTTON))
+        self.markers = self._send_markers(settings.markers, mode, owner, undo)
+        self._play_sounds(settings.voice)
         if mode.pace is ClockMode.WALL and settings.screen.motion:
             # Kept, for Qt alone does not keep alive whom it calls back.
             shown = self.screens
@@ -125,6 +125,24 @@ class App:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
             self.experimenter.alarms.begin()
+
+    def _play_sounds(self, settings: VoiceConfig) -> None:
+        """Play a sound with what happens, if the study wants any."""
+        if settings.sounds:
+            self.runner.play_sound = self._play
+            self.screens.board.refused.connect(partial(self._play, SoundEffect.NUDGE))
+            self.screens.kiosk.pressed.connect(partial(self._play, SoundEffect.BUTTON))
+
+    def _send_markers(
+        self, settings: MarkersConfig, mode: RunMode, owner: QObject, undo: ExitStack
+    ) -> MarkerStream | None:
+        """Send markers of what is recorded, if the study asks for it; virtual time means nothing to a recorder."""
+        if not settings.lsl or mode.pace is not ClockMode.WALL:
+            return None
+        stream = MarkerStream(settings, f"recollect-{uuid4()}", owner)
+        undo.callback(stream.close)
+        self.runner.on_recorded = lambda participant, events: stream.send(participant, events, self.runner.now_ms())
+        return stream
 
     def __enter__(self) -> Self:
         """Return the kiosk itself."""
@@ -168,6 +186,8 @@ class App:
         self._work.close()
         self._slow.close()
         self.voice.close()
+        if self.markers is not None:
+            self.markers.close()
         if self.booth is not None:
             self.booth.release()
         self._window.close()

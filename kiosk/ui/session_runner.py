@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
@@ -21,6 +21,7 @@ from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionKind, StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.robots.embodiment import EmbodimentSelector
+from kiosk.store.participants import Participant
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
@@ -126,6 +127,8 @@ class SessionRecording:
         """Nothing is written until an outcome says so; ``kept`` is called when it is."""
         self.code = ""
         """What the participant can withdraw with; empty while nothing is stored."""
+        self.participant = ""
+        """The participant's number with its site, as lists show it; empty while nothing is stored."""
         self._recorder = recorder
         self._provenance = provenance
         self._kept = kept
@@ -136,9 +139,14 @@ class SessionRecording:
     def resumed(cls, recorder: Recorder, provenance: Provenance, number: int) -> Self:
         """Return the record of a stored session that goes on."""
         record = cls(recorder, provenance)
-        record.code = recorder.resume(number).code
+        record._name(recorder.resume(number))
         record._keeping = RecordingState.KEPT
         return record
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether events are stored."""
+        return self._keeping is RecordingState.KEPT
 
     def write(self, event: WorldEvent, outcome: Outcome) -> None:
         """Write, hold back or forget an event and what came of it.
@@ -163,6 +171,9 @@ class SessionRecording:
             case None if self._keeping is RecordingState.UNDECIDED:
                 self._held += events
 
+    def _name(self, participant: Participant) -> None:
+        self.code, self.participant = participant.code, participant.name
+
     def _is_deleted_by(self, outcome: Outcome) -> bool:
         """Whether the visitor has stopped, and the study deletes what it has of those who do."""
         if self._provenance.plan.settings.consent.on_withdrawal == "keep":
@@ -171,7 +182,7 @@ class SessionRecording:
         return any(status is happened.Status.WITHDRAWN for status in ends)
 
     def _keep(self, events: list[Event]) -> None:
-        self.code = self._recorder.begin(self._provenance, events).code
+        self._name(self._recorder.begin(self._provenance, events))
         self._keeping = RecordingState.KEPT
         self._held.clear()
         self._kept()
@@ -255,6 +266,8 @@ class SessionRunner:
     def __init__(self, screens: ScreenSet, recorder: Recorder, clock: Clock, assigner: ConditionAssigner) -> None:
         """Ask ``assigner`` once for each provenance, when it begins."""
         self.on_event: EventObserver | None = None
+        self.on_recorded: Callable[[str, Iterable[Event]], None] = lambda _participant, _events: None
+        """Called with a participant and the events that the database has just taken; never without consent."""
         self.play_sound: Callable[[SoundEffect], None] = lambda _: None
         self.spoken_by: Callable[[], Mapping[str, Any]] = dict
         self.on_session_started: Callable[[], None] = lambda: None
@@ -501,6 +514,8 @@ class SessionRunner:
                     return
                 self._busy.end()
                 self._unwritten = None
+                if self._record.is_kept:
+                    self.on_recorded(self._record.participant, (handled.event, *handled.outcome.events))
                 self._before_effects(handled.outcome, self._record.code)
                 self._renderer.screens.kiosk.reach(session.stage.value)
                 self._renderer.perform(handled.outcome.effects)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import pytest
 from PySide6.QtCore import Qt
 
 from kiosk import StorageError
+from kiosk.config import Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Status
 from kiosk.game import Position
@@ -66,6 +67,27 @@ def test_a_fault_of_ours_shows_a_calm_screen_and_goes_into_the_log(
     assert booth.screen == "pause"
     assert "a fault" in caplog.text
     caplog.clear()
+
+
+def test_markers_name_every_event_that_is_stored_and_none_before_consent(make_booth: MakeBooth) -> None:
+    booth = make_booth(settings=Settings())
+    sent: list[Event] = []
+    participants = set[str]()
+
+    def note(participant: str, events: Iterable[Event]) -> None:
+        with open_repository(booth.data) as stored:
+            assert len(stored.sessions()) == 1
+        participants.add(participant)
+        sent.extend(events)
+
+    booth.app.runner.on_recorded = note
+    booth.rehearse(seed=1)
+    with open_repository(booth.data) as stored:
+        every = list(stored.events(1))
+    assert sent == every[-len(sent) :]
+    first = next(index for index, event in enumerate(every) if isinstance(event, happened.ConsentGiven))
+    assert len(sent) >= len(every) - first - 1
+    assert participants == {"1"}
 
 
 def flip_until(booth: Booth, words: str) -> None:
