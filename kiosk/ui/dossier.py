@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from html import escape
+from html import escape, unescape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -12,9 +12,12 @@ from PySide6.QtCore import QMarginsF, QUrl
 from PySide6.QtGui import QImage, QPageLayout, QPageSize, QPdfWriter, QTextDocument
 
 from kiosk import UserInputError, __version__, unwritable
-from kiosk.config import NO_ROBOT, RobotConfig, Settings
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS, NO_ROBOT, RobotConfig, Settings
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.questionnaire import Questionnaire, facts
+from kiosk.experiment.information import Information
+from kiosk.experiment.items import Choice, Integer, Question, Rating, TextPage, in_language
+from kiosk.experiment.questionnaire import Item
 from kiosk.experiment.session_config import SessionConfig, SessionKind, StudyConfig
 from kiosk.files import check_writable
 from kiosk.store.recorder import Recorder
@@ -53,7 +56,7 @@ def write_dossier(study: StudyConfig, minutes: int, out: Path) -> int:
             for file in files:
                 picture = QImage(str(file)).scaledToWidth(PICTURE_WIDTH)
                 document.addResource(QTextDocument.ResourceType.ImageResource, _url(language, file), picture)
-        document.setHtml("".join(_html(study, minutes, shots)))
+        document.setHtml("".join(dossier_html(study, minutes, shots)))
         beside = out.with_name(f".{out.name}.new")
         writer = QPdfWriter(str(beside))
         writer.setTitle(study.settings.title)
@@ -101,129 +104,132 @@ def _without_robot(study: StudyConfig) -> StudyConfig:
     return replace(study, plans=tuple(replace(plan, settings=settings) for plan in study.plans))
 
 
-def _html(study: StudyConfig, minutes: int, shots: Mapping[str, Iterable[Path]]) -> Iterator[str]:
-    settings = study.settings
-    yield f"<h1>{escape(settings.title)}</h1>"
-    yield (
-        f"<p>A visitor needs about {minutes} minutes. Languages: "
-        f"{escape(', '.join(study.languages))}.</p><p class='note'>Written by Recollect {__version__}. SHA-256 of the "
-        f"study: {study.sha256}</p>"
-    )
-    yield "<h2>What happens in a session</h2>"
-    yield _table(("stage", "what happens"), ((name, _STAGES.get(name, "")) for name in settings.stages))
-    yield from _conditions(study)
-    yield from _device(settings)
-    yield from _stored(study)
-    for plan in study.plans:
-        yield from _language(plan, shots[plan.language])
-    yield "<h2>Hashes</h2><p>Everything that sessions follow, with its SHA-256.</p>"
+class _Words:
+    """The dossier's own words in one language; all of them are in English where a study's own language lacks any."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        english = Catalogue(ASSETS / "sentences" / "en")
+        needed = {name for name in english.written if name.startswith(_WORDS)}
+        self._catalogue = catalogue if needed <= catalogue.written.keys() else english
+
+    def __call__(self, message: str, **variables: str | int) -> str:
+        """Return a text, ready for HTML."""
+        return escape(self._catalogue.text(f"{_WORDS}{message}", **variables))
+
+
+_WORDS = "dossier-"
+
+
+def dossier_html(study: StudyConfig, minutes: int, shots: Mapping[str, Iterable[Path]]) -> Iterator[str]:
+    """Yield the dossier as HTML; ``shots`` holds the pictures of the screens by language."""
+    words = _Words(study.plans[0].catalogue)
+    yield f"<h1>{escape(study.settings.title)}</h1>"
+    yield f"<p class='note'>{words('written')} {study.sha256} ({__version__})</p>"
+    for number, plan in enumerate(study.plans):
+        yield from _language(plan, minutes, shots[plan.language], on_new_page=number > 0)
+    yield f"<h2>{words('hashes')}</h2><p>{words('hashes-line')}</p>"
     rows = ((each.key, each.name, each.version or "", each.sha256) for each in study.sources)
-    yield _table(("key", "name", "version", "SHA-256"), rows)
+    yield _table((words("key"), words("name"), words("version"), "SHA-256"), rows)
 
 
-_STAGES = {
-    "about": "The study is described.",
-    "age": "The visitor says how old they are; those who are too young can play, and nothing is stored of them.",
-    "consent": "The visitor agrees, or plays without being recorded.",
-    "about_you": "Questions about the visitor.",
-    "introduction": "The helper says what will happen.",
-    "practice": "A short game to try it, which can be left at any time.",
-    "game": "The game, with help as the condition says.",
-    "result": "How the game went.",
-    "questions": "The questionnaires.",
-    "debrief": "The study is explained, with the code for deleting the data.",
-    "thanks": "Thanks.",
-}
-
-
-def _table(heads: Iterable[str], rows: Iterable[Iterable[object]]) -> str:
-    first = "".join(f"<th>{escape(head)}</th>" for head in heads)
-    lines = ("".join(f"<td>{escape(str(cell))}</td>" for cell in row) for row in rows)
-    return f"<table><tr>{first}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
-
-
-def _conditions(study: StudyConfig) -> Iterator[str]:
-    settings = study.settings
-    targets: dict[str, object] = dict(settings.randomisation.target_n) or {settings.assistance.condition: ""}
-    rows = []
-    for name, target in targets.items():
-        cell = settings.condition(Condition(name).name)
-        reason = "says why" if cell.explanation else "gives no reason"
-        place = "says where to look" if cell.location else "names no place"
-        rows.append((name, target, f"A hint {reason} and {place}." if cell.helps else "There is no help."))
-    yield "<h2>Conditions</h2><p>Each visitor is in one of them; the order was drawn before the first visitor.</p>"
-    yield _table(("condition", "visitors", "help"), rows)
-
-
-def _device(settings: Settings) -> Iterator[str]:
-    yield "<h2>The helper, and safety</h2>"
-    if settings.robot.kind == NO_ROBOT:
-        yield "<p>The helper is a figure on the screen. No machine moves.</p>"
-    else:
-        does = ["speak"]
-        does += ["show moods with its face"] if settings.robot.gestures else []
-        does += ["look at the player and at the board"] if settings.robot.gaze else []
-        yield (
-            f"<p>The helper is a robot ({escape(settings.robot.kind)}). Recollect lets it {', '.join(does)}, and sends "
-            "it nothing that moves it from its place. If it does not answer, a figure on the screen takes its place; "
-            "the pictures here show that figure. The maker's instructions on safety, and the distance to the visitor, "
-            "are the lab's to describe.</p>"
-        )
-    yield (
-        "<p>A visitor can stop at any time. A visitor who does nothing is asked whether they are still there; then the "
-        "session ends. An experimenter can pause or end it.</p>"
-    )
-
-
-def _stored(study: StudyConfig) -> Iterator[str]:
-    settings = study.settings
-    care = settings.experimenter
-    rows = [
-        ("What", "Every card that is turned and when, hints, answers, consent, and what was typed into text fields."),
-        ("What not", "No name unless a visitor types it, no picture, no sound, no address of a device."),
-        ("Where", "In a database in a folder on the kiosk, which only its user can read; nothing is sent elsewhere."),
-        ("Copies", f"A copy every {care.backup_every} minutes between sessions; the newest {care.backups} are kept."),
-        (
-            "How long",
-            "Recollect deletes nothing by itself after a time. How long the lab keeps the data stands in the "
-            "information sheet, or is to be added here.",
-        ),
-        (
-            "Who can delete it",
-            "Each visitor gets a code. With it, the lab deletes the session and its copies on the kiosk "
-            f"('recollect withdraw CODE'). Contact: {settings.consent.contact or 'none is given yet'}.",
-        ),
-        (
-            "Who stops",
-            "Their session is deleted at once." if settings.consent.on_withdrawal == "delete"
-            else "What was recorded by then is kept as withdrawn, unless they ask for its deletion.",
-        ),
-        ("From which age", f"From {settings.consent.adult} years on; sessions of younger visitors are not stored."),
-    ]  # fmt: skip
-    yield "<h2>What is stored</h2>"
-    yield _table(("", ""), rows)
-
-
-def _language(plan: SessionConfig, shots: Iterable[Path]) -> Iterator[str]:
-    sheet, language = plan.information, plan.language
-    name = escape(plan.catalogue.text("language-name"))
-    yield f"<h1 style='page-break-before: always'>{name} ({escape(language)})</h1>"
-    yield f"<h2>Information and consent, version {escape(sheet.version)}</h2>"
-    for page in (sheet.about, sheet.consent, sheet.debrief):
-        points = "".join(f"<p><b>{escape(each)}</b></p>" for each in page.points)
-        yield f"<h3>{escape(page.title)}</h3>{points}" + "".join(f"<p>{escape(each)}</p>" for each in page.paragraphs)
-        if page is sheet.consent:
-            marks = (f"{each.text}{'' if each.required else ' *'}" for each in sheet.consent.purposes)
-            yield f"<ul>{''.join(f'<li>{escape(each)}</li>' for each in marks)}</ul><p class='note'>* not required</p>"
-    yield "<h2>Every item</h2>"
+def _language(plan: SessionConfig, minutes: int, shots: Iterable[Path], *, on_new_page: bool) -> Iterator[str]:
+    """Yield all that there is to say in one language."""
+    words, settings, language = _Words(plan.catalogue), plan.settings, plan.language
+    place = " style='page-break-before: always'" if on_new_page else ""
+    yield f"<h1{place}>{escape(plan.catalogue.text('language-name'))} ({escape(language)})</h1>"
+    yield f"<p>{words('minutes', minutes=minutes)}</p><h2>{words('flow')}</h2>"
+    stages = ((stage, words(f"stage-{stage}")) for stage in settings.stages)
+    yield _table((words("stage"), words("happens")), stages)
+    yield from _conditions(settings, words)
+    yield from _device(settings, words)
+    yield f"<h2>{words('stored')}</h2>"
+    yield _table(("", ""), _stored(settings, words))
+    yield from _information(plan.information, words)
+    yield f"<h2>{words('items')}</h2>"
     for asked in (plan.about_you, *plan.questionnaires):
-        yield from _items(asked, language)
-    yield "<h2>Every screen</h2>"
+        yield f"<h3>{escape(asked.id)}, {words('version')} {escape(asked.version)}</h3>"
+        yield f"<p class='note'>{escape(asked.note)}</p><ol>"
+        yield from (f"<li>{'<br/>'.join(_item(item, language, words))}</li>" for item in asked.items)
+        yield "</ol>"
+    yield f"<h2>{words('screens')}</h2>"
     for file in shots:
         source = _url(language, file).toString()
         yield f"<p><img src='{escape(source)}' width='{SCREEN_WIDTH}'/><br/>{escape(file.stem)}</p>"
 
 
-def _items(asked: Questionnaire, language: str) -> Iterator[str]:
-    yield f"<h3>{escape(asked.id)}, version {escape(asked.version)}</h3><p class='note'>{escape(asked.note)}</p>"
-    yield f"<ol>{''.join(f'<li>{escape(facts(item, language))}</li>' for item in asked.items)}</ol>"
+def _table(heads: Iterable[str], rows: Iterable[Iterable[object]]) -> str:
+    """Return a table; its heads are HTML already, and so are words in its rows."""
+    first = "".join(f"<th>{head}</th>" for head in heads)
+    lines = ("".join(f"<td>{cell}</td>" for cell in row) for row in rows)
+    return f"<table><tr>{first}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
+
+
+def _conditions(settings: Settings, words: _Words) -> Iterator[str]:
+    targets: dict[str, object] = dict(settings.randomisation.target_n) or {settings.assistance.condition: ""}
+    rows = []
+    for name, target in targets.items():
+        cell = settings.condition(Condition(name).name)
+        told = {(True, True): "why-where", (True, False): "why", (False, True): "where", (False, False): "plain"}
+        message = f"help-{told[cell.explanation, cell.location]}" if cell.helps else "help-none"
+        rows.append((escape(name), target, words(message)))
+    yield f"<h2>{words('conditions')}</h2><p>{words('conditions-line')}</p>"
+    yield _table((words("condition"), words("visitors"), words("help")), rows)
+
+
+def _device(settings: Settings, words: _Words) -> Iterator[str]:
+    yield f"<h2>{words('helper')}</h2>"
+    robot = settings.robot
+    if robot.kind == NO_ROBOT:
+        yield f"<p>{words('avatar')}</p>"
+    else:
+        does = {"speaks": True, "gestures": robot.gestures, "gaze": robot.gaze}
+        points = "".join(f"<li>{words(f'robot-{name}')}</li>" for name, does_it in does.items() if does_it)
+        yield f"<p>{words('robot')} {escape(robot.kind)}</p><ul>{points}</ul><p>{words('robot-limits')}</p>"
+    yield f"<p>{words('stop')}</p>"
+
+
+def _stored(settings: Settings, words: _Words) -> Iterator[tuple[str, str]]:
+    """Yield what is said of the data, each with its heading."""
+    care, consent = settings.experimenter, settings.consent
+    for name in ("what", "what-not", "where"):
+        yield words(name), words(f"{name}-line")
+    yield words("copies"), words("copies-line", minutes=care.backup_every, count=care.backups)
+    yield words("how-long"), words("how-long-line")
+    contact = consent.contact or unescape(words("contact-none"))
+    yield words("who"), words("who-line", contact=contact)
+    yield words("who-stops"), words(f"who-stops-{'delete' if consent.on_withdrawal == 'delete' else 'keep'}")
+    yield words("age"), words("age-line", count=consent.adult)
+
+
+def _information(sheet: Information, words: _Words) -> Iterator[str]:
+    yield f"<h2>{words('information')}, {words('version')} {escape(sheet.version)}</h2>"
+    for page in (sheet.about, sheet.consent, sheet.debrief):
+        points = "".join(f"<p><b>{escape(each)}</b></p>" for each in page.points)
+        yield f"<h3>{escape(page.title)}</h3>{points}" + "".join(f"<p>{escape(each)}</p>" for each in page.paragraphs)
+        if page is sheet.consent:
+            marks = (f"{each.text}{'' if each.required else ' *'}" for each in sheet.consent.purposes)
+            listed = "".join(f"<li>{escape(each)}</li>" for each in marks)
+            yield f"<ul>{listed}</ul><p class='note'>* {words('optional')}</p>"
+
+
+def _item(item: Item, language: str, words: _Words) -> Iterator[str]:
+    """Yield what an item asks, and what can be answered, in lines."""
+    yield f"<b>{escape(in_language(item.text, language).strip())}</b>"
+    match item:
+        case Choice():
+            options = ", ".join(in_language(option.text, language) for option in item.options)
+            yield f"{words('answer-any' if item.answer_format.several else 'answer-one')} {escape(options)}"
+        case Integer():
+            yield words("answer-whole", lowest=item.lowest, highest=item.highest)
+        case Rating():
+            least, most = item.ends
+            _, *ends = (in_language(text, language) for text in item.texts())
+            yield f"{words('answer-points', lowest=least, highest=most)} {escape(' / '.join(ends))}"
+        case TextPage():
+            yield words("answer-page")
+        case _:
+            yield words("answer-text")
+    if isinstance(item, Question) and item.not_applicable:
+        yield words("not-applicable")
+    if item.relevant:
+        yield f"{words('relevant')} {escape(item.relevant)}"

@@ -155,8 +155,10 @@ class Captions:
             case happened.HintGiven():
                 self._hinted.add(event.flip)
                 self.reason = self._hint(event)
-            case happened.CardFlipped() if self._model is not None and self._board is not None:
-                self._model.flip(self._board.location(event.position), hinted=event.number in self._hinted)
+            case happened.CardFlipped():
+                self.reason = ""
+                if self._model is not None and self._board is not None:
+                    self._model.flip(self._board.location(event.position), hinted=event.number in self._hinted)
 
     def _no_hint(self, decided: happened.AssistanceDecided) -> str:
         if not decided.gate.is_open:

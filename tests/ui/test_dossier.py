@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from PySide6.QtGui import QTextDocument
 
 from kiosk import UserInputError
+from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
+from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.loader import read_study
 from kiosk.ui import dossier
-from kiosk.ui.dossier import write_dossier
+from kiosk.ui.dossier import dossier_html, write_dossier
 
 STUDY = read_study(
     Settings.model_validate(
@@ -49,8 +53,30 @@ def test_the_pdf_has_every_text_and_screen_of_each_language(tmp_path: Path, monk
         assert all(item.text[plan.language].split("'")[0] in text for item in plan.questionnaires[0].items)
         for screen in ("attract", "board", "items-1"):
             assert f"-{screen}.png" in text.split(f"({plan.language})")[1]
+        part = text.split(f"({plan.language})")[1]
+        assert {"en": "What is stored", "it": "Che cosa viene registrato"}[plan.language] in part
+    assert "What is stored" not in text.split("(it)")[1]
     assert STUDY.sha256 in text
     assert "lab@university.test" in text
+
+
+def test_every_part_is_in_its_own_language_and_in_english_where_that_lacks_words() -> None:
+    settings = Settings.model_validate({"languages": ["it", "es", "en"], "robot": {"kind": "furhat"}})
+    study = read_study(settings)
+    shown = "".join(dossier_html(study, 8, dict.fromkeys(study.languages, ())))
+    _, *parts = re.split(r"\((?:it|es|en)\)</h1>", shown)
+    headings = ("Che cosa succede", "Qué ocurre", "What happens in a session")
+    for part, own in zip(parts, headings, strict=True):
+        assert [heading for heading in headings if heading in part] == [own]
+        assert f"{settings.consent.adult} " in part
+        assert "furhat" in part
+    english = study.plans[2].catalogue
+    bare = {name: text for name, text in study.plans[0].catalogue.sources.items() if name != "dossier.ftl"}
+    lacking = Catalogue(Path("it"), bare)
+    lacking.followed_by([english])
+    part = "".join(dossier_html(StudyConfig((replace(study.plans[0], catalogue=lacking),)), 8, {"it": ()}))
+    assert "What happens in a session" in part
+    assert not any(word in part for word in ("Condizioni", "versione"))
 
 
 def test_a_place_that_cannot_be_written_is_refused_before_anything_is_done(tmp_path: Path) -> None:

@@ -40,8 +40,17 @@ Window {
             Choice { what: "size"; model: root.preview.sizes; chosen: root.preview.size }
             Choice { what: "condition"; model: root.preview.conditions; chosen: root.preview.condition }
             CheckBox {
-                text: root.preview.to_answer
-                font.pixelSize: 14
+                id: box
+                contentItem: Text {
+                    text: root.preview.to_answer
+                    textFormat: Text.PlainText
+                    font.pixelSize: 14
+                    leftPadding: box.indicator.width + box.spacing
+                    verticalAlignment: Text.AlignVCenter
+                    wrapMode: Text.Wrap
+                }
+                Accessible.name: root.preview.to_answer
+                Layout.fillWidth: true
                 checked: root.preview.answering
                 onToggled: root.preview.answer(checked)
             }
