@@ -114,6 +114,8 @@ Size = Annotated[float, Field(ge=0.01, le=10), Unit("m")]
 MOST_CHARACTERS = 500
 """A title or an address that is longer fits on no screen."""
 
+MOST_REMINDER = 200
+"""Characters of a line of the morning checklist."""
 MOST_ENTRIES = 50
 """More languages or questionnaires than any visitor would bear."""
 
@@ -725,6 +727,14 @@ class ExperimenterConfig(ConfigModel):
         Literal["between", "always", "never"],
         Field(description="When alarms sound: between sessions only, always, or never; they are shown in any case."),
     ] = "between"
+    reminders: Annotated[
+        tuple[Annotated[str, Field(min_length=1, max_length=MOST_REMINDER)], ...],
+        Field(
+            max_length=MOST_ENTRIES,
+            strict=False,
+            description="What 'recollect open-day' reminds you of, such as 'Put out fresh information sheets'.",
+        ),
+    ] = ()
 
     @field_validator("opening_hours")
     @classmethod

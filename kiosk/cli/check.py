@@ -390,7 +390,7 @@ def check_command(
     look = partial(_look_at_booth, data, checked_site(site), study, robot_host, robot_port)
     booth, found = look(as_json=as_json)
     if say:
-        found = (*found, *_said(booth))
+        found = (*found, *say_all(booth))
     _tell(found, as_json=as_json)
     if watch:
         click.echo(f"Looking again every {WATCH_S} s until Ctrl+C.", err=True)
@@ -419,7 +419,7 @@ def _look_at_booth(
     data: Path, site: str, study: Path | None, robot_host: str | None, robot_port: int | None, *, as_json: bool
 ) -> tuple[CheckTargets, tuple[CheckResult, ...]]:
     """Read the study file and try everything; what needs you comes first."""
-    booth = _booth(data, site, study, robot_host, robot_port)
+    booth = booth_of(data, site, study, robot_host, robot_port)
     looks = tuple(all_checks(booth))
     with progress_bar("looking", len(looks), hidden=as_json) as tell:
         return booth, in_order_of_severity(run_checks(looks, tell))
@@ -457,10 +457,10 @@ def _tell(found: tuple[CheckResult, ...], *, as_json: bool, changed: Sequence[st
         return
     if changed:
         click.echo(f"\n{datetime.now().astimezone():%H:%M:%S}  {', '.join(changed)}")
-    _show(found, ready=ready)
+    show(found)
 
 
-def _said(booth: CheckTargets) -> Iterator[CheckResult]:
+def say_all(booth: CheckTargets) -> Iterator[CheckResult]:
     """Say a sentence in every language, one after another, at the study's volume."""
     if booth.settings is None or booth.study is None:
         return
@@ -469,7 +469,7 @@ def _said(booth: CheckTargets) -> Iterator[CheckResult]:
         yield robots_checks.say_check(command, plan.language, plan.catalogue.text(SENTENCE))
 
 
-def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int | None) -> CheckTargets:
+def booth_of(data: Path, site: str, file: Path | None, host: str | None, port: int | None) -> CheckTargets:
     """Return what is to be looked at; what is wrong with the study file is among it."""
     if data.exists() and not data.is_dir():
         raise UserInputError(f"the data folder {data} cannot be used: it is a file")
@@ -485,7 +485,8 @@ def _booth(data: Path, site: str, file: Path | None, host: str | None, port: int
     return CheckTargets(data, site, in_use(data), file, settings, study, faults)
 
 
-def _show(found: tuple[CheckResult, ...], *, ready: bool) -> None:
+def show(found: tuple[CheckResult, ...]) -> None:
+    """Print what was found as a table, and whether a session can be held."""
     console = Console()
     console.width = max(console.width, LEAST_WIDTH)
     table = Table(box=None, show_header=False, pad_edge=False)
@@ -495,7 +496,7 @@ def _show(found: tuple[CheckResult, ...], *, ready: bool) -> None:
         table.add_row(f"[{style}]{_MARKS[result.severity]}[/]", result.name, escape(words))
     console.print(table)
     bad, warnings = (sum(result.severity is state for result in found) for state in (Severity.ERROR, Severity.WARNING))
-    console.print(_verdict(bad, warnings, ready=ready))
+    console.print(_verdict(bad, warnings, ready=is_ready(found)))
 
 
 def _verdict(bad: int, warnings: int, *, ready: bool) -> str:

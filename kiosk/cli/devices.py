@@ -18,7 +18,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar, study_option
-from kiosk.config import VOICE_ENGINES, is_path
+from kiosk.config import VOICE_ENGINES, RobotConfig, Settings, is_path
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.page_stages import result_speech
 from kiosk.experiment.session_config import SessionConfig
@@ -76,13 +76,9 @@ def robot_command(
     settings = read_settings(study, host or (None if study or kind else "localhost"), port)
     language = language or settings.language_codes[0]
     asked = settings.robot.model_copy(update={"kind": kind} if kind else {})
-    device = create_robot(asked, language)
+    device = _robot(settings, asked, language)
     if device is None:
         raise UserInputError("the study file names no robot; name one with --host or --kind")
-    if asked.pack:
-        from kiosk.robots.voice_packs import PackClips  # noqa: PLC0415 - for few studies, and it loads the sound
-
-        device.clips = PackClips(settings.voice_from_here)
     steps = []
     for step in _tried(device, language, sentence):
         steps.append(step)
@@ -94,6 +90,27 @@ def robot_command(
             json.dumps({"robot": asked.host, "kind": asked.kind, "works": worked, "steps": [*map(asdict, steps)]})
         )
     sys.exit(0 if worked else FAILED)
+
+
+def greet(settings: Settings, language: str, sentence: str) -> RobotTrial | None:
+    """Have the robot of a study file say a sentence to its end; None if the file names no robot."""
+    device = _robot(settings, settings.robot, language)
+    if device is None:
+        return None
+    tried = _try("ready to speak", lambda: _ready(device))
+    if tried.worked:
+        tried = _try("says the sentence", partial(_say, device, sentence))
+        device.close()
+    return tried
+
+
+def _robot(settings: Settings, robot: RobotConfig, language: str) -> RobotDriver | None:
+    device = create_robot(robot, language)
+    if device is not None and robot.pack:
+        from kiosk.robots.voice_packs import PackClips  # noqa: PLC0415 - for few studies, and it loads the sound
+
+        device.clips = PackClips(settings.voice_from_here)
+    return device
 
 
 def _tried(robot: RobotDriver, language: str, sentence: str | None) -> Iterator[RobotTrial]:

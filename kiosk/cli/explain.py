@@ -212,7 +212,7 @@ class Moment:
 def explain_command(
     case_or_session: str | None, flip: int | None, picture: Path | None, data: Path, *, as_json: bool, table: bool
 ) -> None:
-    """Explain the decisions of a stored session, or one of a case file.
+    """Explain the decisions of a stored session, or a case.
 
     Each comes with the board as it was. Name a flip of a session with --flip for one decision and all that could have
     been said. Exit code 1 if a decision comes out otherwise today than it was recorded.

@@ -77,20 +77,25 @@ GUIDES = {
     "voice check": Guide("how-to/voice.md", ("voice check voices/anna",)),
     "voice play": Guide("how-to/voice.md", ('voice play "The lion is in the second row."',)),
     "run": Guide("how-to/booth.md", ("run --study study.toml", "run --supervise --study study.toml")),
-    "check": Guide("how-to/booth.md", ("check --study study.toml", "check --say")),
+    "open-day": Guide("how-to/booth.md", ("open-day --study study.toml", "open-day --study study.toml --to stick")),
+    "check": Guide("how-to/booth.md", ("check --study study.toml", "check --say", "check --watch")),
     "rehearse": Guide(
         "how-to/booth.md",
         ("rehearse --headless --seed 1 --shots pictures", "rehearse --headless --sessions 200 --study study.toml"),
     ),
     "robot": Guide("explanation/embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml")),
     "status": Guide("how-to/booth.md", ("status", "status --json")),
-    "sessions": Guide("reference/data-set.md", ("sessions", "sessions --codes")),
+    "sessions": Guide(
+        "reference/data-set.md", ("sessions", "sessions --since 2026-05-01 --status abandoned", "sessions --codes")
+    ),
     "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
     "replay": Guide(
         "explanation/how-it-works.md",
         ("replay 1", "replay 1 --headless --frames pictures", "replay 1 --film session.webm"),
     ),
-    "explain": Guide("explanation/mentaliser.md", ("explain 1 --flip 14", "explain case.json")),
+    "explain": Guide(
+        "explanation/mentaliser.md", ("explain 1 --picture boards.svg", "explain 1 --flip 14", "explain case.json")
+    ),
     "day": Guide("how-to/booth.md", ("day", "day --date 2026-05-09 --out saturday.html")),
     "backup": Guide("how-to/booth.md", ("backup", "backup --to stick")),
     "verify": Guide("how-to/booth.md", ("verify",)),

@@ -28,6 +28,7 @@ _GROUPS = {
     },
     "Run a booth": {
         "run": ("kiosk.cli.run:run_command", "Open the kiosk for visitors."),
+        "open-day": ("kiosk.cli.open_day:open_day_command", "Go through the morning checklist, then open the kiosk."),
         "check": ("kiosk.cli.check:check_command", "Try everything that a booth needs, and say what to do."),
         "rehearse": ("kiosk.cli.rehearse:rehearse", "Let simulated visitors go through sessions or a whole day."),
         "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and say what it has and does."),
@@ -37,10 +38,7 @@ _GROUPS = {
         "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),
         "events": ("kiosk.cli.sessions:events_command", "List what happened in a SESSION, in order."),
         "replay": ("kiosk.cli.run:replay_command", "Play a stored SESSION on the screen again."),
-        "explain": (
-            "kiosk.cli.explain:explain_command",
-            "Explain the decisions of a stored session, or one of a case file.",
-        ),
+        "explain": ("kiosk.cli.explain:explain_command", "Explain the decisions of a stored session, or a case."),
         "day": ("kiosk.cli.day:day_command", "Write one page about a day at the booth."),
     },
     "Keep the data": {

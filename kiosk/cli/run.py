@@ -87,11 +87,9 @@ def run_command(
     """
     if supervise:
         _refuse_without_pin(study)
-        given = {"--study": study, "--robot-host": robot_host, "--robot-port": robot_port}
-        options = (str(word) for option in given.items() if option[1] is not None for word in option)
-        flags = ("--unattended", "--window") if window else ("--unattended",)
-        kiosk = program("run", *flags, "--data", str(data), "--site", site, *options)
-        context.exit(_supervise(kiosk, data, silence, as_json=as_json))
+        context.exit(
+            supervise_kiosk(data, study, site, robot_host, robot_port, window=window, silence=silence, as_json=as_json)
+        )
     with guarded() as beat:
         told = _open(data, study, site, robot_host, robot_port, beat, unattended=unattended, window=window)
     click.echo(json.dumps(told) if as_json else f"{told['sessions']} sessions were recorded in {data}.")
@@ -134,6 +132,25 @@ _TROUBLE = {
 }
 
 _log = logging.getLogger(__name__)
+
+
+def supervise_kiosk(
+    data: Path,
+    study: Path | None,
+    site: str,
+    robot_host: str | None,
+    robot_port: int | None,
+    *,
+    window: bool,
+    silence: float = Timeouts.silence,
+    as_json: bool,
+) -> int:
+    """Keep a kiosk open for visitors until it is left; returns the exit code."""
+    given = {"--study": study, "--robot-host": robot_host, "--robot-port": robot_port}
+    options = (str(word) for option in given.items() if option[1] is not None for word in option)
+    flags = ("--unattended", "--window") if window else ("--unattended",)
+    kiosk = program("run", *flags, "--data", str(data), "--site", site, *options)
+    return _supervise(kiosk, data, silence, as_json=as_json)
 
 
 def _supervise(kiosk: Sequence[str], data: Path, silence: float, *, as_json: bool) -> int:

@@ -11,7 +11,10 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from kiosk.cli.composition import read_settings
+from kiosk.cli.devices import greet
 from kiosk.cli.main import recollect
+from kiosk.config import Settings
 from kiosk.robots.embodiment import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from tests.robots.furhat_fake import FurhatFake, Mode
@@ -134,3 +137,20 @@ def test_a_rehearsal_with_a_robot_has_no_other_speed(tmp_path: Path) -> None:
     arguments = ["rehearse", "--headless", "--speed", "5", "--robot-host", "127.0.0.1", "--data", str(tmp_path)]
     result = CliRunner().invoke(recollect, arguments)
     assert "a robot speaks at its own speed" in str(result.exception)
+
+
+@pytest.mark.parametrize(("there", "worked"), [(True, True), (False, False)])
+def test_a_robot_says_hello_or_why_it_cannot(tmp_path: Path, *, there: bool, worked: bool) -> None:
+    study = tmp_path / "study.toml"
+    with FurhatFake(character_ms=2) as fake:
+        study.write_text(f'[robot]\nkind = "furhat"\nhost = "127.0.0.1"\nport = {fake.port}\n')
+        tried = greet(read_settings(study), "en", "Hello!") if there else None
+    # Outside, nothing listens there any more.
+    tried = tried or greet(read_settings(study), "en", "Hello!")
+    assert tried is not None
+    assert tried.worked is worked
+    assert [said.rstrip("!") for said in fake.sentences] == (["Hello"] if there else [])
+
+
+def test_where_no_robot_is_named_none_says_hello() -> None:
+    assert greet(Settings(), "en", "Hello!") is None
