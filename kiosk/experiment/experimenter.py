@@ -25,6 +25,7 @@ class Action(Enum):
     REPEAT = "repeat"
     MUTE = "mute"
     PAUSE = "pause"
+    BREAK = "break"
     ABORT = "abort"
     NEXT = "next"
     RESUME = "resume"
@@ -111,6 +112,7 @@ TABLE: Mapping[Action, Mapping[Stage, Permission]] = MappingProxyType(
         Action.REPEAT: _rules(_REFUSED, _REFUSED, **{stage.value: _NOW for stage in _SAID_AGAIN}),
         Action.MUTE: _always(_NOW),
         Action.PAUSE: _rules(_REFUSED, _NOW),
+        Action.BREAK: _always(_NOW),
         Action.ABORT: _rules(_REFUSED, _NOW_WITH_REASON),
         Action.NEXT: _rules(_REFUSED, _NOW_WITH_REASON, thanks=_NOW, over=_NOW),
         Action.RESUME: _rules(_REFUSED, _REFUSED, attract=_NOW_WITH_REASON),

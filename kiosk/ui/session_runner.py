@@ -285,7 +285,7 @@ class SessionRunner:
         self.local_time: Callable[[], datetime | None] = lambda: None
         """What the clock on the wall shows, with its zone; None if time is not that of a clock."""
         self._idle_since = 0
-        self._shut = False
+        self._shut = self._on_break = False
         self._error_screen_wait: TimerWait | None = None
         self._recorder = recorder
         self._clock = clock
@@ -464,6 +464,17 @@ class SessionRunner:
         if self._session is None and shut is not self.is_blocked:
             self._rest("attract")
 
+    @property
+    def is_on_break(self) -> bool:
+        """Whether the kiosk takes no visitor until the experimenter is back."""
+        return self._on_break
+
+    def set_break(self, *, taken: bool) -> None:
+        """Take no visitor while the experimenter is away, or take them again; a session under way goes on."""
+        self._on_break = taken
+        if self._session is None:
+            self._rest("attract")
+
     def _tell_begun(self) -> None:
         # There is no session any more if the disk did not take its first event.
         if self._session is not None:
@@ -487,7 +498,7 @@ class SessionRunner:
         self._busy.end()
         self._queue.clear()
         self._session = self._record = self._unwritten = None
-        self._renderer.reset("pause" if self._shut else screen)
+        self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
     def _work(self) -> None:

@@ -523,22 +523,24 @@ def test_no_text_is_smaller_than_can_be_read(window: Window, study: StudyConfig,
             assert size >= SMALLEST, (moment, text.property("text"), size)
 
 
-def test_words_over_everything_fit(window: Window) -> None:
+def test_words_over_everything_fit(window: Window, study: StudyConfig) -> None:
     kiosk = window.screens.kiosk
     said = []
     for cover in (
         partial(kiosk.ask_still_there, asks=True),
         partial(kiosk.pause, paused=True),
         partial(kiosk.show, "pause"),
+        partial(kiosk.come_back_at, "23:59"),
     ):
         cover()
         lay_out(window.shown)
         said.append({str(text.property("text")) for text in texts(window.shown.contentItem())})
         whole = QRectF(0, 0, window.shown.width(), window.shown.height())
         assert all(whole.contains(painted(text)) for text in texts(window.shown.contentItem()))
-    words = kiosk.property("words")
-    assert [words["pause-line"] in each for each in said] == [False, True, False]
-    assert [words["pause-help"] in each for each in said] == [False, False, True]
+    line, help_ = (study.plans[0].catalogue.text(name) for name in ("pause-line", "pause-help"))
+    assert [line in each for each in said] == [False, True, False, False]
+    assert [help_ in each for each in said] == [False, False, True, False]
+    assert any("23:59" in text for text in said[-1])
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)

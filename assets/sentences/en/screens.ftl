@@ -153,6 +153,8 @@ still-there-line = If not, I will get ready for the next player.
 still-there-yes = I am still here
 pause-title = A short break
 pause-line = It goes on in a moment.
+# time: when the people at the table are back, such as 14:05
+pause-back = Back at { $time }.
 pause-help = Please ask the people at this table for help.
 wait-title = One moment, please
 wait-line = It goes on by itself.

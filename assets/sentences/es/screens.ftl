@@ -154,6 +154,8 @@ still-there-line = Si no, me preparo para la siguiente persona.
 still-there-yes = Sigo aquí
 pause-title = Una breve pausa
 pause-line = Seguimos en un momento.
+# time: when the people at the table are back, such as 14:05
+pause-back = Volvemos a las { $time }.
 pause-help = Pide ayuda a las personas de esta mesa, por favor.
 wait-title = Un momento, por favor
 wait-line = Continúa por sí solo.

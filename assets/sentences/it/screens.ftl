@@ -158,6 +158,8 @@ still-there-line = Altrimenti mi preparo per la prossima persona.
 still-there-yes = Sono ancora qui
 pause-title = Una breve pausa
 pause-line = Si continua tra un momento.
+# time: when the people at the table are back, such as 14:05
+pause-back = Si torna alle { $time }.
 pause-help = Chiedi aiuto alle persone a questo tavolo.
 wait-title = Un momento, per favore
 wait-line = Continua da solo.

@@ -7,6 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from functools import partial
 from typing import Any
 
@@ -27,6 +28,7 @@ from kiosk.ui.experimenter.view_model import NoteScreen
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import BusyWait, ConditionAssigner, SessionRunner
 from kiosk.ui.voice import Voice
+from kiosk.units import MS_PER_MINUTE
 
 NOTE_MS = 2_000
 """How long a note stays; as long the condition's shortcut goes on without asking anew."""
@@ -36,6 +38,8 @@ KEPT_RETRY_MS = 100
 CLOSING_WAIT_MS = 500
 """How long closing waits for the last notes, after it has waited for the session."""
 NS_PER_MS = 1_000_000
+BREAKS = (5, 10, 15, 30)
+"""How long a break can be said to last, in minutes."""
 TEST_SENTENCE = 0
 """The number of a sentence that belongs to no session; those of sessions count from 1."""
 
@@ -142,6 +146,8 @@ class ActionController:
         self.volume = booth.assigner.study.settings.voice.volume
         self.paused_by_panel = False
         """Whether the session goes on when the panel is closed."""
+        self.break_minutes = 0
+        """How long the break was to last that was chosen last."""
         self._booth = booth
         self._asking = asking
         self._note = note
@@ -248,6 +254,7 @@ class ActionController:
             Action.REPEAT: self._again,
             Action.MUTE: self._quiet,
             Action.PAUSE: self._pause,
+            Action.BREAK: self._break,
             Action.ABORT: self._end,
             Action.NEXT: self._next,
             Action.RESUME: self._resume,
@@ -341,8 +348,27 @@ class ActionController:
         elif self._panel_is_open:
             # It stays as it is as long as the panel is open; what changes is what comes after.
             self.paused_by_panel = not self.paused_by_panel
+            if self.paused_by_panel:
+                self._booth.screens.kiosk.come_back_at("")
         else:
             self._dispatch(happened.PauseEnded(at_ms=runner.now_ms()))
+
+    def _break(self, choice: str, _reason: str) -> None:
+        """Show when the people at the table are back, in so many minutes; without a choice the break ends."""
+        runner, kiosk = self._booth.runner, self._booth.screens.kiosk
+        self.break_minutes = int(choice or 0)
+        if self.resting:
+            runner.set_break(taken=bool(choice))
+        else:
+            self._dispatch(happened.PauseRequested(at_ms=runner.now_ms()))
+            self.paused_by_panel = not choice
+        back = datetime.now().astimezone() + timedelta(minutes=self.break_minutes)
+        kiosk.come_back_at(f"{back:%H:%M}" if choice else "")
+
+    def break_choices(self) -> tuple[int, ...]:
+        """Return the lengths of a break that can be chosen now, in minutes; a session ends after its longest pause."""
+        longest_ms = self._booth.assigner.study.settings.idle_ms.pause
+        return tuple(each for each in BREAKS if self.resting or each * MS_PER_MINUTE <= longest_ms)
 
     def _end(self, _choice: str, reason: str) -> None:
         # What was typed of a visitor stands with their session alone, and goes with it, or was never to be kept.
@@ -353,6 +379,8 @@ class ActionController:
 
     def _next(self, _choice: str, reason: str) -> None:
         match self.stage:
+            case Stage.OVER if self._booth.runner.is_on_break:
+                self._break("", reason)
             case Stage.OVER:
                 self._booth.runner.go_on()
             case Stage.THANKS:

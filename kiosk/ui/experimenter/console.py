@@ -346,6 +346,12 @@ class Panel:
             "muted": embodiments.is_muted,
             "staysPaused": booth.runner.accepts(PauseEnded(at_ms=booth.runner.now_ms()))
             and not actions.paused_by_panel,
+            "breaks": [
+                {"value": str(minutes), "label": told("console-break-minutes", minutes=minutes)}
+                for minutes in actions.break_choices()
+            ],
+            "break": str(actions.break_minutes) if booth.screens.kiosk.back_at else "",
+            "onBreak": booth.runner.is_on_break,
             "backup": told("console-backup-busy")
             if self._upkeep.busy
             else told("console-backup-waits")
@@ -390,6 +396,8 @@ WORDS = (
     "console-heard",
     "console-stay-paused",
     "console-not-stay-paused",
+    "console-break",
+    "console-break-end",
     "console-abort",
     "console-next",
     "console-resume",

@@ -213,8 +213,7 @@ Window {
               : root.wide ? Qt.point(stage.x + stage.width / 2, root.room / 2) : Qt.point(root.width / 2, 0.36 * root.room)
         sign: "M8 5 V19 M16 5 V19"
         title: root.kiosk.words["pause-title"]
-        // A pause goes on by itself; the screen of that name waits for the experimenter.
-        line: root.kiosk.words[root.kiosk.screen === "pause" ? "pause-help" : "pause-line"]
+        line: root.kiosk.pauseLine
     }
     SidePanel {
         id: helper

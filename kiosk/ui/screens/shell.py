@@ -75,8 +75,6 @@ FIXED = (
     "still-there-line",
     "still-there-yes",
     "pause-title",
-    "pause-line",
-    "pause-help",
     "wait-title",
     "wait-line",
     "replay-line",
@@ -138,6 +136,7 @@ class KioskScreen(QObject):
         self._screen = "attract"
         self._asks_still_there = False
         self._paused = self._behind_panel = self._waits = False
+        self._back_at = ""
         self._leaving = False
         self._takes_input = True
         self._catalogue = catalogue
@@ -225,7 +224,14 @@ class KioskScreen(QObject):
         """Cover everything with a calm word, or take it away."""
         if paused != self._paused:
             self._paused = paused
+            self._back_at = ""
+            self.controls.emit()
             self._start_input_guard()
+
+    def come_back_at(self, time: str) -> None:
+        """Show on the pause screen when it goes on, such as "14:05"; an empty text says no time."""
+        self._back_at = time
+        self.controls.emit()
 
     def wait(self, *, waits: bool) -> None:
         """Ask the visitor for a moment, over whatever is shown, or let them go on."""
@@ -247,6 +253,11 @@ class KioskScreen(QObject):
         self._text_size, self._sound, self._goes_back, self._asks = TextSize.NORMAL, True, False, ""
         self._step = -1
         self.controls.emit()
+
+    @property
+    def back_at(self) -> str:
+        """The time at which a break is over, such as "14:05"; empty without one."""
+        return self._back_at
 
     @property
     def shown(self) -> str:
@@ -388,6 +399,14 @@ class KioskScreen(QObject):
         if self._consent.on_withdrawal == "delete":
             return self._catalogue.text("stop-line-deleted")
         return self._catalogue.text("stop-line-kept", code=self._code)
+
+    @Property(str, notify=controls)
+    def pauseLine(self) -> str:  # noqa: N802 - QML's convention
+        """Return what the pause screen says below its title."""
+        if self._back_at:
+            return self._catalogue.text("pause-back", time=self._back_at)
+        # A pause goes on by itself; the screen of that name waits for the experimenter.
+        return self._catalogue.text("pause-help" if self._screen == "pause" else "pause-line")
 
     @Slot(str)
     def ask(self, what: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from datetime import datetime, timedelta
 from typing import Any
 
 import pytest
@@ -86,6 +87,58 @@ def test_a_session_can_be_left_paused_from_within_the_panel(assigner: Desk) -> N
     assert choices(assigner)["staysPaused"]
     assigner.shortcut(Action.PANEL)
     assert assigner.app.screens.kiosk.property("paused")
+
+
+def times(minutes: int) -> set[str]:
+    """Return what the clock may show so many minutes from now."""
+    now = datetime.now().astimezone() + timedelta(minutes=minutes)
+    return {f"{now + timedelta(seconds=off):%H:%M}" for off in (0, -60)}
+
+
+def test_a_pause_says_when_it_goes_on_and_is_no_longer_than_the_session_allows(assigner: Desk) -> None:
+    kiosk = assigner.app.screens.kiosk
+    assigner.go_to(Stage.PRACTICE)
+    witness = Witness(assigner.app)
+    assigner.open_panel()
+    assert [each["value"] for each in choices(assigner)["breaks"]] == ["5", "10", "15"]
+    assigner.click("break-10")
+    assert choices(assigner)["break"] == "10"
+    assigner.shortcut(Action.PANEL)
+    assert kiosk.property("paused")
+    assert kiosk.back_at in times(10)
+    assert kiosk.property("pauseLine") == f"Back at {kiosk.back_at}."
+    assigner.do(Action.PAUSE)
+    assert not kiosk.property("paused")
+    assert kiosk.back_at == ""
+    assert [type(event) for event in witness.events] == [happened.PauseRequested, happened.PauseEnded]
+
+
+def test_a_session_that_is_to_go_on_after_all_says_no_time(assigner: Desk) -> None:
+    assigner.go_to(Stage.PRACTICE)
+    assigner.open_panel()
+    assigner.click("break-5")
+    assigner.click("action-pause")
+    assert assigner.app.screens.kiosk.back_at == ""
+    assigner.shortcut(Action.PANEL)
+    assert not assigner.app.screens.kiosk.property("paused")
+
+
+@pytest.mark.parametrize("end", ["break-end", "action-next"])
+def test_a_break_between_visitors_takes_none_until_it_is_ended(assigner: Desk, end: str) -> None:
+    kiosk = assigner.app.screens.kiosk
+    assigner.open_panel()
+    assigner.click("break-30")
+    assigner.shortcut(Action.PANEL)
+    assert assigner.screen == "pause"
+    assert kiosk.property("pauseLine").removeprefix("Back at ").removesuffix(".") in times(30)
+    assigner.app.runner.start("en")
+    assert assigner.screen == "pause"
+    assigner.open_panel()
+    assigner.click(end)
+    assert assigner.stage is Stage.ATTRACT
+    assert kiosk.back_at == ""
+    assigner.app.runner.start("en")
+    assert assigner.stage is not Stage.ATTRACT
 
 
 def test_nothing_behind_the_panel_can_be_reached(assigner: Desk) -> None:

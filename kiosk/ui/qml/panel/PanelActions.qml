@@ -54,5 +54,20 @@ PanelSection {
             words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
             onClicked: actions.panel.wish("backup", "")
         }
+        PanelButton {
+            objectName: "break-end"
+            filled: true
+            visible: actions.choices.onBreak
+            words: actions.words["console-break-end"]
+            onClicked: actions.panel.wish("break", "")
+        }
+    }
+    PanelChoice {
+        width: parent.width
+        action: "break"
+        title: actions.words["console-break"]
+        options: actions.choices.breaks
+        chosen: actions.choices.break
+        onPicked: value => actions.panel.wish("break", value)
     }
 }
