@@ -192,7 +192,7 @@ def check_page() -> str:
         "",
         "`recollect check` prints a line for each thing that a booth needs. `OK` is well, `WARN` may stay, and `FAIL`",
         f"must be mended before a session can be held. `{CUT_OFF}` stands for what only your machine knows.",
-        "[Set up a booth](../how-to/booth.md) says when to run it.",
+        "[Troubleshooting](../how-to/troubleshooting.md) is about what you see without it.",
         "",
         "| | about | message | what to do |",
         "|---|---|---|---|",

@@ -18,6 +18,7 @@ import yaml
 from kiosk import __version__
 from kiosk.cli.guide import every_command
 from kiosk.cli.main import recollect
+from kiosk.config import Settings
 from kiosk.experiment.transitions import diagram
 
 ROOT = Path(__file__).parent.parent
@@ -196,3 +197,9 @@ def room(free, failure):
         ("WARN", "disk", "… MiB are free", "make room, to 500 MiB"),
         ("FAIL", "disk", "…", "see that the disk is there"),
     ]
+
+
+def test_the_card_for_the_table_has_every_shortcut() -> None:
+    page = (ROOT / "docs" / "reference" / "checklists.md").read_text("utf-8")
+    pressed = re.findall(r"^\| .+ \| (Ctrl\+\S+) \|$", page.partition("## The card for the table")[2], flags=re.M)
+    assert sorted(pressed) == sorted(Settings().shortcuts.model_dump().values())

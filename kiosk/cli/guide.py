@@ -100,7 +100,7 @@ GUIDES = {
     "backup": Guide("how-to/booth.md", ("backup", "backup --to stick")),
     "verify": Guide("how-to/booth.md", ("verify",)),
     "browse": Guide("how-to/booth.md", ("browse --open",), "It serves a page until Ctrl+C."),
-    "withdraw": Guide("reference/data-set.md", ("withdraw ABCD-EFGH",)),
+    "withdraw": Guide("how-to/withdraw.md", ("withdraw YY4MRXB",)),
     "merge": Guide("how-to/booth.md", ("merge booth-1 booth-2 --out both",)),
     "export": Guide(
         "reference/data-set.md", ("export --out data-set", "export --out data-set --bids --with-rehearsals")
