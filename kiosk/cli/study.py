@@ -6,8 +6,9 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import click
 from rich.console import Console
@@ -15,17 +16,13 @@ from rich.table import Table
 
 from kiosk import UserInputError, program
 from kiosk.assistance.wording import CARD, Catalogue
+from kiosk.cli.guide import add_guide
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
-from kiosk.cli.study_package import diff_command, pack_command, signature_of
-from kiosk.cli.study_texts import dossier_command, preview_command, translations_command
-from kiosk.cli.study_wording import wording
 from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.session_config import Source, StudyConfig
-from kiosk.export.records import StudyMaterials
-from kiosk.export.tables import renamed_items
 from kiosk.extensions import ExtensionGroup, find, registered_names
 from kiosk.files import write_file
 from kiosk.robots.registry import check_robot, load_driver
@@ -37,29 +34,48 @@ from kiosk.study.forming import card_forms
 from kiosk.study.loader import located, read_study
 from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
-from kiosk.study.reference import as_page, as_study_file
-from kiosk.study.survey_import import is_survey, read_survey
 from kiosk.ui.checks import CannotDraw, found_in_pictures
 from kiosk.ui.fonts import missing_characters
 
 MOST_PER_PAGE = 8
+# A command loads what only it needs, so that a study is refused soon.
+# ruff: noqa: PLC0415
+
 SHORT_SHA = 12
 
 
-@click.group()
+class StudyGroup(click.Group):
+    """The commands on studies; those of other modules are loaded when they are called."""
+
+    ELSEWHERE: ClassVar[Mapping[str, str]] = {
+        "diff": "kiosk.cli.study_package:diff_command",
+        "dossier": "kiosk.cli.study_texts:dossier_command",
+        "pack": "kiosk.cli.study_package:pack_command",
+        "preview": "kiosk.cli.study_texts:preview_command",
+        "translations": "kiosk.cli.study_texts:translations_command",
+        "wording": "kiosk.cli.study_wording:wording",
+    }
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of all commands in their order."""
+        return sorted({*super().list_commands(ctx), *self.ELSEWHERE})
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Load one command."""
+        if cmd_name in self.ELSEWHERE and cmd_name not in self.commands:
+            module, name = self.ELSEWHERE[cmd_name].split(":")
+            command = getattr(import_module(module), name)
+            add_guide(f"study {cmd_name}", command)
+            self.add_command(command, cmd_name)
+        return super().get_command(ctx, cmd_name)
+
+
+@click.group(cls=StudyGroup)
 def study() -> None:
     """Set up a study: its file, cards, texts and PIN."""
 
 
 study.add_command(set_pin_command)
-
-
-study.add_command(pack_command)
-study.add_command(diff_command)
-study.add_command(translations_command)
-study.add_command(dossier_command)
-study.add_command(preview_command)
-study.add_command(wording)
 
 
 @study.command("check")
@@ -84,6 +100,8 @@ def study_check(
     try:
         read = read_study(open_study(file))
         check_robot(read.settings)
+        from kiosk.cli.study_package import signature_of
+
         signature, unverified = signature_of(file, allowed_signers)
         untried = [*unverified, *check_pictures(read), *check_fonts(read), *(check_pages(read) if pages else ())]
     except UserInputError as refusal:
@@ -135,7 +153,7 @@ def check_fonts(read: StudyConfig) -> list[str]:
 
 def check_pages(read: StudyConfig) -> list[str]:
     """Raise UserInputError if a session does not come to its end; returns the texts that are cut off."""
-    from kiosk.cli.rehearse import walk_pages  # noqa: PLC0415 - the whole interface, for this option alone
+    from kiosk.cli.rehearse import walk_pages
 
     found = list(walk_pages(read))
     faults = [sentence for is_fault, sentence in found if is_fault]
@@ -184,6 +202,9 @@ def _came_from(source: Source) -> str:
 
 def _renamed(read: StudyConfig) -> Iterator[str]:
     """Yield the items whose columns in a data set are called otherwise."""
+    from kiosk.export.records import StudyMaterials
+    from kiosk.export.tables import renamed_items
+
     for item, column in renamed_items(StudyMaterials(read.plans)).items():
         yield f"about_you: the item {item!r} will be the column {column!r}, as the data set's own has that name"
 
@@ -215,7 +236,7 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
 
     It names each card and says which are hard to tell apart.
     """
-    from kiosk.ui.cards import card_warnings, draw_cards, save_sheet  # noqa: PLC0415 - Qt, for this command alone
+    from kiosk.ui.cards import card_warnings, draw_cards, save_sheet
 
     settings = Settings.read(file)
     board = settings.practice if practice else settings.game
@@ -348,6 +369,8 @@ def study_reference(*, toml: bool) -> None:
 
     It is Markdown.
     """
+    from kiosk.study.reference import as_page, as_study_file
+
     click.echo(as_study_file(Settings()) if toml else as_page(Settings), nl=False)
 
 
@@ -379,6 +402,8 @@ def study_import(
     dictionaries (.csv), LimeSurvey (.txt) and Qualtrics (.qsf) are known. What cannot be asked here is named line
     by line.
     """
+    from kiosk.study.survey_import import is_survey, read_survey
+
     order = ItemOrder.SHUFFLED if shuffled else ItemOrder.FIXED
     heading = Heading(
         id=name, version=version, note=note or f"Brought in from {file.name}.", per_page=per_page, order=order

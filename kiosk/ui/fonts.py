@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import subprocess
+import sys
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -162,6 +164,9 @@ def try_fonts(asked: IO[str], answer: IO[str]) -> None:
     """Answer which characters and joined emoji of each text cannot be drawn, in a process of its own."""
     from PySide6.QtGui import QGuiApplication
 
+    if sys.platform == "linux":
+        # It finds the same fonts as a window's, and needs no display.
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
     told = json.loads(asked.read())
     application = QGuiApplication.instance() or QGuiApplication(["recollect"])
     use_fonts([Path(name) for name in told["fonts"]])

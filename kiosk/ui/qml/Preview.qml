@@ -41,15 +41,15 @@ Window {
             Choice { what: "condition"; model: root.preview.conditions; chosen: root.preview.condition }
             CheckBox {
                 id: box
+                text: root.preview.to_answer
                 contentItem: Text {
-                    text: root.preview.to_answer
+                    text: box.text
                     textFormat: Text.PlainText
                     font.pixelSize: 14
                     leftPadding: box.indicator.width + box.spacing
                     verticalAlignment: Text.AlignVCenter
                     wrapMode: Text.Wrap
                 }
-                Accessible.name: root.preview.to_answer
                 Layout.fillWidth: true
                 checked: root.preview.answering
                 onToggled: root.preview.answer(checked)
