@@ -1,4 +1,4 @@
-"""After the README's first command, every row of its table works as it is printed."""
+"""After the README's first command, every row of docs/reference/what-to-type.md works as it is printed."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ LESS = {
 """What makes long work short; nothing else of a row is changed, but for what stands in capitals."""
 
 TRIED_BY_ROWS = {"rehearse", "replay", "check", "run", "report", "status"}
-"""Commands of a tutorial that take long or need a kiosk; rows of the README try all but the report."""
+"""Commands of a tutorial that take long or need a kiosk; the rows try all but the report."""
 
 DECK = ("owl", "frog")
 SPOKEN = """
@@ -71,8 +71,10 @@ main()
 
 
 def rows() -> list[str]:
-    """Every command of the README's table."""
-    table = (ROOT / "README.md").read_text("utf-8").split("| command |")[1].split("\n\n")[0]
+    """Every command of the page on what to type."""
+    table = (
+        (ROOT / "docs" / "reference" / "what-to-type.md").read_text("utf-8").split("| command |")[1].split("\n\n")[0]
+    )
     cells = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
     return [command for cell in cells for command in re.findall(r"`([^`]+)`", cell)]
 
