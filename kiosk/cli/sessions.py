@@ -29,6 +29,7 @@ PER_PAGE = 50
 _WORDS = ("condition", "embodiment", "status", "stage", "allocation_source")
 _COUNTS = ("pairs", "moves", "flips", "hints")
 _VISITORS = {"person": SessionKind.STUDY, "trial": SessionKind.TRIAL, "simulated": SessionKind.SIMULATED}
+_NAMES = {kind: name for name, kind in _VISITORS.items()}
 _FATES = {
     Disposition.CONSUMED: "game completed",
     Disposition.UNDER_WAY: "under way",
@@ -96,26 +97,30 @@ def sessions_command(
         totals, enrolled = stored.totals(which), stored.counts(kind=SessionKind.STUDY)
     # Without a terminal, or in a narrow window, lines may be long, but no word is cut.
     console = Console(width=max(Console().width, WIDTH), highlight=False)
-    console.print(_table(listed, codes=codes))
+    click.echo("\n".join(_table(listed, codes=codes)))
     for line in _totals(totals, len(listed), skip):
         console.print(line)
     if any(cell.quota for cell in enrolled.cells.values()):
         console.print(_targets(enrolled))
 
 
-def _table(listed: Sequence[StoredSession], *, codes: bool) -> Table:
-    table = Table(box=None)
+def _table(listed: Sequence[StoredSession], *, codes: bool) -> Iterator[str]:
+    """Yield the lines of the list; thousands of them would take a table of rich minutes."""
     own = ("participant", "code") if codes else ("participant",)
-    right = {*_COUNTS, "duration"}
-    for heading in ("session", *own, "started", "duration", *_WORDS, "visitor", *_COUNTS):
-        table.add_column(heading, no_wrap=True, justify="right" if heading in right else "left")
-    names = {kind: name for name, kind in _VISITORS.items()}
-    for session in listed:
-        row = _row(session, with_code=codes)
-        times = (f"{session.began:%Y-%m-%d %H:%M}", _duration(session.duration_ms))
-        cells = (row["session"], *(row[key] for key in own), *times, *(row[key] for key in _WORDS), names[session.kind])
-        table.add_row(*(_word(cell) for cell in cells), *(str(row[key]) for key in _COUNTS))
-    return table
+    headings = ("session", *own, "started", "duration", *_WORDS, "visitor", *_COUNTS)
+    rows = [headings, *(_cells(session, own) for session in listed)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    right = [heading in {*_COUNTS, "duration"} for heading in headings]
+    for row in rows:
+        cells = zip(row, widths, right, strict=True)
+        yield "  ".join(cell.rjust(width) if number else cell.ljust(width) for cell, width, number in cells).rstrip()
+
+
+def _cells(session: StoredSession, own: Sequence[str]) -> tuple[str, ...]:
+    row = session.to_json() | {"code": session.code}
+    times = (f"{session.began:%Y-%m-%d %H:%M}", _duration(session.duration_ms))
+    words = (row["session"], *(row[key] for key in own), *times, *(row[key] for key in _WORDS), _NAMES[session.kind])
+    return (*map(_word, words), *(str(row[key]) for key in _COUNTS))
 
 
 def _row(session: StoredSession, *, with_code: bool) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from enum import Enum, IntEnum
 from functools import lru_cache
@@ -128,8 +128,9 @@ class Table(Generic[Whole, Row]):
 
     def cells(self, whole: Whole) -> Iterator[list[str]]:
         """Yield the rows as texts, in the order of the columns."""
+        values, formats = [column.of for column in self.columns], _FORMATS
         for row in self.rows(whole):
-            yield [format_cell(column.of(row)) for column in self.columns]
+            yield [formats.get(type(cell), format_cell)(cell) for cell in [of(row) for of in values]]
 
 
 class Label(str):
@@ -179,6 +180,16 @@ def marked(text: str) -> str:
     """
     # A quote at the beginning makes those who read a file without quotes swallow the cells that follow.
     return MARK + text if text.startswith((MARK, '"')) or read_as(text) else text
+
+
+_FORMATS: Mapping[type, Callable[[Any], str]] = {
+    type(None): lambda _: "",
+    bool: lambda cell: "true" if cell else "false",
+    int: str,
+    float: str,
+    str: marked,
+}
+"""What ``format_cell`` does with the commonest kinds of cells: most time of an export goes into them."""
 
 
 def unmarked(cell: str) -> str:

@@ -47,7 +47,7 @@ from kiosk.export.columns import (
 )
 from kiosk.export.records import TELLS_THE_ORDER, AgeBands, Asked, Scale, StudyMaterials
 from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN, scores_table, session_questionnaires
-from kiosk.store.participants import Disposition, EnrolmentCounts, slots_from_json
+from kiosk.store.participants import Disposition, EnrolmentCounts, slots_by_block, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
 
@@ -189,7 +189,7 @@ class Person:
         """The share of its condition in the block of its slot."""
         if self.slot is None:
             return None
-        block = [each.condition for each in slots_from_json(self.kept.row["slots"]) if each.block == self.slot.block]
+        block = slots_by_block(self.kept.row["slots"])[self.slot.block]
         return block.count(self.slot.condition) / len(block)
 
     @property

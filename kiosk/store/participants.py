@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
+from functools import lru_cache
 from itertools import groupby
 from random import Random, SystemRandom
 
@@ -314,6 +315,15 @@ def slots_to_json(listed: tuple[AllocationSlot, ...]) -> str:
     return json.dumps([[p.condition.name for p in block] for _, block in groupby(listed, lambda p: p.block)])
 
 
+@lru_cache(maxsize=8)
+def slots_by_block(text: str) -> Mapping[int, tuple[Condition, ...]]:
+    """Return the conditions of each block (from 1) of a list that ``slots_to_json`` wrote."""
+    blocks = groupby(slots_from_json(text), lambda slot: slot.block)
+    return {block: tuple(slot.condition for slot in slots) for block, slots in blocks}
+
+
+# An export asks for the slots of each session, and thousands of sessions have the same list.
+@lru_cache(maxsize=8)
 def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
     """Return what ``slots_to_json`` wrote."""
     return _slots(json.loads(text))

@@ -159,10 +159,13 @@ def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
 
 def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[SnapshotSession]:
     rows = connection.execute(_SESSIONS, {"kind": int(kind), "limit": LOOKED_BACK}).fetchall()
-    for number, started_at, condition, site, slot, person, stage, ending, lost, finished, reason in rows:
+    for place, (number, started_at, condition, site, slot, person, stage, ending, finished) in enumerate(rows):
         status = Status(ending) if ending else None
-        reached = Stage(stage) if stage else None
+        entered = stage if status else _stage_now(connection, number)
+        reached = Stage(entered) if entered else None
         cut_short = status is Status.INTERRUPTED and bool(person) and reached not in (None, Stage.GAME)
+        # All events of a session are gone through for it, so it is asked of those alone that are shown.
+        lost, reason = _troubles(connection, number) if place < LAST or cut_short else (False, "")
         yield SnapshotSession(
             number,
             participant_name(site, person) if person else "",
@@ -170,23 +173,38 @@ def _seen(connection: sqlite3.Connection, *, kind: SessionKind) -> Iterator[Snap
             Condition(condition),
             reached,
             status,
-            bool(lost),
+            lost,
             # Whether the slot is free is asked last: for the few that were cut short, not for all of every look.
             resumable=cut_short
             and bool(slot is None or finished or not AllocationLists(connection, site, kind=kind).is_consumed(slot)),
-            reason=reason or "",
+            reason=reason,
         )
 
 
+def _stage_now(connection: sqlite3.Connection, session: int) -> str | None:
+    """Return the stage of a session that is under way; its summary has one once it has ended."""
+    row = connection.execute(
+        "SELECT json_extract(payload, '$.stage') FROM event WHERE session = ? AND type = 'StageEntered'"
+        " AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1",
+        (session,),
+    ).fetchone()
+    return row[0] if row else None
+
+
+def _troubles(connection: sqlite3.Connection, session: int) -> tuple[bool, str]:
+    """Return whether the robot was lost, and why the experimenter ended the session; "" if they did not."""
+    rows = connection.execute(
+        "SELECT type, json_extract(payload, '$.reason') FROM event WHERE session = ?"
+        " AND type IN ('RobotDisconnected', 'AbortRequested') ORDER BY seq",
+        (session,),
+    ).fetchall()
+    reasons = [reason or "" for kind, reason in rows if kind == "AbortRequested"]
+    return len(rows) > len(reasons), reasons[-1] if reasons else ""
+
+
 _SESSIONS = """
-    SELECT session.id, started_at, condition, session.site, allocation_slot, participant.number,
-        (SELECT json_extract(payload, '$.stage') FROM event WHERE event.session = session.id AND type = 'StageEntered'
-            AND json_extract(payload, '$.stage') <> 'over' ORDER BY seq DESC LIMIT 1),
-        status,
-        EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'RobotDisconnected'),
-        game_completed,
-        (SELECT json_extract(payload, '$.reason') FROM event WHERE event.session = session.id
-            AND type = 'AbortRequested' ORDER BY seq DESC LIMIT 1)
+    SELECT session.id, started_at, condition, session.site, allocation_slot, participant.number, stage, status,
+        game_completed
     FROM session JOIN session_summary ON session_summary.session = session.id
     LEFT JOIN participant ON participant.session = session.id
     WHERE session.kind = :kind ORDER BY session.id DESC LIMIT :limit

@@ -38,6 +38,8 @@ _TABLES = (
         PRIMARY KEY (kind, site, condition, allocation_source, game_completed, ended)
     ) STRICT, WITHOUT ROWID
     """,
+    # For the newest sessions of a kind: it holds their numbers, in order.
+    "CREATE INDEX session_kind ON session (kind)",
     "CREATE INDEX session_began ON session (kind, started_at)",
     "CREATE INDEX session_slot ON session (site, kind, allocation_slot) WHERE allocation_source = 'list'",
 )

@@ -143,7 +143,7 @@ def test_what_is_wrong_is_told_and_ends_with_1(day: Path) -> None:
     assert result.exit_code == 1
     told = json.loads(result.stdout)
     assert not told["sound"]
-    assert [result["check"] for result in told["results"]] == ["schema", "time"]
+    assert [result["check"] for result in told["results"]] == ["schema", "chain", "time"]
     result = run("verify", "--data", day)
     assert result.exit_code == 1
     assert "is at -5 ms" in result.output
