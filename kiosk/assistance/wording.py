@@ -6,7 +6,7 @@ import logging
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -42,6 +42,19 @@ def card_message(card: str) -> str:
 _parsed = lru_cache(maxsize=64)(FluentResource)
 
 
+@lru_cache(maxsize=16)
+def _compiled(language: str, sources: tuple[tuple[str, str], ...]) -> FluentBundle:
+    """Return the messages of these sources, by their names.
+
+    A bundle compiles a message when it is first said, and keeps it. The marks that isolate a variable's writing
+    direction are for mixed scripts; a voice would stumble on them.
+    """
+    bundle = FluentBundle(babel_codes(language), use_isolating=False)
+    for name, source in sources:
+        bundle.add_resource(_parsed(source), allow_overrides=name.startswith(REPLACING))
+    return bundle
+
+
 class Catalogue:
     """All messages of one language: the ``*.ftl`` files of one folder, kept as text in ``sources`` by file name."""
 
@@ -65,22 +78,19 @@ class Catalogue:
         self.folder = folder
         self.sources = dict(sources_in(folder) if sources is None else sources)
         self.written: dict[str, Written] = {}
-        # The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
-        self._bundle = FluentBundle(babel_codes(self.language), use_isolating=False)
         self._forms: set[str] = set()
         self._next: tuple[Catalogue, ...] = ()
         self._warned: set[str] = set()
         for name, source in sorted(self.sources.items()):
-            resource = _parsed(source)
             file = (files or {}).get(name, folder / name)
-            self._take([_entry(entry, file, source, lines or {}) for entry in resource.body], name)
-            self._bundle.add_resource(resource, allow_overrides=name.startswith(REPLACING))
+            self._take(_written(source, file, tuple(sorted((lines or {}).items()))), name)
+        self._bundle = _compiled(self.language, tuple(sorted(self.sources.items())))
 
-    def _take(self, entries: Iterable[Written | None], source: str) -> None:
+    def _take(self, entries: Iterable[Written], source: str) -> None:
         """Refuse what stands twice, which Fluent would pass over in silence."""
         before = frozenset[str]() if source.startswith(REPLACING) else frozenset(self.written)
         here: dict[str, Written] = {}
-        for written in filter(None, entries):
+        for written in entries:
             if written.name in before or written.name in here:
                 raise UserInputError(f"{written.file}: the message {written.name} stands twice")
             here[written.name] = written
@@ -234,7 +244,7 @@ class Written:
     source: str
     begins: int | None = None
 
-    @property
+    @cached_property
     def name(self) -> str:
         """What it is called; a term has a ``-`` before its name."""
         return self.entry.id.name if isinstance(self.entry, Message) else f"-{self.entry.id.name}"
@@ -250,6 +260,14 @@ class Written:
         if self.begins is not None:
             return self.begins
         return self.source.count("\n", 0, node.span.start if node.span else 0) + 1
+
+
+@lru_cache(maxsize=64)
+def _written(source: str, file: Path, lines: tuple[tuple[str, int], ...]) -> tuple[Written, ...]:
+    """Return the messages and terms of a file; raises UserInputError for what is neither."""
+    numbers = dict(lines)
+    entries = (_entry(entry, file, source, numbers) for entry in _parsed(source).body)
+    return tuple(entry for entry in entries if entry is not None)
 
 
 def _entry(entry: EntryType, file: Path, source: str, lines: Mapping[str, int]) -> Written | None:

@@ -30,6 +30,7 @@ from kiosk.ui.event_loop import (
     ThreadExecutor,
     VirtualClock,
     WallClock,
+    after_first_frame,
     heartbeat,
 )
 from kiosk.ui.experimenter.actions import Services
@@ -81,7 +82,7 @@ class App:
         """Build what stands behind the window; ``undo`` is given what has to be done if something of it cannot be."""
         settings = assigner.study.settings
         owner = self._window.owner
-        self.booth = self._show(settings, mode.display)
+        self.booth = self._show(settings, mode)
         if self.booth is not None:
             undo.callback(self.booth.release)
         self.clock = _clock(mode, owner)
@@ -198,9 +199,12 @@ class App:
         self.runner.pause()
         self.on_fault(fault)
 
-    def _show(self, settings: Settings, display: WindowMode) -> KioskWindow | None:
+    def _show(self, settings: Settings, mode: RunMode) -> KioskWindow | None:
         """Show the window; over the full screen it is one that visitors cannot leave."""
-        if display is WindowMode.FULL_SCREEN:
+        if mode.pace is ClockMode.WALL:
+            # All pages are made once the first frame is drawn, so that no visitor waits for one.
+            after_first_frame(self.window, partial(self.window.setProperty, "prepares", True))  # noqa: FBT003 - Qt's own
+        if mode.display is WindowMode.FULL_SCREEN:
             return KioskWindow(self.window, settings.screen.display, self._window.owner)
         self._window.show()
         return None

@@ -319,16 +319,16 @@ class EventLoop:
         if isinstance(self._clock, VirtualClock):
             ticking.timeout.connect(self._clock.jump)
             ticking.start(0)
-        # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
-        # A program that has set objects aside itself, and opens many windows, gets them back as they were.
-        freezes = gc.get_freeze_count() == 0
-        if freezes:
+        # A program that has set objects aside itself does not get them back from us.
+        gives_back = gc.get_freeze_count() == 0
+        if not isinstance(self._clock, VirtualClock):
+            # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
             gc.collect()
             gc.freeze()
         try:
             self._loop.exec()
         finally:
-            if freezes:
+            if gives_back:
                 gc.unfreeze()
             ticking.stop()
             sys.excepthook = before

@@ -82,6 +82,13 @@ class Booth:
         """Let a screen that has just come take input."""
         self.wait_until(lambda: self.app.screens.kiosk.takes_input)
 
+    def prepare_pages(self) -> None:
+        """Have every page made, as a booth has them after its first frame."""
+        shown = self.screen
+        for page in ("about", "consent", "age", "introduction", "result", "debrief", "thanks", shown):
+            self.app.screens.kiosk.show(page)
+        self.settle()
+
     def jump(self) -> None:
         """Let time pass until the next wait ends."""
         assert isinstance(self.app.clock, VirtualClock)

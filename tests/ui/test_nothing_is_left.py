@@ -131,6 +131,7 @@ def differences(before: list[dict[str, str]], after: list[dict[str, str]]) -> li
 def test_after_any_session_the_kiosk_is_as_it_was_before_the_first(make_booth: MakeBooth, seed: int) -> None:
     booth = make_booth(settings=SMALL)
     booth.settle()
+    booth.prepare_pages()
     screens, window = of_screens(booth.app), of_window(booth.app)
     last = Memory()
     for number, visitor in enumerate(visitors(seed)):

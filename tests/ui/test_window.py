@@ -9,15 +9,16 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QImage
+from PySide6.QtQuick import QQuickItem
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.ui.screens.shell import FIXED
-from kiosk.ui.window import QML
+from kiosk.ui.window import QML, ClockMode, RunMode, WindowMode
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import short
+from tests.ui.headless import headless, short
 
 SCREENS = sorted(QML.parent.rglob("*.qml"))
 FOR_THE_EXPERIMENTER = ("ReplayControls.qml",)
@@ -120,6 +121,27 @@ def test_everything_that_can_be_clicked_lies_inside_a_window_of_any_size(
             assert corner.y() >= 0, (screen, name)
             assert corner.x() + item.width() <= width, (screen, name)
             assert corner.y() + item.height() <= height, (screen, name)
+
+
+def pages(booth: Booth) -> dict[str, bool]:
+    """Return which pages there are, by their screens' names, and whether they are made."""
+    loaders = [item for item in booth.app.window.findChildren(QQuickItem) if item.inherits("QQuickLoader")]
+    named = [loader for loader in loaders if loader.property("name")]
+    return {str(loader.property("name")): loader.property("item") is not None for loader in named}
+
+
+def test_a_page_is_made_when_it_is_first_shown(booth: Booth) -> None:
+    assert not any(pages(booth).values())
+    booth.app.screens.kiosk.show("consent")
+    assert {name for name, is_made in pages(booth).items() if is_made} == {"consent"}
+
+
+def test_every_page_is_made_before_a_visitor_comes_to_it(qtbot: QtBot, tmp_path: Path) -> None:
+    with headless(short(), tmp_path, mode=RunMode(WindowMode.NOWHERE, ClockMode.WALL)) as app:
+        booth = Booth(app, tmp_path)
+        qtbot.waitUntil(lambda: all(pages(booth).values()))
+        assert len(pages(booth)) == 7
+        assert booth.screen == "attract"
 
 
 def test_larger_text_is_larger_and_still_inside(make_booth: MakeBooth) -> None:

@@ -36,6 +36,10 @@ Window {
     required property url labLogo
     required property string screenKeys
 
+    // Whether pages are made before they are shown, in the time between frames.
+    property bool prepares: false
+    // Taken over once, as Python hands over all texts each time.
+    readonly property var words: kiosk.words
     readonly property bool wide: width >= height
     // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
     readonly property bool whole: wide && !avatar.present
@@ -76,6 +80,17 @@ Window {
     Binding { target: Theme; property: "accent"; value: root.accent }
     Binding { target: Theme; property: "background"; value: root.background }
 
+    // A page is made when it is first shown, or before that while nothing else happens; then it stays.
+    component Page: Loader {
+        required property string name
+        readonly property bool shown: root.kiosk.screen === name
+        anchors.fill: parent
+        asynchronous: !shown
+        visible: shown && status === Loader.Ready
+        focus: visible && root.kiosk.bare
+        active: root.prepares
+        onShownChanged: if (shown) active = true
+    }
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
@@ -109,48 +124,53 @@ Window {
             onVisibleChanged: if (visible) helper.stopNoticing()
             onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
-        AboutView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "about"
-            focus: visible && root.kiosk.bare
-            about: root.about
-            kiosk: root.kiosk
-            words: root.kiosk.words
+        Page {
+            name: "about"
+            sourceComponent: AboutView {
+                focus: true
+                about: root.about
+                kiosk: root.kiosk
+                words: root.words
+            }
         }
-        ConsentView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "consent"
-            focus: visible && root.kiosk.bare
-            consent: root.consent
-            kiosk: root.kiosk
-            words: root.kiosk.words
+        Page {
+            name: "consent"
+            sourceComponent: ConsentView {
+                focus: true
+                consent: root.consent
+                kiosk: root.kiosk
+                words: root.words
+            }
         }
-        AgeView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "age"
-            focus: visible && root.kiosk.bare
-            age: root.age
-            kiosk: root.kiosk
-            words: root.kiosk.words
+        Page {
+            name: "age"
+            sourceComponent: AgeView {
+                focus: true
+                age: root.age
+                kiosk: root.kiosk
+                words: root.words
+            }
         }
+        // Keys of a number stand beside this page, where a page that is made later is not touched.
         FormView {
             anchors.fill: parent
             visible: root.kiosk.screen === "form"
             focus: visible && root.kiosk.bare
             form: root.form
             kiosk: root.kiosk
-            words: root.kiosk.words
+            words: root.words
         }
-        IntroductionView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "introduction"
-            focus: visible && root.kiosk.bare
-            introduction: root.introduction
-            kiosk: root.kiosk
-            attract: root.attract
-            words: root.kiosk.words
-            cardBack: root.cardBack
-            cardShadow: root.cardShadow
+        Page {
+            name: "introduction"
+            sourceComponent: IntroductionView {
+                focus: true
+                introduction: root.introduction
+                kiosk: root.kiosk
+                attract: root.attract
+                words: root.words
+                cardBack: root.cardBack
+                cardShadow: root.cardShadow
+            }
         }
         BoardView {
             id: boardView
@@ -158,7 +178,7 @@ Window {
             visible: root.kiosk.screen === "game" || root.kiosk.screen === "practice"
             focus: visible && root.kiosk.bare
             board: root.board
-            words: root.kiosk.words
+            words: root.words
             cardBack: root.cardBack
             cardShadow: root.cardShadow
             onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
@@ -169,34 +189,37 @@ Window {
             onFirstFound: if (root.board.practice && !root.board.speaking) helper.fade()
             onVisibleChanged: if (!visible) helper.stopNoticing()
         }
-        ResultView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "result"
-            focus: visible && root.kiosk.bare
-            result: root.result
-            kiosk: root.kiosk
-            words: root.kiosk.words
+        Page {
+            name: "result"
+            sourceComponent: ResultView {
+                focus: true
+                result: root.result
+                kiosk: root.kiosk
+                words: root.words
+            }
         }
-        DebriefView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "debrief"
-            focus: visible && root.kiosk.bare
-            debrief: root.debrief
-            labName: root.labName
-            kiosk: root.kiosk
-            words: root.kiosk.words
+        Page {
+            name: "debrief"
+            sourceComponent: DebriefView {
+                focus: true
+                debrief: root.debrief
+                labName: root.labName
+                kiosk: root.kiosk
+                words: root.words
+            }
         }
-        ThanksView {
-            anchors.fill: parent
-            visible: root.kiosk.screen === "thanks"
-            focus: visible && root.kiosk.bare
-            thanks: root.thanks
-            result: root.result
-            attract: root.attract
-            kiosk: root.kiosk
-            words: root.kiosk.words
-            cardBack: root.cardBack
-            cardShadow: root.cardShadow
+        Page {
+            name: "thanks"
+            sourceComponent: ThanksView {
+                focus: true
+                thanks: root.thanks
+                result: root.result
+                attract: root.attract
+                kiosk: root.kiosk
+                words: root.words
+                cardBack: root.cardBack
+                cardShadow: root.cardShadow
+            }
         }
     }
     // Where the mouse is; a finger is only seen where it touches.
@@ -212,7 +235,7 @@ Window {
         middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
               : root.wide ? Qt.point(stage.x + stage.width / 2, root.room / 2) : Qt.point(root.width / 2, 0.36 * root.room)
         sign: "M8 5 V19 M16 5 V19"
-        title: root.kiosk.words["pause-title"]
+        title: root.words["pause-title"]
         line: root.kiosk.pauseLine
     }
     SidePanel {
@@ -242,7 +265,7 @@ Window {
         id: corner
         readonly property bool atLeft: root.wide && !root.whole && root.boardOnRight
         kiosk: root.kiosk
-        words: root.kiosk.words
+        words: root.words
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
         // There is nothing to be done in a pause.
         opacity: root.kiosk.paused ? 0 : 1
@@ -274,9 +297,9 @@ Window {
         focus: visible
         enabled: root.kiosk.takesInput
         sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
-        title: root.kiosk.words["still-there-title"]
-        line: root.kiosk.words["still-there-line"]
-        choices: [{ name: "still-here", words: root.kiosk.words["still-there-yes"] }]
+        title: root.words["still-there-title"]
+        line: root.words["still-there-line"]
+        choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
         onChosen: root.kiosk.confirm()
     }
     CalmCard {
@@ -285,9 +308,9 @@ Window {
         focus: visible
         enabled: root.kiosk.takesInput
         sign: "M8.5 9 C8.5 4 16 4 16 8.7 C16 12 12 12 12 15 M12 19 V19.2"
-        title: root.kiosk.words["stop-title"]
+        title: root.words["stop-title"]
         line: root.kiosk.stopLine
-        choices: [{ name: "stop-no", words: root.kiosk.words["stop-no"] }, { name: "stop-yes", words: root.kiosk.words["stop-yes"], quiet: true }]
+        choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
         onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
         Keys.onEscapePressed: root.kiosk.ask("")
     }
@@ -297,7 +320,7 @@ Window {
         focus: visible
         enabled: root.kiosk.takesInput
         sign: "M12 3 A9 9 0 0 1 12 21 A9 9 0 0 1 12 3 M3.5 9.5 H20.5 M3.5 14.5 H20.5 M12 3 C7.5 8 7.5 16 12 21 M12 3 C16.5 8 16.5 16 12 21"
-        title: root.kiosk.words["control-language"]
+        title: root.words["control-language"]
         choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
             .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
         onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
@@ -308,8 +331,8 @@ Window {
         sign: "M6 4 H18 M6 20 H18 M7 4 C7 9 12 10 12 12 C12 14 7 15 7 20 M17 4 C17 9 12 10 12 12 C12 14 17 15 17 20"
         anchors.fill: parent
         visible: root.kiosk.waits && root.kiosk.screen !== "pause"
-        title: root.kiosk.words["wait-title"]
-        line: root.kiosk.words["wait-line"]
+        title: root.words["wait-title"]
+        line: root.words["wait-line"]
     }
     PanelLayer {
         anchors.fill: parent
@@ -326,6 +349,6 @@ Window {
         anchors { left: parent.left; right: parent.right; bottom: parent.bottom }
         height: root.replay === null ? 0 : 48
         active: root.replay !== null
-        sourceComponent: ReplayBar { replay: root.replay; words: root.kiosk.words }
+        sourceComponent: ReplayBar { replay: root.replay; words: root.words }
     }
 }

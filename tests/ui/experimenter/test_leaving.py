@@ -7,12 +7,11 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
@@ -151,13 +150,13 @@ def test_an_end_that_was_asked_for_just_before_the_loop_began_is_not_lost(
     make_assigner: MakeDesk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assigner = make_assigner()
-    count: Callable[[], int] = gc.get_freeze_count
 
-    def counted() -> int:
-        signal.raise_signal(signal.SIGTERM)
-        return count()
+    class Asked(QTimer):
+        def __init__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)
+            super().__init__()
 
-    # The last thing that is asked before the loop begins.
-    monkeypatch.setattr("kiosk.ui.event_loop.gc.get_freeze_count", counted)
+    # The last thing that is made before the loop begins.
+    monkeypatch.setattr("kiosk.ui.event_loop.QTimer", Asked)
     assigner.app.run()
     assert assigner.app.stop_requested
