@@ -56,7 +56,7 @@ What to do next, in this folder:
   recollect check                  try everything that a booth needs
   recollect study new my-study     make a study of your own
   recollect sessions               see what is stored
-README.md lists more, and `recollect COMMAND --help` shows examples."""
+docs/reference/what-to-type.md lists more, and `recollect COMMAND --help` shows examples."""
 
 # A file of tests stays together, as its fixtures do; nothing is timed in a process that has company.
 # Files keep their order, in which the longest come first; a process that dies ends the run instead of stalling it.

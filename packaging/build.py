@@ -1,11 +1,12 @@
 """The builds: ``folder``, Recollect with its own Python and Qt in one folder; ``deb``, that folder as a Debian package.
 
-``quick-deb`` is that package with little compression, to try it.
+``quick-deb`` is that package with little compression, to try it. ``wheel`` is what pip installs, and its source.
 
 Run in the checkout, with any Python 3.11: it goes on with the one in ``.venv``, which ``bootstrap.py test`` makes.
 What is built lies in ``dist``; nothing else is changed but ``build``. How it is trimmed is in ``trim.py``.
 """
 
+import hashlib
 import importlib.util
 import os
 import shutil
@@ -51,9 +52,15 @@ class BuildFailed(Exception):
 
 def main(arguments: Sequence[str]) -> int:
     """Build what the first argument says, and return the exit code."""
-    kinds = {"folder": (folder,), "deb": (deb,), "quick-deb": (quick_deb,), "all": (folder, deb)}
+    kinds = {
+        "folder": (folder,),
+        "deb": (deb,),
+        "quick-deb": (quick_deb,),
+        "wheel": (wheel,),
+        "all": (folder, deb),
+    }
     if len(arguments) != 1 or arguments[0] not in kinds:
-        print("Use: python3 packaging/build.py folder|deb|quick-deb|all", file=sys.stderr)
+        print("Use: python3 packaging/build.py folder|deb|quick-deb|wheel|all", file=sys.stderr)
         return 2
     if importlib.util.find_spec("PyInstaller") is None:
         return _go_on_in_venv(arguments)
@@ -135,15 +142,33 @@ def deb(level: int = 9) -> str:
     return f"{package.relative_to(ROOT)}: {_megabytes(package)} MB"
 
 
+def wheel() -> str:
+    """Build the pages, the wheel and the source archive; the same commit gives the same bytes."""
+    committed = _of_git("log", "-1", "--format=%ct")
+    when = {"SOURCE_DATE_EPOCH": committed} if committed else {}
+    for command in (("mkdocs", "build", "--strict", "--quiet"), ("hatchling", "build", "-d", str(DIST))):
+        environment = os.environ | when | {"NO_MKDOCS_2_WARNING": "1"}
+        done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, env=environment, check=False)
+        if done.returncode:
+            raise BuildFailed(f"{command[0]} ended with exit code {done.returncode}.")
+    built = [file for ending in ("whl", "tar.gz") for file in sorted(DIST.glob(f"recollect-*.{ending}"))]
+    return "\n".join(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.relative_to(ROOT)}" for file in built)
+
+
 def _commit() -> str:
+    return _of_git("describe", "--always", "--dirty", "--abbrev=40", "--exclude=*") or "released"
+
+
+def _of_git(*arguments: str) -> str:
+    """Return what git says of the checkout; nothing where it is none."""
     described = subprocess.run(
-        ["git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"],  # noqa: S607 - git is on the path
+        ["git", *arguments],  # noqa: S607 - git is on the path
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=False,
     )
-    return described.stdout.strip() or "released"
+    return described.stdout.strip()
 
 
 def _megabytes(path: Path) -> int:

@@ -23,7 +23,7 @@ def write_export(folder: Path) -> Path:
     (folder / "data").mkdir(parents=True)
     described = {
         "name": "A study",
-        "description": "Exported by Recollect 0.1.0.",
+        "description": "Exported by Recollect 0.2.0.",
         "schemaVersion": CODEBOOK_VERSION,
     }
     (folder / "dataset_description.json").write_text(json.dumps(described), "utf-8")
