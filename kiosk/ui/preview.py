@@ -259,8 +259,10 @@ class PreviewModel(QObject):
         if self._screen not in self._get_screens():
             self._screen = "attract"
         width, height = map(int, self._size.split(" x "))
-        self.window.setWidth(width)
-        self.window.setHeight(height)
+        if (self.window.width(), self.window.height()) != (width, height):
+            # A window that was drawn and is not shown hears of no other size; one without a native window does.
+            self.window.destroy()
+            self.window.resize(width, height)
         self._renderer.reset("attract")
         self._renderer.begin(plan)
         self._renderer.perform(self._effects(plan))

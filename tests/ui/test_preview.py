@@ -199,3 +199,14 @@ def touched(preview: PreviewModel, words: str, item: str) -> bool:
     """Touch an option, which takes no input at first, and tell whether it is chosen."""
     click(preview, words)
     return preview._window.screens.form.given.get(item) == words.lower()
+
+
+def test_another_size_lays_the_screen_out_anew(preview: PreviewModel) -> None:
+    preview.pick("screen", "about")
+    for size in ("1920 x 1080", "1280 x 720", "720 x 1280"):
+        preview.pick("size", size)
+        width, height = map(int, size.split(" x "))
+        button = item_with(preview, "Carry on")
+        place = button.mapToScene(QPointF(button.width(), button.height()))
+        assert 0.5 * width < place.x() <= width
+        assert 0.5 * height < place.y() <= height
