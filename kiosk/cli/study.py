@@ -31,7 +31,7 @@ from kiosk.study.checks import expected_minutes, study_warnings
 from kiosk.study.csv_import import Heading, read_items, write_questionnaire
 from kiosk.study.decks import NAMES, names_in, names_table
 from kiosk.study.forming import card_forms
-from kiosk.study.loader import located, read_study
+from kiosk.study.loader import located, read_study, unclear_names
 from kiosk.study.new import STUDY_FILE, NewStudy, default_languages, find_template, templates
 from kiosk.study.package import is_package, open_study
 from kiosk.ui.checks import CannotDraw, found_in_pictures
@@ -408,12 +408,19 @@ def study_import(
     heading = Heading(
         id=name, version=version, note=note or f"Brought in from {file.name}.", per_page=per_page, order=order
     )
-    read, left = read_survey(file, heading, language) if is_survey(file) else (read_items(file, heading), [])
+    from_program = is_survey(file)
+    read, left = read_survey(file, heading, language) if from_program else (read_items(file, heading), [])
+    unclear = list(unclear_names([(file, read)]))
+    if unclear and not from_program:
+        raise UserInputError(*unclear)
     write_questionnaire(read, out)
     if as_json:
-        click.echo(json.dumps({"out": str(out), "items": len(read.items), "not_taken": [*left]}))
+        told = {"out": str(out), "items": len(read.items), "not_taken": [*left], "to_change": unclear}
+        click.echo(json.dumps(told))
         return
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
     click.echo(f"{items} written to {out}")
     for sentence in left:
         click.echo(f"not taken: {sentence}")
+    for sentence in unclear:
+        click.echo(f"to change in {out} before it is used: {sentence}")

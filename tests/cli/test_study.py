@@ -364,7 +364,7 @@ def test_what_was_made_is_told_to_programs(tmp_path: Path, recollect: Recollect)
     out = tmp_path / "own.toml"
     options = ("--id", "own", "--version", "3", "--out", out, "--json")
     told = json.loads(recollect("study", "import", tmp_path / "table.csv", *options).out)
-    assert told == {"out": str(out), "items": 1, "not_taken": []}
+    assert told == {"out": str(out), "items": 1, "not_taken": [], "to_change": []}
     made = json.loads(recollect("study", "new", tmp_path / "mine", "--json").out)
     assert made["study"] == str(tmp_path / "mine" / "study.toml")
     written = {
@@ -377,6 +377,11 @@ def test_what_was_made_is_told_to_programs(tmp_path: Path, recollect: Recollect)
     ("table", "out", "said"),
     [
         (TABLE.replace("likert", "stars"), "own.toml", "the table {here}/table.csv, row 2, column kind: "),
+        (
+            f"{TABLE}ONE,likert,S,And?,little,much\n",
+            "own.toml",
+            "are one name where capitals, - and _ do not count",
+        ),
         (TABLE, "table.csv", "{here}/table.csv is there already; choose another name"),
         (TABLE, "none/own.toml", "{here}/none/own.toml cannot be written: "),
     ],

@@ -370,6 +370,18 @@ def test_the_command_writes_what_is_taken_and_names_the_rest(tmp_path: Path) -> 
     assert Questionnaire.read(out).per_page == 3
 
 
+def test_the_command_names_what_has_to_be_changed_before_a_study_takes_it(tmp_path: Path) -> None:
+    choices = [CHOICES[0], ["yn", "yes", "Yes", "Ja"], ["yn", "YES", "Indeed", "Gewiss"]]
+    file = workbook(tmp_path / "form.xlsx", {"survey": SURVEY[:3], "choices": choices})
+    out = tmp_path / "asked.toml"
+    said = CliRunner().invoke(
+        recollect, ["study", "import", str(file), "--id", "asked", "--version", "1", "--out", str(out)]
+    )
+    assert said.exit_code == 0, said.output
+    assert f"to change in {out} before it is used:" in said.output
+    assert "the options 'yes' and 'YES' are one name" in said.output
+
+
 def test_a_table_in_windows_1252_is_read_with_its_accents(tmp_path: Path) -> None:
     file = tmp_path / "t.csv"
     file.write_bytes("id;kind;text_it\nfine;page;Perché è così\n".encode("cp1252"))
