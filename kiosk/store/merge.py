@@ -20,6 +20,7 @@ from kiosk.store.database import in_use, open_for_reading, open_for_writing
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_site, participant_name
 from kiosk.store.recorder import insert
+from kiosk.store.summaries import fill_summaries
 
 Row = dict[str, Any]
 
@@ -259,13 +260,16 @@ def _named_anew(parts: Sequence[_Part]) -> dict[Path, str] | None:
     return named if sum(len(part.sites) > 1 for part in clashing) <= 1 else None
 
 
-_SLOW_TRIGGERS = ("event_is_never_replaced", "event_moves_the_head")
-"""Triggers that take most of a merge's time: each event of a new database would ask for an earlier one."""
+_SLOW_TRIGGERS = (
+    *("event_is_never_replaced", "event_moves_the_head"),
+    *("session_summary_of_a_game", "session_summary_of_an_end", "session_summary_of_a_resumption"),
+)
+"""Triggers that are asked for each event and take most of a merge's time."""
 
 
 @contextmanager
 def _without_triggers(target: sqlite3.Connection) -> Iterator[None]:
-    """Copy events without some triggers, which are made anew at the end; the heads are filled in at once."""
+    """Copy events without some triggers, which are made anew; heads and summaries are filled in at once."""
     made = [
         target.execute("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = ?", (name,)).fetchone()[0]
         for name in _SLOW_TRIGGERS
@@ -275,6 +279,7 @@ def _without_triggers(target: sqlite3.Connection) -> Iterator[None]:
     yield
     # SQLite takes the hash from the row that has the greatest number.
     target.execute("INSERT INTO head SELECT session, max(seq), hash FROM event GROUP BY session")
+    fill_summaries(target)
     for trigger in made:
         target.execute(trigger)
 

@@ -126,13 +126,19 @@ _TRIGGERS = (
 )
 
 _FILL = (
-    "INSERT INTO session_summary (session, game_completed)"
-    " SELECT id, EXISTS (SELECT 1 FROM event WHERE session = session.id AND type = 'GameFinished') FROM session",
+    "UPDATE session_summary SET game_completed ="
+    " EXISTS (SELECT 1 FROM event WHERE event.session = session_summary.session AND type = 'GameFinished')",
     f"{_SET} ({_numbers('session_summary.session')}) WHERE {_ENDED.format(session='session_summary.session')}",
 )
 
-STATEMENTS = (*_TABLES, *_TRIGGERS[:2], *_FILL, *_TRIGGERS[2:])
-"""What makes the summaries and their triggers, and fills them from the events that are there."""
+STATEMENTS = (*_TABLES, *_TRIGGERS)
+"""What makes the summaries and their triggers."""
+
+
+def fill_summaries(connection: sqlite3.Connection) -> None:
+    """Write the summary of every session from its events, for events that came without the triggers."""
+    for statement in _FILL:
+        connection.execute(statement)
 
 
 def go_on(connection: sqlite3.Connection, session: int) -> None:

@@ -152,16 +152,14 @@ def _numbering(connection: sqlite3.Connection) -> _Found:
 
 
 def _time(connection: sqlite3.Connection) -> _Found:
-    rows = connection.execute(
-        """
-        SELECT session, seq, at_ms, before_ms FROM (
-            SELECT session, seq, at_ms, lag(at_ms, 1, 0) OVER (PARTITION BY session ORDER BY seq) AS before_ms
-            FROM event
-        ) WHERE at_ms < before_ms
-        """
-    )
-    for session, seq, at_ms, before_ms in rows:
-        yield f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"
+    rows = connection.execute("SELECT session, seq, at_ms FROM event ORDER BY session, seq")
+    before, before_ms = None, 0
+    for session, seq, at_ms in rows:
+        if session != before:
+            before, before_ms = session, 0
+        if at_ms < before_ms:
+            yield f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"
+        before_ms = at_ms
 
 
 _REMEMBERED = 100_000
