@@ -86,20 +86,7 @@ PageFrame {
                 readonly property var texts: view.consent.paragraphs
                 // Short lines are read with less effort than long ones: in two columns where there is room.
                 readonly property bool halved: pane.width > 900 * Theme.unit && texts.length > 1
-                // How many paragraphs stand in the first column, so that both are about as long.
-                readonly property int first: {
-                    if (!halved)
-                        return texts.length
-                    const lengths = texts.map(text => text.length + 40)
-                    const all = lengths.reduce((sum, each) => sum + each, 0)
-                    let best = 1, least = Infinity
-                    for (let i = 1, sum = lengths[0]; i < texts.length; sum += lengths[i++])
-                        if (Math.abs(all - 2 * sum) < least) {
-                            least = Math.abs(all - 2 * sum)
-                            best = i
-                        }
-                    return best
-                }
+                readonly property int first: halved ? view.half(texts) : texts.length
                 readonly property real column: halved ? (width - 4 * Theme.gap) / 2 : width - 2 * Theme.gap
                 width: pane.width
                 height: Math.max(left.height, right.visible ? right.height : 0) + 1.4 * Theme.gap

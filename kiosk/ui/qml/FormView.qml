@@ -143,6 +143,7 @@ PageFrame {
                     alone: view.alone
                     dense: view.dense
                     tight: view.tight
+                    large: view.width < view.height && view.form.items.length < 5
                     onEntered: field => keyboard.field = field
                 }
             }

@@ -40,6 +40,19 @@ FocusScope {
         return Math.max(0, Math.min((room - tall) / 3, (width < height ? 6 : 2.5) * Theme.gap))
     }
 
+    // How many of these texts stand in the first of two columns, so that both are about as long.
+    function half(texts: var): int {
+        const lengths = texts.map(text => text.length + 40)
+        const all = lengths.reduce((sum, each) => sum + each, 0)
+        let best = 1, least = Infinity
+        for (let i = 1, sum = lengths[0]; i < texts.length; sum += lengths[i++])
+            if (Math.abs(all - 2 * sum) < least) {
+                least = Math.abs(all - 2 * sum)
+                best = i
+            }
+        return best
+    }
+
     PlainText {
         id: heading
         objectName: "page-title"

@@ -14,6 +14,8 @@ Rectangle {
     required property bool alone
     required property bool dense
     required property bool tight        // whether there is little height for the page
+    // Whether there is much height for it.
+    property bool large: false
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
@@ -171,6 +173,7 @@ Rectangle {
             alone: box.alone
             dense: box.dense
             tight: box.tight
+            large: box.large
             onChosen: point => box.form.rate(box.item.id, point)
         }
     }

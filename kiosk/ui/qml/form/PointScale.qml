@@ -16,10 +16,12 @@ Item {
     required property bool alone        // whether the page belongs to it
     required property bool dense
     required property bool tight
+    // Whether there is much height for the page.
+    property bool large: false
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : dense ? 58 : tight ? 66 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : dense ? 58 : tight ? 66 : large ? 100 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
