@@ -142,6 +142,10 @@ class Label(str):
     __slots__ = ()
 
 
+# json.dumps makes an encoder at each call where it is asked for anything but ASCII.
+_as_json = json.JSONEncoder(ensure_ascii=False).encode
+
+
 def format_cell(cell: Cell) -> str:
     """Return a cell as it stands in a file: numbers so that they can be read back exactly."""
     match cell:
@@ -150,7 +154,7 @@ def format_cell(cell: Cell) -> str:
         case bool():
             return str(cell).lower()
         case dict():
-            return json.dumps(cell, ensure_ascii=False)
+            return _as_json(cell)
         case tuple():
             return marked(SEPARATOR.join(cell))
         case str():

@@ -195,11 +195,19 @@ class SessionRepository:
 
     def records(self, number: int) -> list[dict[str, Any]]:
         """Every event of a session as JSON values: seq, at_ms, type, origin, and its own fields."""
-        self._row(number)
-        rows = self._database["event"].rows_where("session = ?", [number], order_by="seq")
         return [
-            {key: row[key] for key in ("seq", "at_ms", "type", "origin")} | json.loads(row["payload"]) for row in rows
+            {"seq": seq, "at_ms": at_ms, "type": kind, "origin": origin} | fields
+            for seq, at_ms, kind, origin, fields in self.event_fields(number)
         ]
+
+    def event_fields(self, number: int) -> Iterator[tuple[int, int, str, str, dict[str, Any]]]:
+        """Yield every event of a session: seq, at_ms, type, origin, and its own fields as JSON values."""
+        self._row(number)
+        rows = self._database.conn.execute(
+            "SELECT seq, at_ms, type, origin, payload FROM event WHERE session = ? ORDER BY seq", (number,)
+        )
+        for seq, at_ms, kind, origin, payload in rows:
+            yield seq, at_ms, kind, origin, json.loads(payload)
 
     def events(self, number: int) -> list[Event]:
         """Every event of a session."""

@@ -10,7 +10,7 @@ import hmac
 import json
 import secrets
 import sqlite3
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -34,7 +34,6 @@ PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
 
 _LETTERS = {SessionKind.STUDY: "P", SessionKind.SIMULATED: "r", SessionKind.TRIAL: "t"}
-_ABOUT_THE_RECORD = ("seq", "at_ms", "origin", "type")
 
 
 @dataclass(frozen=True)
@@ -197,7 +196,7 @@ class RecordSource:
 
     def _record(self, number: int) -> SessionRecord:
         (row,) = self._rows(f"AND session.id = {number}")
-        records = tuple(_told(self.archive.records(row["id"])))
+        records = tuple(_told(self.archive.event_fields(row["id"])))
         deviations = self._deviations.get(number, ())
         return SessionRecord(row, self._status(records), self._plan(row), records, self.secret, deviations)
 
@@ -312,15 +311,16 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
             raise unreadable(error, folder) from error
 
 
-def _told(records: list[dict[str, Any]]) -> Iterator[EventRecord]:
+def _told(rows: Iterable[tuple[int, int, str, str, dict[str, Any]]]) -> Iterator[EventRecord]:
     """Yield the records with the stage that each fell into."""
-    for record, (stage, event) in zip(records, with_stages(map(_event, records)), strict=True):
-        fields = {key: value for key, value in record.items() if key not in _ABOUT_THE_RECORD}
-        yield EventRecord(record["seq"], record["at_ms"], record["origin"], record["type"], fields, stage, event)
+    rows = tuple(rows)
+    events = (_event(at_ms, kind, fields) for _, at_ms, kind, _, fields in rows)
+    for (seq, at_ms, kind, origin, fields), (stage, event) in zip(rows, with_stages(events), strict=True):
+        yield EventRecord(seq, at_ms, origin, kind, fields, stage, event)
 
 
-def _event(record: Mapping[str, Any]) -> Event | None:
+def _event(at_ms: int, kind: str, fields: Mapping[str, Any]) -> Event | None:
     try:
-        return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
+        return from_record({"at_ms": at_ms, "type": kind, **fields})
     except ValueError:
         return None
