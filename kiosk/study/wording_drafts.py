@@ -169,8 +169,7 @@ def prompt(message: str, catalogue: Catalogue, style: str, count: int) -> tuple[
     )
     shipped = "\n".join(_as_placeholders(text) for text in _patterns(catalogue, message))
     user = (
-        f"Language: {catalogue.language}. Style: {style}. Write {count} new wordings of this sentence, each at most "
-        f"{LONGEST - 20} characters:\n{shipped}"
+        f"Language: {catalogue.language}. Style: {style}. Write {count} new short wordings of this sentence:\n{shipped}"
     )
     return system, user
 
@@ -288,7 +287,10 @@ class Drafter:
     def add_to(self, draft: Draft, message: str) -> None:
         """Replace the draft's wordings of a message by new ones, with what is wrong with each."""
         system, user = prompt(message, self.catalogue, draft.style, self.count)
-        texts = wordings_in(self.ask(system, user), self.count)
+        shipped = set(_patterns(self.catalogue, message))
+        # Models like to repeat what they were shown.
+        texts = [text for text in wordings_in(self.ask(system, user), 2 * self.count) if text not in shipped]
+        texts = texts[: self.count]
         draft.messages[message] = [self._candidate(message, text) for text in texts]
 
     def _candidate(self, message: str, text: str) -> Candidate:

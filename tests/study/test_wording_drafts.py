@@ -28,6 +28,7 @@ from kiosk.study.wording_drafts import (
     Candidate,
     Checker,
     Draft,
+    Drafter,
     State,
     hint_messages,
     prompt,
@@ -251,6 +252,16 @@ def test_a_draft_is_reviewed_signed_and_spoken(tmp_path: Path) -> None:
         "reason-first-both-often", card="lion"
     )
     assert "signed by Ada Byron on" in next(wording_check(spoken)).message
+
+
+def test_what_is_shipped_anyway_is_no_draft() -> None:
+    shipped = "You have seen one { $card } card once, and the other one not yet."
+    draft = drafted()
+    draft.messages.clear()
+    Drafter(ENGLISH, CHECKER, lambda _system, _user: f"{shipped}\n{SEEN_ONCE}", 1).add_to(
+        draft, "reason-first-one-seen-once"
+    )
+    assert draft.messages == {"reason-first-one-seen-once": [Candidate(SEEN_ONCE)]}
 
 
 def test_an_interrupted_draft_goes_on(tmp_path: Path) -> None:
