@@ -752,6 +752,58 @@ class ExperimenterConfig(ConfigModel):
         return pin
 
 
+_PORTS = {"mqtt": 1883, "mqtts": 8883}
+
+
+def read_broker(text: str) -> tuple[str, int, bool]:
+    """Read an address such as ``mqtts://broker.lab.example:8883``: the host, the port, and whether TLS is used.
+
+    Raises ValueError for anything else.
+    """
+    found = re.fullmatch(r"(mqtts?)://([\w.-]+|\[[0-9a-fA-F:.]+\])(?::([0-9]{1,5}))?/?", text, re.ASCII)
+    port = int(found[3] or _PORTS[found[1]]) if found else 0
+    if found is None or not 0 < port <= 65_535:  # noqa: PLR2004 - the highest port
+        raise ValueError(f"{text!r} is no broker's address, such as 'mqtts://broker.lab.example:8883'")
+    return found[2].strip("[]"), port, found[1] == "mqtts"
+
+
+class Remote(ConfigModel):
+    """Where the booth's status is published, so that you can watch it from afar.
+
+    It is off as long as ``mqtt`` is empty. Of this section nothing is recorded.
+    """
+
+    mqtt: Annotated[
+        str,
+        Field(description="The MQTT broker: mqtts://HOST or, without TLS, mqtt://HOST. Empty: nothing is published."),
+    ] = ""
+    booth: Annotated[
+        str,
+        Field(
+            pattern=r"^[A-Za-z0-9._-]{0,64}$",
+            description="What this booth is called there; by default its site, or the machine's name.",
+        ),
+    ] = ""
+    topic: Annotated[
+        str,
+        Field(pattern=r"^[A-Za-z0-9._/-]{1,100}$", description="What its topic begins with; the booth's name follows."),
+    ] = "recollect"
+    user: Annotated[str, Field(max_length=MOST_CHARACTERS, description="The user's name at the broker, if any.")] = ""
+    password_file: Annotated[str, Field(description="A file with the password alone; a path.")] = ""
+    ca: Annotated[
+        str, Field(description="The certificate of the broker's authority; a path. Empty: those of the system.")
+    ] = ""
+    certificate: Annotated[str, Field(description="A certificate by which the broker knows the booth; a path.")] = ""
+    key: Annotated[str, Field(description="The key of that certificate; a path.")] = ""
+
+    @field_validator("mqtt")
+    @classmethod
+    def _name_a_broker(cls, text: str) -> str:
+        if text:
+            read_broker(text)
+        return text
+
+
 @dataclass(frozen=True)
 class PackageOrigin:
     """The packed study that settings came from; ``shipped`` are the hashes of what came with Recollect there."""
@@ -861,6 +913,7 @@ class Settings(ConfigModel):
     experimenter: ExperimenterConfig = ExperimenterConfig()
     privacy: Privacy = Privacy()
     markers: MarkersConfig = MarkersConfig()
+    remote: Annotated[Remote, Field(exclude=True)] = Remote()
 
     _file: Path | None = PrivateAttr(None)
     """The study file; what it names by a path lies in its folder. It is no setting, and is not recorded."""

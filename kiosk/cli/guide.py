@@ -88,6 +88,10 @@ GUIDES = {
     "sessions": Guide(
         "reference/data-set.md", ("sessions", "sessions --since 2026-05-01 --status abandoned", "sessions --codes")
     ),
+    "watch": Guide(
+        "how-to/remote.md",
+        ("watch --broker mqtts://broker.lab.example", "watch --broker mqtts://broker.lab.example --web"),
+    ),
     "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
     "replay": Guide(
         "explanation/how-it-works.md",

@@ -19,6 +19,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.config import MarkersConfig, Settings, VoiceConfig
 from kiosk.experiment.events import EmbodimentName, SessionSetup
 from kiosk.experiment.session_config import SessionKind
+from kiosk.remote import StatusPublisher, booth_name
 from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, RobotDriver
 from kiosk.robots.registry import create_robot
 from kiosk.store.recorder import Recorder
@@ -122,6 +123,7 @@ class App:
         self._work, self._slow = (InlineExecutor() if virtual else ThreadExecutor(self._landing) for _ in range(2))
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
+        self._publisher = self._publish(settings, recorder) if not virtual else None
         if not virtual:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
@@ -182,6 +184,8 @@ class App:
         self.runner.close()
         self._loop.close()
         self.experimenter.close()
+        if self._publisher is not None:
+            self._publisher.close()
         self.embodiments.close()
         self._landing.close()
         self._work.close()
@@ -223,6 +227,16 @@ class App:
             window_health=lambda: self.booth.health if self.booth else (),
             leave=self.quit,
         )
+
+    def _publish(self, settings: Settings, recorder: Recorder) -> StatusPublisher | None:
+        """Publish the status, if the study file asks for it; a rehearsal is no booth that anybody watches."""
+        if not settings.remote.mqtt or self.assigner.kind is SessionKind.SIMULATED:
+            return None
+        booth = booth_name(settings.remote, recorder.site)
+        publisher = StatusPublisher(settings.remote, booth, settings.beside)
+        self.experimenter.status_file.publish = publisher.publish
+        self.experimenter.remote_trouble = lambda: publisher.trouble
+        return publisher
 
     def _trace_pointer(self, settings: Settings, owner: QObject) -> None:
         """Keep the way of the pointer, if the study records it."""

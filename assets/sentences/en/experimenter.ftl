@@ -67,6 +67,9 @@ console-test-sentence = Good morning. If you hear this sentence, the voice works
 console-supervisor = Supervisor
 console-supervisor-there = starts the kiosk again if it fails
 console-supervisor-none = none; if the kiosk fails, it stays off
+console-remote = From afar
+console-remote-there = the status is published
+console-remote-not = no connection: { $why }
 console-booth = The booth
 
 ## Health

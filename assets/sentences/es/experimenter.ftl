@@ -67,6 +67,9 @@ console-test-sentence = Buenos días. Si oyes esta frase, la voz funciona.
 console-supervisor = Supervisor
 console-supervisor-there = reinicia el quiosco si falla
 console-supervisor-none = ninguno; si el quiosco falla, queda apagado
+console-remote = A distancia
+console-remote-there = el estado se publica
+console-remote-not = sin conexión: { $why }
 console-booth = El puesto
 
 ## Health

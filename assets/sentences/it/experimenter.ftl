@@ -67,6 +67,9 @@ console-test-sentence = Buongiorno. Se senti questa frase, la voce funziona.
 console-supervisor = Supervisore
 console-supervisor-there = riavvia il chiosco in caso di guasto
 console-supervisor-none = nessuno; dopo un guasto il chiosco resta spento
+console-remote = A distanza
+console-remote-there = lo stato viene pubblicato
+console-remote-not = nessuna connessione: { $why }
 console-booth = La postazione
 
 ## Health

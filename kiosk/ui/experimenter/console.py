@@ -420,6 +420,8 @@ class ExperimenterConsole:
         self, booth: Services, window: QQuickWindow, work: Executor, slow: Executor, now_ms: Callable[[], int] = wall_ms
     ) -> None:
         """``work`` does what takes milliseconds, ``slow`` what takes seconds; ``now_ms`` is the wall's clock."""
+        self.remote_trouble: Callable[[], str | None] = lambda: None
+        """Tells why the status is not published; empty if it is, None if that is switched off."""
         study = booth.assigner.study
         settings = study.settings
         catalogue = study.plans[0].catalogue
@@ -602,6 +604,7 @@ class ExperimenterConsole:
             screen="; ".join((f"{width} x {height}", *(health.message for health in held))),
             screen_well=all(health.is_ok for health in held),
             supervised=BEAT_WITHIN in os.environ,
+            remote=self.remote_trouble(),
         )
 
 

@@ -96,6 +96,8 @@ class HealthInputs:
     screen: str
     screen_well: bool
     supervised: bool = False
+    remote: str | None = None
+    """Why the status is not published; empty if it is, None if that is switched off."""
     pack_changed: bool = False
     """Whether the pack of clips is not the one of earlier sessions."""
 
@@ -128,7 +130,16 @@ def booth_lines(state: HealthInputs, study: StudyConfig, catalogue: Catalogue) -
             state.has_pin,
         ),
         HealthLine(translate("console-screen"), state.screen, state.screen_well),
+        *_remote(state, catalogue),
     )
+
+
+def _remote(state: HealthInputs, catalogue: Catalogue) -> Iterator[HealthLine]:
+    if state.remote is not None:
+        words = catalogue.text("console-remote-not", why=state.remote) if state.remote else ""
+        yield HealthLine(
+            catalogue.text("console-remote"), words or catalogue.text("console-remote-there"), is_ok=not state.remote
+        )
 
 
 def health_parts(state: HealthInputs, catalogue: Catalogue) -> Iterator[PartStatus]:
@@ -502,6 +513,8 @@ class StatusFile:
         self._written_at = 0
         self._failed = False
         self._tick: TimerWait | None = None
+        self.publish: Callable[[BoothStatus], None] = lambda _: None
+        """Called with what is written, each time; returns at once."""
 
     def begin(self) -> None:
         """Write it now, and go on writing it."""
@@ -518,7 +531,9 @@ class StatusFile:
             return
         self._tick.cancel()
         self._tick = None
-        self._took(write_status(self._file, replace(self._status(), stage=CLOSED)))
+        closed = replace(self._status(), stage=CLOSED)
+        self.publish(closed)
+        self._took(write_status(self._file, closed))
 
     def _look(self) -> None:
         status = self._status()
@@ -529,6 +544,7 @@ class StatusFile:
         since_ms = self._clock.now_ms() - self._written_at
         if status.changed_from(self._written) or since_ms >= WRITE_EVERY_S * MS_PER_SECOND:
             self._written, self._written_at = status, self._clock.now_ms()
+            self.publish(status)
             self._work(partial(write_status, self._file, status), self._took)
         self._tick = self._clock.after(LOOK_MS, self._look)
 
