@@ -55,10 +55,10 @@ FocusScope {
     property point touched: Qt.point(width / 2, height / 2)
     signal touchedSomething()
     // The middle of what a hint marks, in this item.
-    readonly property bool marks: markRow >= 0 || markColumn >= 0
+    readonly property bool marks: board.markRow >= 0 || board.markColumn >= 0
     readonly property point marked: Qt.point(
-        table.x + (markColumn < 0 ? table.width * 0.75 : (markColumn + 0.5) * cell),
-        table.y + (markRow < 0 ? 0 : (markRow + 0.5) * cell))
+        table.x + (board.markColumn < 0 ? table.width * 0.75 : (board.markColumn + 0.5) * cell),
+        table.y + (board.markRow < 0 ? 0 : (board.markRow + 0.5) * cell))
     // Whether a card turns, or a pair is on its way to the tray: what else moves on the screen had better wait.
     readonly property bool moves: turning > 0 || joy.under
     property int turning: 0
