@@ -145,3 +145,13 @@ def test_the_sessions_of_today_are_counted_and_those_of_yesterday_are_not(assign
     counts, ended = read_day(assigner.data, now, kind=SessionKind.SIMULATED)
     assert replace(counts, since=None) == DayCounts(begun=1, ended_early=1)
     assert [each.stage for each in ended] == ["game"]
+
+
+def test_what_is_written_is_published_each_time_and_the_close_as_well(tmp_path: Path) -> None:
+    writing = Writing(tmp_path)
+    published: list[BoothStatus] = []
+    writing.made.publish = published.append
+    writing.wait(12)
+    writing.made.close()
+    assert len(published) >= 3
+    assert [each.stage for each in published] == ["attract"] * (len(published) - 1) + [CLOSED]
