@@ -150,7 +150,7 @@ def docs(_arguments: Sequence[str]) -> int:
     """Write the generated pages and build all pages as a site; a broken link is a failure."""
     with development() as environment:
         return run(["python", "packaging/reference.py"], environment, ROOT) or run(
-            ["mkdocs", "build", "--strict", "--quiet"], environment, ROOT
+            ["mkdocs", "build", "--strict", "--quiet", "--config-file", "packaging/mkdocs.yml"], environment, ROOT
         )
 
 

@@ -146,7 +146,8 @@ def wheel() -> str:
     """Build the pages, the wheel and the source archive; the same commit gives the same bytes."""
     committed = _of_git("log", "-1", "--format=%ct")
     when = {"SOURCE_DATE_EPOCH": committed} if committed else {}
-    for command in (("mkdocs", "build", "--strict", "--quiet"), ("hatchling", "build", "-d", str(DIST))):
+    site = ("mkdocs", "build", "--strict", "--quiet", "--config-file", "packaging/mkdocs.yml")
+    for command in (site, ("hatchling", "build", "-d", str(DIST))):
         environment = os.environ | when | {"NO_MKDOCS_2_WARNING": "1"}
         done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, env=environment, check=False)
         if done.returncode:

@@ -177,7 +177,8 @@ def test_a_link_that_leaves_the_pages_is_only_text_in_the_site() -> None:
 
 def test_the_pages_make_a_site_without_a_broken_link_and_without_a_network(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path)]
+    settings = ROOT / "packaging" / "mkdocs.yml"
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(settings), "-d", str(tmp_path)]
     built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert (built.returncode, built.stdout) == (0, ""), built.stderr
     for page in tmp_path.rglob("*.html"):
