@@ -239,8 +239,8 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
         }
     )
     chosen = dict.fromkeys(("condition", "embodiment", "language", "volume"), "one")
-    lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes"), option)
-    flags = {"underWay": True, "canBeNext": True, "muted": False, "named": False, "staysPaused": False}
+    lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes", "breaks"), option)
+    flags = {"underWay": True, "canBeNext": True, "muted": False, "named": False, "staysPaused": False, "onBreak": True}
     panel.show_choices({**chosen, **lists, **flags, "session": MARKUP, "backup": MARKUP})
     panel.open(is_open=True)
     note.tell(MARKUP)

@@ -57,7 +57,7 @@ PanelSection {
         PanelButton {
             objectName: "break-end"
             filled: true
-            visible: actions.choices.onBreak
+            visible: actions.choices.onBreak ?? false
             words: actions.words["console-break-end"]
             onClicked: actions.panel.wish("break", "")
         }
@@ -66,8 +66,8 @@ PanelSection {
         width: parent.width
         action: "break"
         title: actions.words["console-break"]
-        options: actions.choices.breaks
-        chosen: actions.choices.break
+        options: actions.choices.breaks ?? []
+        chosen: actions.choices.break ?? ""
         onPicked: value => actions.panel.wish("break", value)
     }
 }
