@@ -10,6 +10,7 @@ from typing import Any
 from kiosk.assistance.policy import ACTIONS, NO_GATE, STATES, ActionSpec, Gate, QTable, State
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, STAGES, Settings
+from kiosk.experiment.booth_status import BoothStatus, DayCounts, PartStatus, utc
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import ConsentPage, Information, Page, Purpose
 from kiosk.experiment.items import (
@@ -137,3 +138,25 @@ def whole(condition: Condition = Condition.TOM, policy: QTable | None = None, **
 def board_of(*rows: str) -> Board:
     """Return a board from one word per row, one letter per card: ``board_of("abc", "cab")``."""
     return Board(len(rows), len(rows[0]), tuple("".join(rows)))
+
+
+STATUS = BoothStatus(
+    at=utc(0),
+    started_at=utc(0),
+    version="1",
+    pid=7,
+    site="",
+    study="S",
+    study_sha256="0",
+    kind="person",
+    stage="attract",
+    stage_since=utc(0),
+    paused=False,
+    supervised=True,
+    today=DayCounts(),
+    ended=(),
+    parts=(PartStatus("voice", ok=True, message="wörds"),),
+    disk_free_mib=900,
+    last_backup_at=None,
+)
+"""A booth that waits for a visitor."""

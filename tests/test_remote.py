@@ -22,29 +22,19 @@ from kiosk import UserInputError
 from kiosk.cli import watch as cli
 from kiosk.cli.main import recollect
 from kiosk.config import Remote
-from kiosk.experiment.booth_status import CLOSED, AlarmStatus, BoothStatus, DayCounts, PartStatus, utc
+from kiosk.experiment.booth_status import CLOSED, AlarmStatus, DayCounts, PartStatus, utc
 from kiosk.remote import HUNG_S, LONGEST, LOST, QUEUED, BoothWatch, SeenBooth, StatusPublisher, booth_name, served
 from tests.analysis.chromium import opened_browser
+from tests.samples import STATUS as RESTING
 
 PATIENCE_S = 30.0
-STATUS = BoothStatus(
+STATUS = replace(
+    RESTING,
     at=utc(600_000),
-    started_at=utc(0),
-    version="1",
-    pid=7,
-    site="",
-    study="S",
-    study_sha256="0",
-    kind="study",
     stage="game",
     stage_since=utc(420_000),
-    paused=False,
-    supervised=True,
     today=DayCounts(begun=3, completed=2, last_hour=1),
-    ended=(),
     parts=(PartStatus("voice", ok=True, message="it speaks"),),
-    disk_free_mib=900,
-    last_backup_at=None,
 )
 KIOSK = """
 import sys, time

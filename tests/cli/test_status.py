@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus, EndedSession, PartStatus
-from tests.ui.experimenter.test_status_file import STATUS
+from tests.samples import STATUS
 
 Show = Callable[..., Result]
 

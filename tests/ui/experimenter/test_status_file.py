@@ -15,27 +15,9 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.store.snapshot import read_day
 from kiosk.ui.event_loop import InlineExecutor, VirtualClock
 from kiosk.ui.experimenter.status import StatusFile, write_status
+from tests.samples import STATUS
 from tests.ui.experimenter.conftest import Desk
 
-STATUS = BoothStatus(
-    at=utc(0),
-    started_at=utc(0),
-    version="1",
-    pid=7,
-    site="",
-    study="S",
-    study_sha256="0",
-    kind="person",
-    stage="attract",
-    stage_since=utc(0),
-    paused=False,
-    supervised=True,
-    today=DayCounts(),
-    ended=(),
-    parts=(PartStatus("voice", ok=True, message="wörds"),),
-    disk_free_mib=900,
-    last_backup_at=None,
-)
 DAY = (DayCounts(begun=3, completed=1, ended_early=1, last_hour=1), (EndedSession(utc(0), "aborted", "game"),))
 
 
