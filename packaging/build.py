@@ -32,7 +32,10 @@ DATA = {
     "kiosk/site": "kiosk/site",
 }
 """Folders of the checkout, and where kiosk/config.py looks for them in a build."""
-HIDDEN = ("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client")
+HIDDEN = (
+    *("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client"),
+    "paho.mqtt.client",
+)
 """What is imported by a name that is only known at run time."""
 ENGINES = {"py_nanotts": "py-nanotts", "hibari": "hibari-tts"}
 """Speech engines that bring models as data, and their packages; which of them are installed is in the build."""
@@ -43,6 +46,8 @@ EXCLUDED = (
     # What libraries that are used have for developers: colours of source text, tests, compilers, help pages.
     *("pygments", "markdown_it", "mdurl", "numpy.f2py", "numpy.testing", "yaml"),
     *("unittest", "doctest", "pdb", "pydoc_data"),
+    # Extras for a lab's own machine: the wheels of PyAV hold encoders under the GPL, and pylsl has no licence text.
+    *("av", "pylsl"),
 )
 
 
