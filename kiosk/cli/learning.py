@@ -16,15 +16,23 @@ from typing import Any
 import click
 
 from kiosk import UserInputError
+from kiosk.assistance.memory_model import MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, NO_GATE, ActionSpec, Gate, QTable, State, check_actions, find_action
 from kiosk.cli import evidence
 from kiosk.cli.options import progress_bar
-from kiosk.config import KNOWN_CONDITIONS
+from kiosk.config import KNOWN_CONDITIONS, AssistanceConfig
 from kiosk.experiment.condition import Condition, target_rule
 from kiosk.files import check_writable, write_file
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
+from kiosk.training.memory_timing import (
+    THRESHOLDS,
+    best_timing,
+    checked_timing,
+    simulate_timing,
+    tune_timing,
+)
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import (
     ChancePlayer,
@@ -156,12 +164,28 @@ def ctrl_c() -> Iterator[Callable[[], bool]]:
 @click.option(
     "--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="Where to write the policy file."
 )
+@click.option(
+    "--timing",
+    type=click.Choice(["table", "model"]),
+    default="table",
+    show_default=True,
+    help="What is learnt: a table, or the thresholds of timing by the model of memory, written as a part of a study "
+    "file.",
+)
+@click.option("--games", type=int, help="With --timing model: games for each pair of thresholds (300).")
+@click.option("--assistance", type=float, help="With --timing model: the most assistance per flip (.175).")
 @as_json
 def train_command(out: Path, name: str | None, reward: str, json_: bool, **options: Any) -> None:  # noqa: FBT001 - click's flag
     """Learn a table and freeze it.
 
     What no option gives follows from the reward.
     """
+    timing, games, assistance = (options.pop(name) for name in ("timing", "games", "assistance"))
+    if timing == "model":
+        _tune_thresholds(out, games, assistance, json_=json_, **options)
+        return
+    if (games, assistance) != (None, None):
+        raise UserInputError("--games and --assistance are for --timing model only")
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
     check_writable(out)
@@ -175,6 +199,37 @@ def train_command(out: Path, name: str | None, reward: str, json_: bool, **optio
     _say(
         {"policy": name, "file": str(out), "episodes": learner.episodes, "sha256": table.sha256},
         f"{out}: the table {name!r} after {learner.episodes:,} episodes, sha256 {table.sha256}",
+        json_=json_,
+    )
+
+
+GAMES_TO_TUNE, MOST_ASSISTANCE = 300, 0.175
+_TUNES = {"seed", "target", "gate", *_PLAYER_OPTIONS}
+
+
+def _tune_thresholds(out: Path, games: int | None, assistance: float | None, *, json_: bool, **options: Any) -> None:
+    """Try pairs of thresholds, and write the best as the part of a study file that declares them."""
+    foreign = sorted(name for name, value in options.items() if value not in (None, ()) and name not in _TUNES)
+    if foreign:
+        raise UserInputError(f"--{foreign[0]} is for a table; --timing model learns thresholds")
+    player = player_from_options(PopulationPlayer(), **{name: options[name] for name in _PLAYER_OPTIONS})
+    gate, target = GATES[options["gate"] or "on"], TargetRule(options["target"] or TargetRule.MOST_FLIPPED.value)
+    games = GAMES_TO_TUNE if games is None else games
+    check_writable(out)
+    total = len(THRESHOLDS) ** 2 * games
+    with progress_bar("tuning", total, hidden=json_) as progress:
+        tried = list(tune_timing(gate, player, target, games, options["seed"], THRESHOLDS, progress))
+    best = best_timing(tried, MOST_ASSISTANCE if assistance is None else assistance)
+    first, second = best.timing.first, best.timing.second
+    text = f'[assistance]\ntiming = "model"\nthreshold_first = {first:g}\nthreshold_second = {second:g}\n'
+    write_file(out, text)
+    measures = best.results.measures()
+    told = {"file": str(out), "threshold_first": first, "threshold_second": second, **measures}
+    flips, given = best.results.flips, best.results.assistance.mean
+    _say(
+        told,
+        f"{out}: help below {first:g} and {second:g}; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
+        f"assistance {given:.3f} a flip",
         json_=json_,
     )
 
@@ -271,6 +326,15 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
 @click.option("--target", type=_choice(TargetRule), help="Another target rule than the condition's.")
 @click.option("--games", type=int, default=5000, show_default=True, help="How many games.")
 @click.option("--seed", type=int, default=1, show_default=True, help="Fixes everything random.")
+@click.option(
+    "--timing",
+    type=click.Choice(["table", "model"]),
+    default="table",
+    show_default=True,
+    help="What decides when to help, as in a study file.",
+)
+@click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (.2).")
+@click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.4).")
 @as_json
 def simulate_command(
     name: str,
@@ -287,12 +351,28 @@ def simulate_command(
     """
     where = target_rule(Condition(condition).known, TargetRule.MOST_FLIPPED)
     table = QTable.named(name) if where else QTable.blank()
+    timing = _timing(*(options.pop(name) for name in ("timing", "threshold_first", "threshold_second")))
     player = player_from_options(ChancePlayer(), **options)
     rule = TargetRule(target) if target else where or TargetRule.RANDOM
     with progress_bar("playing", games, hidden=json_) as progress:
-        measures = simulation.simulate_games(table, player, rule, games, seed, progress).measures()
+        if timing is None or where is None:
+            played = simulation.simulate_games(table, player, rule, games, seed, progress)
+        else:
+            played = simulate_timing(timing, table.gate, player, rule, games, seed, progress)
+    measures = played.measures() | ({"timing": asdict(timing)} if timing and where else {})
     asked = {"player": player.parameters(), "policy": table.name, "policy_sha256": table.sha256, "seed": seed}
     _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
+
+
+def _timing(timing: str, first: float | None, second: float | None) -> MemoryTiming | None:
+    """Return the timing by memory that the options ask for; None for that by a table."""
+    if timing == "table":
+        if (first, second) != (None, None):
+            raise UserInputError("--threshold-first and --threshold-second are for --timing model only")
+        return None
+    usual = AssistanceConfig()
+    first = usual.threshold_first if first is None else first
+    return checked_timing(first, usual.threshold_second if second is None else second)
 
 
 def _told(measures: dict[str, Any]) -> str:

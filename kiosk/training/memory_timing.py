@@ -1,0 +1,124 @@
+"""Games in which the model of the player's memory decides when to help, and the thresholds that do best.
+
+The games are those of kiosk.training.simulation, with the same players, gate and targets; only the question whether to
+help is put to kiosk.assistance.memory_model. That takes half a millisecond a flip, so there are fewer games.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from kiosk import UserInputError
+from kiosk.assistance.memory_model import MemoryModel, MemoryTiming
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import ACTIONS, Gate
+from kiosk.errors import check_between, one_of, whole
+from kiosk.training.simulated_players import SimulatedPlayer
+from kiosk.training.simulation import (
+    T_FOLLOWED_FIRST,
+    T_LED,
+    GameResults,
+    GameTable,
+    Progress,
+    lay,
+    playing,
+    refuse_endless,
+    start,
+    take,
+)
+from kiosk.training.vectorised_game import CARDS, FIRST, FLIPS, LAST, MATE, NO_HELP, NOWHERE, gate_plan, is_open
+
+THRESHOLDS = (0.1, 0.2, 0.3, 0.4, 0.5)
+"""What is tried for each of the two cards."""
+LEAST_GAMES = 2
+
+
+def checked_timing(first: float, second: float) -> MemoryTiming:
+    """Return the timing with these thresholds; raises UserInputError for what is not a chance."""
+    check_between("the threshold of first cards", first, 0, 1)
+    check_between("the threshold of second cards", second, 0, 1)
+    return MemoryTiming(first, second)
+
+
+def simulate_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
+    timing: MemoryTiming,
+    gate: Gate,
+    player: SimulatedPlayer,
+    target: TargetRule,
+    games: int,
+    seed: int,
+    progress: Progress = lambda _: None,
+) -> GameResults:
+    """Play ``games`` games (2 or more) of ``player``, helped where ``timing`` says so; fixed by ``seed``.
+
+    Raises UserInputError if there are too few games, or a game does not end.
+    """
+    games = whole("the number of games", games)
+    if games < LEAST_GAMES:
+        raise UserInputError(f"there must be at least {LEAST_GAMES} games, not {games}")
+    table = lay(player, gate_plan(gate, one_of("target", target, TargetRule)), seed)
+    tallies = []
+    for number in range(games):
+        _play(table, timing)
+        refuse_endless(int(table.game[FLIPS]))
+        tallies.append(tuple(int(count) for count in table.tally))
+        progress(number + 1)
+    return GameResults(tuple(tallies))
+
+
+def _play(table: GameTable, timing: MemoryTiming) -> None:
+    """Play one game; the model leaves flips with a hint out of account, followed or not."""
+    start(table)
+    game = table.game
+    model = MemoryModel([int(mate) for mate in game[MATE : MATE + CARDS]])
+    followed, led = 0, False
+    while playing(game):
+        action = NO_HELP
+        if is_open(game, table.plan):
+            action = ACTIONS.index(timing.action(model.estimate()))
+        matched = take(table, action)
+        if game[FIRST] != NOWHERE:
+            led = table.tally[T_FOLLOWED_FIRST] > followed
+            followed = table.tally[T_FOLLOWED_FIRST]
+        elif led:
+            table.tally[T_LED] += matched
+        model.flip(_last_place(table), hinted=action != NO_HELP)
+
+
+def _last_place(table: GameTable) -> int:
+    game = table.game
+    return next(place for place in range(CARDS) if game[LAST + place] == game[FLIPS])
+
+
+@dataclass(frozen=True, slots=True)
+class TunedTiming:
+    """A pair of thresholds, and what came of games with it."""
+
+    timing: MemoryTiming
+    results: GameResults
+
+
+def tune_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
+    gate: Gate,
+    player: SimulatedPlayer,
+    target: TargetRule,
+    games: int,
+    seed: int,
+    thresholds: Sequence[float],
+    progress: Progress = lambda _: None,
+) -> Iterator[TunedTiming]:
+    """Play games with every pair of thresholds, the same boards for each; yield what came of them."""
+    for number, (first, second) in enumerate(product(thresholds, repeat=2)):
+        timing = checked_timing(first, second)
+        told = lambda played, before=number * games: progress(before + played)  # noqa: E731 - binds the number
+        yield TunedTiming(timing, simulate_timing(timing, gate, player, target, games, seed, told))
+
+
+def best_timing(tried: Sequence[TunedTiming], assistance: float) -> TunedTiming:
+    """Return the fewest flips at no more than this assistance per flip; the least assistance if all give more."""
+    allowed = [each for each in tried if each.results.assistance.mean <= assistance]
+    if not allowed:
+        return min(tried, key=lambda each: each.results.assistance.mean)
+    return min(allowed, key=lambda each: each.results.flips.mean)
