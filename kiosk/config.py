@@ -451,6 +451,10 @@ class Screen(ConfigModel):
     """The window."""
 
     display: Annotated[int, Field(ge=0, le=63, description="Which screen it covers; 0 is the primary one.")] = 0
+    operator_display: Annotated[
+        int,
+        Field(ge=-1, le=63, description="Which screen has the experimenter's strip of one line; -1 is none."),
+    ] = -1
     text_size: Annotated[float, Field(ge=0.5, le=1.3, description="All texts, as a factor of their usual size.")] = 1.0
     motion: Annotated[bool, Field(description="Whether cards turn and screens fade; off for reduced motion.")] = True
     contrast: Annotated[
@@ -466,6 +470,12 @@ class Screen(ConfigModel):
     board_side: Annotated[Side, Field(description="On which side of the assistant the board is, on a wide screen.")] = (
         "left"
     )
+
+    @model_validator(mode="after")
+    def _keep_the_screens_apart(self) -> Self:
+        if self.operator_display == self.display:
+            raise ValueError("operator_display must not be the screen of the visitors, which display names")
+        return self
 
 
 _TEXT_COLOURS = ("#22313F", "#4A5A68", "#8A4B00")

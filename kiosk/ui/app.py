@@ -36,8 +36,9 @@ from kiosk.ui.event_loop import (
 )
 from kiosk.ui.experimenter.actions import Services
 from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
+from kiosk.ui.experimenter.operator_strip import OperatorStrip, operator_screen
 from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
-from kiosk.ui.kiosk_window import KioskWindow
+from kiosk.ui.kiosk_window import KioskWindow, numbered_screens
 from kiosk.ui.markers import MarkerStream
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
@@ -124,6 +125,7 @@ class App:
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         self._publisher = self._publish(settings, recorder) if not virtual else None
+        self._strip = self._open_strip(settings.screen.operator_display, mode, undo)
         if not virtual:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
@@ -184,15 +186,14 @@ class App:
         self.runner.close()
         self._loop.close()
         self.experimenter.close()
-        if self._publisher is not None:
-            self._publisher.close()
+        for part in (self._publisher, self.markers, self._strip):
+            if part is not None:
+                part.close()
         self.embodiments.close()
         self._landing.close()
         self._work.close()
         self._slow.close()
         self.voice.close()
-        if self.markers is not None:
-            self.markers.close()
         if self.booth is not None:
             self.booth.release()
         self._window.close()
@@ -234,9 +235,22 @@ class App:
             return None
         booth = booth_name(settings.remote, recorder.site)
         publisher = StatusPublisher(settings.remote, booth, settings.beside)
-        self.experimenter.status_file.publish = publisher.publish
+        self.experimenter.status_file.observers.append(publisher.publish)
         self.experimenter.remote_trouble = lambda: publisher.trouble
         return publisher
+
+    def _open_strip(self, display: int, mode: RunMode, undo: ExitStack) -> OperatorStrip | None:
+        """Show the experimenter's strip, if the study asks for one and its screen is there."""
+        if display < 0 or mode.display is WindowMode.NOWHERE:
+            return None
+        screen = operator_screen(numbered_screens(), display)
+        if screen is None:
+            return None
+        strip = OperatorStrip(self._window.engine, self.screens.board, self.assigner.study.plans[0].catalogue)
+        undo.callback(strip.close)
+        strip.show(screen)
+        self.experimenter.status_file.observers.append(strip.update)
+        return strip
 
     def _trace_pointer(self, settings: Settings, owner: QObject) -> None:
         """Keep the way of the pointer, if the study records it."""

@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QGuiApplication, QIcon
-from PySide6.QtQml import QQmlApplicationEngine
+from PySide6.QtQml import QQmlApplicationEngine, QQmlEngine
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk import UserInputError
@@ -78,6 +78,11 @@ class Window:
         """Qt's own window."""
         self._held_keys = HeldKeys(self.shown, self.owner)
 
+    @property
+    def engine(self) -> QQmlEngine:
+        """What loads the window's screens, for other windows beside it."""
+        return self._engine
+
     def show(self, display: WindowMode = WindowMode.WINDOW) -> None:
         """Show it as a window that can be left, over the full screen or not."""
         if display is WindowMode.FULL_SCREEN:
@@ -96,17 +101,17 @@ class Window:
         self.shown.close()
         if Window.reuses_engine:
             # The window looks at the screens up to its own end.
-            _delete(self.shown)
-            _delete(self.owner)
+            delete_now(self.shown)
+            delete_now(self.owner)
             Window._left = self._engine
         else:
-            _delete(self._engine)
+            delete_now(self._engine)
 
     @classmethod
     def drop_engine(cls) -> None:
         """Delete the engine that the last window has left, if it has."""
         if cls._left is not None:
-            _delete(cls._left)
+            delete_now(cls._left)
             cls._left = None
 
     def _load(self, settings: Settings, mode: RunMode) -> QQuickWindow:
@@ -136,7 +141,7 @@ class Window:
         return window
 
 
-def _delete(what: QObject) -> None:
+def delete_now(what: QObject) -> None:
     """Delete an object of Qt's now, and not when the event loop comes to it."""
     what.deleteLater()
     QCoreApplication.sendPostedEvents(what, QEvent.Type.DeferredDelete)

@@ -283,7 +283,7 @@ def today_rows(
         ),
         (
             "stage",
-            _capital(translate(f"console-stage-{_kebab(name)}")),
+            stage_name(name, catalogue),
             translate("console-today-minutes", minutes=lasted_ms // MS_PER_MINUTE),
         ),
     )
@@ -296,7 +296,9 @@ def today_rows(
     }
 
 
-def _capital(words: str) -> str:
+def stage_name(stage: str, catalogue: Catalogue) -> str:
+    """Return what the console calls a stage, where it stands alone."""
+    words = catalogue.text(f"console-stage-{_kebab(stage)}")
     return words[:1].upper() + words[1:]
 
 
@@ -513,8 +515,8 @@ class StatusFile:
         self._written_at = 0
         self._failed = False
         self._tick: TimerWait | None = None
-        self.publish: Callable[[BoothStatus], None] = lambda _: None
-        """Called with what is written, each time; returns at once."""
+        self.observers: list[Callable[[BoothStatus], None]] = []
+        """Called with what is written, each time; they return at once."""
 
     def begin(self) -> None:
         """Write it now, and go on writing it."""
@@ -532,7 +534,7 @@ class StatusFile:
         self._tick.cancel()
         self._tick = None
         closed = replace(self._status(), stage=CLOSED)
-        self.publish(closed)
+        self._publish(closed)
         self._took(write_status(self._file, closed))
 
     def _look(self) -> None:
@@ -544,9 +546,13 @@ class StatusFile:
         since_ms = self._clock.now_ms() - self._written_at
         if status.changed_from(self._written) or since_ms >= WRITE_EVERY_S * MS_PER_SECOND:
             self._written, self._written_at = status, self._clock.now_ms()
-            self.publish(status)
+            self._publish(status)
             self._work(partial(write_status, self._file, status), self._took)
         self._tick = self._clock.after(LOOK_MS, self._look)
+
+    def _publish(self, status: BoothStatus) -> None:
+        for observer in self.observers:
+            observer(status)
 
     def _status(self) -> BoothStatus:
         today, ended = self._day

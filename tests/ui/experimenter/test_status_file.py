@@ -132,7 +132,7 @@ def test_the_sessions_of_today_are_counted_and_those_of_yesterday_are_not(assign
 def test_what_is_written_is_published_each_time_and_the_close_as_well(tmp_path: Path) -> None:
     writing = Writing(tmp_path)
     published: list[BoothStatus] = []
-    writing.made.publish = published.append
+    writing.made.observers.append(published.append)
     writing.wait(12)
     writing.made.close()
     assert len(published) >= 3
