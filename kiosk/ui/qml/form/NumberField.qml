@@ -23,17 +23,6 @@ Row {
     signal done()
     signal entered(Item field)
 
-    function press(button: Step, by: int) {
-        // To let go of a button that ran is no step more.
-        if (button.ran && !button.pressed) {
-            button.ran = false
-            return
-        }
-        step(by)
-        button.ran = button.pressed
-        if (!button.pressed)
-            done()
-    }
     function step(by: int) {
         field.text = form.step(item, field.text, by)
     }
@@ -48,6 +37,7 @@ Row {
     component Step: AbstractButton {
         id: button
         property bool up: false
+        required property int by
         width: field.height
         height: field.height
         focusPolicy: Qt.StrongFocus
@@ -58,6 +48,17 @@ Row {
             if (pressed)
                 ran = false
             else if (ran)
+                number.done()
+        }
+        onClicked: {
+            // To let go of a button that ran is no step more.
+            if (ran && !pressed) {
+                ran = false
+                return
+            }
+            number.step(by)
+            ran = pressed
+            if (!pressed)
                 number.done()
         }
         scale: down ? 0.94 : 1
@@ -81,7 +82,7 @@ Row {
     Step {
         objectName: `less-${number.item}`
         Accessible.name: `${number.label} ${number.less}`
-        onClicked: number.press(this, -1)
+        by: -1
     }
     TypedField {
         id: field
@@ -108,7 +109,7 @@ Row {
         objectName: `more-${number.item}`
         up: true
         Accessible.name: `${number.label} ${number.more}`
-        onClicked: number.press(this, 1)
+        by: 1
     }
     PlainText {
         anchors.verticalCenter: parent.verticalCenter
