@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from random import Random
 from typing import Any
 
@@ -160,3 +161,13 @@ STATUS = BoothStatus(
     last_backup_at=None,
 )
 """A booth that waits for a visitor."""
+
+PLAYING = replace(
+    STATUS,
+    at=utc(600_000),
+    stage="game",
+    stage_since=utc(420_000),
+    today=DayCounts(begun=3, completed=2, last_hour=1),
+    parts=(PartStatus("voice", ok=True, message="it speaks"),),
+)
+"""A booth with a game under way for three minutes."""

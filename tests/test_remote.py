@@ -22,20 +22,12 @@ from kiosk import UserInputError
 from kiosk.cli import watch as cli
 from kiosk.cli.main import recollect
 from kiosk.config import Remote
-from kiosk.experiment.booth_status import CLOSED, AlarmStatus, DayCounts, PartStatus, utc
+from kiosk.experiment.booth_status import CLOSED, AlarmStatus, PartStatus, utc
 from kiosk.remote import HUNG_S, LONGEST, LOST, QUEUED, BoothWatch, SeenBooth, StatusPublisher, booth_name, served
 from tests.analysis.chromium import opened_browser
-from tests.samples import STATUS as RESTING
+from tests.samples import PLAYING as STATUS
 
 PATIENCE_S = 30.0
-STATUS = replace(
-    RESTING,
-    at=utc(600_000),
-    stage="game",
-    stage_since=utc(420_000),
-    today=DayCounts(begun=3, completed=2, last_hour=1),
-    parts=(PartStatus("voice", ok=True, message="it speaks"),),
-)
 KIOSK = """
 import sys, time
 from pathlib import Path

@@ -18,7 +18,7 @@ from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.session_config import SessionKind
 from kiosk.files import write_file
 from kiosk.store.day_report import DayReport, DaySession, Happening, quantile, read_day_report
-from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
+from kiosk.units import as_minutes
 
 CSS = ASSETS / "report" / "page.css"
 _OWN_CSS = """
@@ -101,7 +101,7 @@ def _facts(report: DayReport) -> str:
         "Sessions": str(len(sessions)),
         "Completed": str(len(completed)),
         "Ended early": str(early),
-        "Usual length (min:s)": _minutes(median(session.duration_ms for session in completed)) if completed else "-",
+        "Usual length (min:s)": as_minutes(median(session.duration_ms for session in completed)) if completed else "-",
         "From, to": f"{sessions[0].began:%H:%M} - {sessions[-1].began:%H:%M}" if sessions else "-",
     }
     rows = "".join(f"<div><dt>{name}</dt><dd>{html.escape(value)}</dd></div>" for name, value in facts.items())
@@ -121,7 +121,7 @@ def _sections(report: DayReport) -> Iterator[tuple[str, str, str]]:
         "Dropouts",
         _table(
             ("Session", "Ended at", "How", "In", "After (min:s)"),
-            ((str(each.number), f"{_end(each):%H:%M}", *_ending(each), _minutes(each.duration_ms)) for each in early),
+            ((str(each.number), f"{_end(each):%H:%M}", *_ending(each), as_minutes(each.duration_ms)) for each in early),
         ),
     )
     yield "faults", "Faults", _table(("Session", "At", "What"), _happenings(report, lambda each: each.faults))
@@ -144,7 +144,7 @@ def _time_lines(report: DayReport) -> str:
     longest = max((session.duration_ms for session in report.sessions), default=0)
     rows = "".join(
         f'<tr><th scope="row">{session.number}</th><td>{html.escape(session.name)}</td><td>{session.began:%H:%M}</td>'
-        f'<td class="num">{_minutes(session.duration_ms)}</td><td>{html.escape(" in ".join(_ending(session)))}</td>'
+        f'<td class="num">{as_minutes(session.duration_ms)}</td><td>{html.escape(" in ".join(_ending(session)))}</td>'
         f"<td>{_line(session, longest)}</td></tr>\n"
         for session in report.sessions
     )
@@ -164,10 +164,10 @@ def _time_lines(report: DayReport) -> str:
 
 
 def _line(session: DaySession, longest_ms: int) -> str:
-    told = ", ".join(f"{_named(span.stage)} {_minutes(span.end_ms - span.begin_ms)}" for span in session.spans)
+    told = ", ".join(f"{_named(span.stage)} {as_minutes(span.end_ms - span.begin_ms)}" for span in session.spans)
     parts = "".join(
         f'<i style="flex:{max(1, span.end_ms - span.begin_ms)};background:{_COLOURS.get(span.stage, "#888")}" '
-        f'title="{_named(span.stage)} {_minutes(span.end_ms - span.begin_ms)}"></i>'
+        f'title="{_named(span.stage)} {as_minutes(span.end_ms - span.begin_ms)}"></i>'
         for span in session.spans
     )
     width = 100 * session.duration_ms / longest_ms if longest_ms else 0
@@ -176,7 +176,7 @@ def _line(session: DaySession, longest_ms: int) -> str:
 
 def _stages(report: DayReport) -> str:
     rows = (
-        (_named(stage), str(len(taken)), *(_minutes(each) for each in (taken[0], median(taken), taken[-1])))
+        (_named(stage), str(len(taken)), *(as_minutes(each) for each in (taken[0], median(taken), taken[-1])))
         for stage, taken in report.stage_durations_ms().items()
     )
     return _table(("Stage", "Visits", "Shortest (min:s)", "Median", "Longest"), rows)
@@ -220,8 +220,3 @@ def _end(session: DaySession) -> datetime:
 
 def _named(stage: Stage) -> str:
     return stage.value.replace("_", " ")
-
-
-def _minutes(ms: float) -> str:
-    minutes, seconds = divmod(round(ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
-    return f"{minutes}:{seconds:02}"

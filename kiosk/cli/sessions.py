@@ -19,7 +19,7 @@ from kiosk.experiment.events import Status
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.participants import Disposition, EnrolmentCounts
 from kiosk.store.queries import RUNNING, SessionFilter, SessionTotals, StoredSession, open_repository
-from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
+from kiosk.units import MS_PER_SECOND, as_minutes
 
 WIDTH = 160
 """Characters that a line of the list may need."""
@@ -118,7 +118,7 @@ def _table(listed: Sequence[StoredSession], *, codes: bool) -> Iterator[str]:
 
 def _cells(session: StoredSession, own: Sequence[str]) -> tuple[str, ...]:
     row = session.to_json() | {"code": session.code}
-    times = (f"{session.began:%Y-%m-%d %H:%M}", _duration(session.duration_ms))
+    times = (f"{session.began:%Y-%m-%d %H:%M}", as_minutes(session.duration_ms))
     words = (row["session"], *(row[key] for key in own), *times, *(row[key] for key in _WORDS), _NAMES[session.kind])
     return (*map(_word, words), *(str(row[key]) for key in _COUNTS))
 
@@ -135,7 +135,7 @@ def _totals(totals: SessionTotals, shown: int, skip: int) -> Iterator[str]:
         yield "No sessions."
         return
     counts = ", ".join(f"{number:,} {status}" for status, number in sorted(totals.by_status.items()))
-    lasted = "" if totals.median_ms is None else f"; a completed one lasts {_duration(totals.median_ms)} (median)"
+    lasted = "" if totals.median_ms is None else f"; a completed one lasts {as_minutes(totals.median_ms)} (median)"
     yield f"{totals.sessions:,} sessions: {counts}{lasted}."
     if shown < totals.sessions:
         last = totals.sessions - skip
@@ -155,11 +155,6 @@ def _targets(enrolled: EnrolmentCounts) -> Table:
         numbers += [max(0, cell.quota - cell.fates[Disposition.CONSUMED]), cell.withdrawn]
         table.add_row(condition.name, *map(str, numbers))
     return table
-
-
-def _duration(ms: float) -> str:
-    minutes, seconds = divmod(round(ms / MS_PER_SECOND), SECONDS_PER_MINUTE)
-    return f"{minutes}:{seconds:02}"
 
 
 def _word(value: object) -> str:

@@ -178,11 +178,24 @@ def _is_same_memory(game: DealtBoard, flip: int, today: MemoryEstimate | None) -
     stored = game.memories.get(flip)
     if stored is None or today is None:
         return stored is None and today is None
-    numbers = (stored.forgetting, today.forgetting), (stored.match_recalled, today.match_recalled)
-    return all(abs(one - other) <= _LAST_DIGIT for one, other in numbers) and len(stored.recall) == len(today.recall)
+    numbers = (
+        *((stored.forgetting, today.forgetting), (stored.match_recalled, today.match_recalled)),
+        *((stored.completes, today.completes), (stored.last_flip, today.last_flip)),
+    )
+    return (
+        all(_is_close(one, other) for one, other in numbers)
+        and len(stored.recall) == len(today.recall)
+        and all(abs(one - other) <= 1 for one, other in zip(stored.recall, today.recall, strict=True))
+    )
 
 
 _LAST_DIGIT = 0.0002
+
+
+def _is_close(one: float | None, other: float | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return abs(one - other) <= _LAST_DIGIT
 
 
 def _is_same_remark(game: DealtBoard, flip: int, explanation: Explanation) -> bool:

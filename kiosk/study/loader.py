@@ -370,10 +370,10 @@ class _Look:
         if not name:
             return None
         folder = self._settings.beside(name)
-        signed = self.at("assistance.wording", partial(read_signed, folder))
+        signed = self.at(WORDING, partial(read_signed, folder))
         if signed is not None:
             for language in missing_languages(signed, self._settings.language_codes):
-                self._blame("assistance.wording", f"nothing in {folder} is signed for the language {language!r}")
+                self._blame(WORDING, f"nothing in {folder} is signed for the language {language!r}")
             self._came(WORDING, name, Located(folder), signed.sha256, f"signed by {signed.name} on {signed.date}")
         return signed
 
@@ -388,13 +388,11 @@ class _Look:
             return
         signed = messages_in(catalogue.sources[SIGNED_TEXTS])
         for name in sorted(signed - set(hint_messages(catalogue))):
-            self._blame("assistance.wording", f"{words[SIGNED_TEXTS]} has the message {name}, which is not of a hint")
+            self._blame(WORDING, f"{words[SIGNED_TEXTS]} has the message {name}, which is not of a hint")
         for key, source in catalogue.sources.items():
             if key.startswith(REPLACING) and key != SIGNED_TEXTS:
                 for name in sorted(signed & messages_in(source)):
-                    self._blame(
-                        "assistance.wording", f"{words[key]} replaces the message {name}, too; take it out there"
-                    )
+                    self._blame(WORDING, f"{words[key]} replaces the message {name}, too; take it out there")
 
     def _names_of_decks(self, code: str) -> dict[str, CardNames]:
         """Return the tables in which decks name their cards in a language, by what to call them in records."""

@@ -10,11 +10,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-from kiosk import UserInputError
 from kiosk.assistance.memory_model import MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, Gate
-from kiosk.errors import check_between, one_of, whole
+from kiosk.errors import check_between, one_of
 from kiosk.training.simulated_players import SimulatedPlayer
 from kiosk.training.simulation import (
     T_FOLLOWED_FIRST,
@@ -22,6 +21,7 @@ from kiosk.training.simulation import (
     GameResults,
     GameTable,
     Progress,
+    checked_games,
     lay,
     playing,
     refuse_endless,
@@ -32,7 +32,6 @@ from kiosk.training.vectorised_game import CARDS, FIRST, FLIPS, LAST, MATE, NO_H
 
 THRESHOLDS = (0.1, 0.2, 0.3, 0.4, 0.5)
 """What is tried for each of the two cards."""
-LEAST_GAMES = 2
 
 
 def checked_timing(first: float, second: float) -> MemoryTiming:
@@ -55,9 +54,7 @@ def simulate_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
 
     Raises UserInputError if there are too few games, or a game does not end.
     """
-    games = whole("the number of games", games)
-    if games < LEAST_GAMES:
-        raise UserInputError(f"there must be at least {LEAST_GAMES} games, not {games}")
+    games = checked_games(games)
     table = lay(player, gate_plan(gate, one_of("target", target, TargetRule)), seed)
     tallies = []
     for number in range(games):

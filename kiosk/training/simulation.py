@@ -260,6 +260,18 @@ def _share(part: int, whole: int) -> float | None:
     return part / whole if whole else None
 
 
+LEAST_GAMES = 2
+"""A spread needs two."""
+
+
+def checked_games(games: int) -> int:
+    """Return a number of games; raises UserInputError for fewer than LEAST_GAMES."""
+    games = whole("the number of games", games)
+    if games < LEAST_GAMES:
+        raise UserInputError(f"there must be at least {LEAST_GAMES} games, not {games}")
+    return games
+
+
 def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
     policy: QTable,
     player: SimulatedPlayer,
@@ -272,9 +284,7 @@ def simulate_games(  # noqa: PLR0913, PLR0917 - an experiment is all of these
 
     Raises UserInputError if there are too few games, or a game does not end.
     """
-    games = whole("the number of games", games)
-    if games < 2:  # noqa: PLR2004 - a spread needs two
-        raise UserInputError(f"there must be at least 2 games, not {games}")
+    games = checked_games(games)
     table = lay(player, gate_plan(policy.gate, one_of("target", target, TargetRule), policy.actions), seed)
     q = floats([value for row in policy.values for value in row])
     tallies: list[tuple[int, ...]] = []

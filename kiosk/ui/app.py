@@ -124,7 +124,7 @@ class App:
         self._work, self._slow = (InlineExecutor() if virtual else ThreadExecutor(self._landing) for _ in range(2))
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
-        self._publisher = self._publish(settings, recorder) if not virtual else None
+        self._publisher = self._publish(settings, recorder, undo) if not virtual else None
         self._strip = self._open_strip(settings.screen.operator_display, mode, undo)
         if not virtual:
             self.experimenter.upkeep.begin()
@@ -229,12 +229,13 @@ class App:
             leave=self.quit,
         )
 
-    def _publish(self, settings: Settings, recorder: Recorder) -> StatusPublisher | None:
+    def _publish(self, settings: Settings, recorder: Recorder, undo: ExitStack) -> StatusPublisher | None:
         """Publish the status, if the study file asks for it; a rehearsal is no booth that anybody watches."""
         if not settings.remote.mqtt or self.assigner.kind is SessionKind.SIMULATED:
             return None
         booth = booth_name(settings.remote, recorder.site)
         publisher = StatusPublisher(settings.remote, booth, settings.beside)
+        undo.callback(publisher.close)
         self.experimenter.status_file.observers.append(publisher.publish)
         self.experimenter.remote_trouble = lambda: publisher.trouble
         return publisher

@@ -12,20 +12,12 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickItem
 
 from kiosk.config import Settings
-from kiosk.experiment.booth_status import CLOSED, AlarmStatus, DayCounts, PartStatus, utc
+from kiosk.experiment.booth_status import CLOSED, AlarmStatus, PartStatus, utc
 from kiosk.game import Position
 from kiosk.ui.experimenter.operator_strip import OperatorStrip, operator_screen, strip_place
-from tests.samples import ENGLISH, STATUS
+from tests.samples import ENGLISH
+from tests.samples import PLAYING as WELL
 from tests.ui.experimenter.conftest import Desk
-
-WELL = replace(
-    STATUS,
-    at=utc(600_000),
-    stage="game",
-    stage_since=utc(420_000),
-    today=DayCounts(begun=3, completed=2, last_hour=1),
-    parts=(PartStatus("voice", ok=True, message="it speaks"),),
-)
 
 
 @pytest.fixture
