@@ -716,6 +716,9 @@ class ExperimenterConfig(ConfigModel):
             description="The PIN, salted and hashed, as 'study set-pin' prints it; never recorded. Empty: none.",
         ),
     ] = ""
+    hold_corner: Annotated[
+        bool, Field(description="Whether holding an upper corner of the screen for 3 s asks for the PIN.")
+    ] = True
     backup_every: Annotated[
         int,
         Unit("minutes"),

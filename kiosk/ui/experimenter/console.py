@@ -486,7 +486,10 @@ class ExperimenterConsole:
             booth.clock,
             work,
         )
-        screen.listen_for({action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()})
+        screen.listen_for(
+            {action.value: shortcut for action, shortcut in shortcuts(settings.shortcuts).items()},
+            corner=settings.experimenter.hold_corner,
+        )
         screen.pressed.connect(self._pressed)
         screen.held.connect(self._held)
         booth.voice.health_changed.connect(self._voice_changed)

@@ -300,7 +300,7 @@ class ExperimenterScreen(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._shortcuts: list[Row] = []
-        self._calls = False
+        self._calls = self._corner_holds = False
         self._card, self._note, self._panel = CardScreen(self), NoteScreen(self), PanelScreen(self)
 
     @property
@@ -308,10 +308,16 @@ class ExperimenterScreen(QObject):
         """The card, the note and the panel."""
         return self._card, self._note, self._panel
 
-    def listen_for(self, shortcuts: dict[str, str]) -> None:
-        """Listen for these shortcuts, by the names of their actions."""
+    def listen_for(self, shortcuts: dict[str, str], *, corner: bool) -> None:
+        """Listen for these shortcuts, by the names of their actions, and for a finger held in the corner or not."""
         self._shortcuts = [{"action": action, "shortcut": shortcut} for action, shortcut in shortcuts.items()]
+        self._corner_holds = corner
         self.shortcuts_changed.emit()
+
+    @Property(bool, notify=shortcuts_changed)
+    def cornerHolds(self) -> bool:  # noqa: N802 - QML's convention
+        """Whether a held corner asks for the PIN."""
+        return self._corner_holds
 
     def call(self, *, calls: bool) -> None:
         """Show or hide the mark that calls the experimenter; it has no words, for a visitor may be looking."""

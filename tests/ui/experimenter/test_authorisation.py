@@ -317,6 +317,11 @@ def test_a_held_corner_and_a_pin_on_the_screen_open_the_panel(touched: Desk, qtb
     assert not touched.sees("pin-card")
 
 
+@pytest.mark.parametrize("on", [True, False])
+def test_the_study_file_says_whether_the_corner_takes_a_finger(make_assigner: MakeDesk, *, on: bool) -> None:
+    assert make_assigner(experimenter={"hold_corner": on}).item("hold-corner").isEnabled() is on
+
+
 def test_a_wrong_pin_on_the_screen_waits_as_any_other(touched: Desk, qtbot: QtBot) -> None:
     hold(touched, qtbot, until=lambda: touched.card.asks_for is AuthorisationStep.PIN)
     for key in ("1", "1", "1", "1", "enter"):

@@ -48,6 +48,7 @@ Item {
     // For a booth without a keyboard. What lies below takes every touch as if this were not here.
     Item {
         objectName: "hold-corner"
+        enabled: desk.experimenter.cornerHolds
         Accessible.ignored: true
         x: desk.holdsRight ? parent.width - width : 0
         width: 110 * Theme.unit
