@@ -55,6 +55,10 @@ def _compiled(language: str, sources: tuple[tuple[str, str], ...]) -> FluentBund
     return bundle
 
 
+FOR_EXPERIMENTERS = ("console-", "dossier-", "film-", "preview-")
+"""Groups of messages that visitors never see; a language that has none of a group speaks English there."""
+
+
 class Catalogue:
     """All messages of one language: the ``*.ftl`` files of one folder, kept as text in ``sources`` by file name."""
 
@@ -111,7 +115,8 @@ class Catalogue:
             said = catalogue._text(message, variables)
             if said is not None:
                 return said
-            self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
+            if not message.startswith(FOR_EXPERIMENTERS):
+                self._warn(message, f"the message {message!r} cannot be said in {catalogue.language!r}")
         raise KeyError(self._why_not(message, variables))
 
     def wordings(self, message: str, **variables: str | int) -> tuple[str, ...]:
@@ -172,6 +177,17 @@ class Catalogue:
     def messages(self) -> frozenset[str]:
         """The names of all messages."""
         return frozenset(name for name in self.written if not name.startswith("-"))
+
+    def lacking(self, needed: Iterable[str]) -> tuple[str, ...]:
+        """Return those of the needed messages that it lacks, sorted.
+
+        Names of cards may come from elsewhere, and a group for experimenters may be left out as a whole.
+        """
+        left_out = tuple(
+            group for group in FOR_EXPERIMENTERS if not any(name.startswith(group) for name in self.written)
+        )
+        optional = (f"{CARD}-", *left_out)
+        return tuple(sorted(name for name in needed if name not in self.messages and not name.startswith(optional)))
 
     def wordings_of(self, message: str) -> int:
         """Count the wordings of a message in this catalogue.

@@ -318,7 +318,7 @@ class _Look:
             return None
         self.faults += _unknown_texts(catalogue, model)
         self._check_wording(catalogue, words)
-        lacking = sorted(each for each in model.messages - catalogue.messages if not each.startswith(f"{CARD}-"))
+        lacking = catalogue.lacking(model.messages)
         if lacking:
             self.faults.append(f"the sentences in {place.path} lack {', '.join(lacking)}")
         self.faults += _unsaid(actions, catalogue)

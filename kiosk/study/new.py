@@ -14,16 +14,13 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, NO_ROBOT, Settings, pictures_in, shipped_names
 from kiosk.errors import validation_messages
-from kiosk.study.decks import NAMES, names_in, names_table
+from kiosk.study.decks import NAMES, names_in, names_table, read_names
 from kiosk.study.forming import card_forms
 from kiosk.study.reference import as_short_study_file
 
 TEMPLATES = ASSETS / "templates"
 
 STUDY_FILE = "study.toml"
-
-_OWN_FOLDERS = ("information", "questionnaires", "packages")
-"""What a template may bring along, instead of what is shipped for all studies."""
 
 _SHOWN = frozenset(
     (
@@ -52,6 +49,16 @@ class Template:
     def folder(self) -> Path:
         """Where its own files are."""
         return TEMPLATES / self.name
+
+    @property
+    def own_languages(self) -> dict[str, Path]:
+        """The languages that come with it alone, and the folders of their sentences."""
+        return {file.parent.name: file.parent for file in sorted(self.folder.glob("*/screens.ftl"))}
+
+    @property
+    def sentences(self) -> dict[str, Path]:
+        """All languages that a study made from it can have, and the folders of their sentences."""
+        return shipped_names("sentences") | self.own_languages
 
 
 def templates() -> dict[str, Template]:
@@ -88,9 +95,9 @@ class NewStudy:
 
         Raises UserInputError for a language that is not shipped, and for answers that no study file can have.
         """
-        unknown = [language for language in self.languages if language not in shipped_names("sentences")]
+        unknown = [language for language in self.languages if language not in self.template.sentences]
         if unknown or not self.languages:
-            there = ", ".join(shipped_names("sentences"))
+            there = ", ".join(self.template.sentences)
             what = f"the language {unknown[0]!r} is not shipped" if unknown else "a study has at least one language"
             raise UserInputError(f"{what} (shipped are {there}); docs/how-to/add-a-language.md says how to add one")
         settings = self._settings()
@@ -101,6 +108,7 @@ class NewStudy:
             **dict(self._questionnaires()),
             **{f"texts/{language}.ftl": _own_texts(language).encode() for language in self.languages},
             **dict(self._cards()),
+            **dict(self._own_languages()),
             **dict(self._packages()),
         }
 
@@ -136,12 +144,19 @@ class NewStudy:
 
     def _cards(self) -> Iterator[tuple[str, bytes]]:
         """Yield a deck of the study's own, to be replaced by other pictures, and the table of its names."""
-        cards = pictures_in(ASSETS / "cards" / Settings().game.deck)
+        own = self.template.folder / "cards"
+        cards = pictures_in(own if own.is_dir() else ASSETS / "cards" / Settings().game.deck)
         yield from ((f"cards/{file.name}", file.read_bytes()) for file in cards.values())
-        spoken = {language: Catalogue(shipped_names("sentences")[language]) for language in self.languages}
+        spoken = {language: Catalogue(self.template.sentences[language]) for language in self.languages}
         forms = {language: card_forms(catalogue) for language, catalogue in spoken.items()}
-        names = {language: names_in(catalogue, cards) for language, catalogue in spoken.items()}
+        named = {language: names.forms for language, names in read_names(own).items()}
+        names = {language: named.get(language) or names_in(catalogue, cards) for language, catalogue in spoken.items()}
         yield f"cards/{NAMES}", names_table(cards, forms, names).encode()
+
+    def _own_languages(self) -> Iterator[tuple[str, bytes]]:
+        for language, folder in self.template.own_languages.items():
+            if language in self.languages:
+                yield from ((f"{language}/{file.name}", file.read_bytes()) for file in sorted(folder.glob("*.ftl")))
 
     def _packages(self) -> Iterator[tuple[str, bytes]]:
         folder = self.template.folder / "packages"
@@ -175,6 +190,7 @@ def _own_texts(language: str) -> str:
 def _readme(study: NewStudy) -> str:
     template = study.template
     robot = study.robot.get("kind", template.study.get("robot", {}).get("kind"))
+    own = [language for language in study.languages if language in template.own_languages]
     lines = [
         f"# {study.title or template.study['title']}",
         "",
@@ -187,6 +203,10 @@ def _readme(study: NewStudy) -> str:
         "| `questionnaires/` | the questions about the visitor, and those after the game |",
         f"| `cards/` | the pictures (PNG, JPEG, WebP or SVG), and `{NAMES}` with their names |",
         "| `texts/` | own words for single sentences and labels |",
+        *(
+            f"| `{each}/` | all sentences of the language `{each}`, which does not come with Recollect |"
+            for each in own
+        ),
         *(("| `packages/` | Python packages that the study needs |",) if template.packages else ()),
         "",
         "In this folder:",

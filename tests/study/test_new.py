@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import UserInputError
+from kiosk.assistance.wording import Catalogue
 from kiosk.cli.study import check_free
 from kiosk.config import Settings, shipped_names
 from kiosk.experiment.events import Stage
@@ -31,6 +32,11 @@ def written(folder: Path, name: str, **more: object) -> Path:
     return folder / "study.toml"
 
 
+def moved(file: Path) -> Path:
+    """Give the folder of a study another name, and return its file."""
+    return file.parent.rename(file.parent.with_name("Étude nº 2")) / file.name
+
+
 def read(file: Path) -> StudyConfig:
     """Read everything that it names."""
     return read_study(Settings.read(file))
@@ -38,12 +44,13 @@ def read(file: Path) -> StudyConfig:
 
 @pytest.mark.parametrize("name", [template.name for template in RUNNABLE])
 def test_a_new_study_can_be_run_to_its_end_in_every_language_and_condition(name: str, tmp_path: Path) -> None:
-    study = read(written(tmp_path, name))
-    assert study.languages == LANGUAGES
+    languages = (*LANGUAGES, *find_template(name).own_languages)
+    study = read(moved(written(tmp_path / "made", name, languages=languages)))
+    assert study.languages == languages
     assert all(not source.is_shipped for source in study.sources if source.key in {"game.deck", "about_you"})
     conditions = list(study.settings.randomisation.target_n)
     for number, condition in enumerate(conditions):
-        plan = study.plan(LANGUAGES[number % len(LANGUAGES)], study.condition(condition))
+        plan = study.plan(languages[-1 - number % len(languages)], study.condition(condition))
         driver = Driver(plan, seed=number)
         driver.whole_session(with_memory(2))
         assert driver.stage is Stage.OVER, condition
@@ -51,18 +58,29 @@ def test_a_new_study_can_be_run_to_its_end_in_every_language_and_condition(name:
 
 @pytest.mark.parametrize("name", [template.name for template in RUNNABLE])
 def test_nothing_in_a_new_study_is_cautioned_but_its_texts(name: str, tmp_path: Path) -> None:
-    said = study_warnings(read(written(tmp_path, name, languages=("en",))))
+    languages = ("en", *find_template(name).own_languages)
+    said = study_warnings(read(written(tmp_path, name, languages=languages)))
     assert [each for each in said if "ethics board" not in each] == []
     assert [each for each in said if "ethics board" in each] != []
 
 
 def test_every_file_of_a_template_is_in_its_folder() -> None:
     for template in templates().values():
-        files = NewStudy(template, "", "", LANGUAGES, {}).files()
+        files = NewStudy(template, "", "", (*LANGUAGES, *template.own_languages), {}).files()
         here = (file for file in template.folder.rglob("*") if file.is_file() and "__pycache__" not in file.parts)
         names = {file.relative_to(template.folder).as_posix() for file in here} - {"template.toml"}
         assert names - set(files) == set()
         assert {"study.toml", "README.md", "cards/names.csv", "texts/it.ftl", "information/es.toml"} <= set(files)
+
+
+def test_a_language_may_leave_out_what_experimenters_read_but_not_begin_it(tmp_path: Path) -> None:
+    file = written(tmp_path, "two-languages", languages=("de", "en"))
+    german = read(file).plans[0].catalogue
+    assert german.text("about-continue") == "Weiter"
+    assert german.text("console-done") == Catalogue(shipped_names("sentences")["en"]).text("console-done")
+    (file.parent / "de" / "experimenter.ftl").write_text("console-done = Erledigt\n", "utf-8")
+    with pytest.raises(UserInputError, match="lack console-abort"):
+        read(file)
 
 
 def test_the_answers_stand_in_the_study_file(tmp_path: Path) -> None:

@@ -1,0 +1,178 @@
+### Every sentence on the screens and every one that is spoken outside a hint.
+
+language-name = Deutsch
+
+## Attract
+
+attract-title = Weißt du noch, wo?
+attract-line = Spiel mit mir ein Spiel mit Paaren.
+attract-promise = Etwa zehn Minuten. Ohne deinen Namen.
+attract-start = Start
+attract-trial = Probe: Es ist keine PIN gesetzt. { $shortcut } beendet
+attract-trial-keyless = Probe: Es ist keine PIN gesetzt
+attract-greeting =
+    .a = Hallo! Spielen wir?
+    .b = Hier sind Paare versteckt. Findest du alle?
+    .c = Komm näher, ich spiele gern.
+
+## About the study
+
+about-continue = Weiter
+
+## Consent
+
+consent-required = nötig, um teilzunehmen
+consent-optional = wie du möchtest
+consent-missing = Bitte kreuze das an, wenn du teilnehmen möchtest.
+consent-agree = Ich nehme teil
+consent-decline = Spielen ohne Teilnahme
+consent-more = Alles lesen
+consent-less = Weniger zeigen
+
+## Age
+
+age-question = Bist du { $adult } oder älter?
+age-line = Spielen kannst du so oder so. Wenn du jünger bist, wird nichts über dich gespeichert.
+age-yes = Ja
+age-no = Nein
+
+## Introduction
+
+introduction-title = Hallo!
+introduction-speech =
+    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Decke immer zwei Karten auf und finde alle Paare. Ab und zu helfe ich dir. Viel Glück!
+    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare. Decke immer zwei Karten auf, bis alle Paare gefunden sind. Manchmal gebe ich dir einen Tipp. Viel Spaß!
+introduction-speech-alone =
+    .a = Hallo, schön, dass du da bist! Es gibt { $cards } Karten, und jedes Bild ist zweimal da. Decke immer zwei Karten auf und finde alle Paare. Ich schaue zu. Viel Glück!
+    .b = Hallo, ich freue mich, dass du hier bist! { $cards } Karten, { $pairs } Paare. Decke immer zwei Karten auf, bis alle Paare gefunden sind. Viel Spaß!
+introduction-turn = Decke immer zwei Karten auf.
+introduction-match = Zwei gleiche bleiben offen. Zwei verschiedene drehen sich wieder um.
+introduction-help = Ab und zu gebe ich dir einen Tipp. Ob du ihm folgst, entscheidest du.
+introduction-continue = Ich bin bereit
+
+## Practice
+
+practice-title = Übung
+practice-skip = Zum Spiel
+practice-speech =
+    .a = Üben wir erst einmal. Noch zählt nichts, und du kannst zum Spiel weitergehen, wann du möchtest.
+    .b = Zuerst eine kurze Übung. Probiere es in Ruhe aus; wenn es dir reicht, geh weiter zum Spiel.
+
+## Game
+
+game-pairs = { $found } von { $all } Paaren
+game-moves =
+    { $moves ->
+        [one] 1 Zug
+       *[other] { $moves } Züge
+    }
+game-wait-speaking = Einen Moment, ich habe einen Tipp für dich
+game-wait-turning-back = Einen Moment, die Karten drehen sich um
+game-closed-card = Verdeckte Karte, Reihe { $row }, Spalte { $column }
+game-open-card = { $card }, Reihe { $row }, Spalte { $column }
+
+## Result
+
+result-title = Alle Paare gefunden!
+result-moves =
+    { $moves ->
+        [one] in 1 Zug
+       *[other] in { $moves } Zügen
+    }
+result-time =
+    { $minutes ->
+        [0] { $seconds } Sekunden
+       *[other] { $minutes } min { $seconds } s
+    }
+result-time-label = Zeit
+result-moves-label = Züge
+result-pairs-label = Paare
+result-hints-label = Tipps
+result-line = Jedes dieser Paare hast du gefunden. Gut gemacht!
+result-continue = Weiter
+result-speech-few =
+    .a = Wow, was für ein Gedächtnis! Nur { $moves } Züge.
+    .b = { $moves } Züge! Das ging wirklich schnell.
+result-speech-some =
+    .a = Gut gemacht! Du hast { $moves } Züge gebraucht.
+    .b = Schön gespielt, { $moves } Züge.
+result-speech-many =
+    .a = Geschafft, alle Paare sind gefunden! Danke, dass du mit mir gespielt hast.
+    .b = Da sind sie, alle Paare. Das hat Spaß gemacht!
+
+## Questions
+
+form-title = Ein paar Fragen
+form-progress = Seite { $number } von { $all }
+form-next = Weiter
+form-skip = Ohne Antwort weiter
+form-not-applicable = Trifft nicht zu
+form-missing = Bitte beantworte zuerst diese Frage.
+form-skipped = Diese Frage ist noch offen. Du darfst sie auslassen.
+form-wrong-number = Bitte gib eine ganze Zahl von { $lowest } bis { $highest } ein.
+form-refused = Darin ist ein Zeilenumbruch oder ein anderes Zeichen, das nicht gespeichert werden kann. Bitte gib es noch einmal ein.
+form-range = von { $lowest } bis { $highest }
+form-none = Noch nichts gewählt
+form-type = Zum Schreiben hier tippen
+form-less = Eins weniger
+form-more = Eins mehr
+
+## The keyboard on the screen
+
+keyboard-shift = Großbuchstaben
+keyboard-delete = Löschen
+keyboard-space = Leerzeichen
+keyboard-done = Fertig
+keyboard-letters = Buchstaben
+keyboard-accents = Buchstaben mit Akzent
+keyboard-signs = Zeichen
+
+## Debrief
+
+debrief-take-home = Zum Mitnehmen: Fotografiere diese Karte
+debrief-code = Dein Code
+debrief-withdraw-by-mail = Um deine Daten löschen zu lassen, sende diesen Code an { $contact }
+debrief-withdraw-here = Um deine Daten löschen zu lassen, nenne diesen Code den Leuten an diesem Tisch.
+debrief-questions = Fragen zur Studie: { $contact }
+debrief-subject = Bitte meine Daten löschen: { $code }
+debrief-continue = Weiter
+
+## Thanks
+
+thanks-title = Danke!
+thanks-continue = Fertig
+thanks-speech =
+    .a = Danke, dass du mit mir gespielt hast. Auf Wiedersehen!
+    .b = Das war mir eine Freude. Danke, und einen schönen Tag noch!
+
+## Everywhere
+
+scroll-more = Unten geht es weiter
+still-there-title = Bist du noch da?
+still-there-line = Wenn nicht, mache ich alles für das nächste Spiel bereit.
+still-there-yes = Ich bin noch da
+pause-title = Eine kurze Pause
+pause-line = Gleich geht es weiter.
+# time: when the people at the table are back, such as 14:05
+pause-back = Um { $time } geht es weiter.
+pause-help = Bitte frag die Leute an diesem Tisch um Hilfe.
+wait-title = Einen Moment bitte
+wait-line = Es geht von selbst weiter.
+replay-line = Wie weit es abgespielt ist
+replay-differs = weicht von der Aufzeichnung ab
+
+## The corner: what a visitor may do on every screen
+
+control-stop = Aufhören
+control-language = Sprache
+control-text-size = Textgröße
+control-sound-on = Ton einschalten
+control-sound-off = Ton ausschalten
+control-say-again = Noch einmal sagen
+control-back = Zurück
+stop-title = Möchtest du aufhören?
+stop-line-nothing = Über dich wird nichts gespeichert.
+stop-line-kept = Was bisher aufgezeichnet wurde, bleibt gespeichert und gilt als unvollständig. Mit dem Code { $code } kannst du es löschen lassen.
+stop-line-deleted = Was bisher aufgezeichnet wurde, wird gelöscht.
+stop-yes = Jetzt aufhören
+stop-no = Weitermachen
