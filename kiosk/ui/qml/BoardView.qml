@@ -11,7 +11,7 @@ FocusScope {
     required property var words
     required property url cardBack
     required property url cardShadow
-    // Whether the screen is higher than wide: then the tray is large, and lies above the cards in two rows.
+    // Whether the screen is higher than wide: then the tray is a shelf with lines of its own above the cards.
     property bool upright: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
@@ -35,13 +35,22 @@ FocusScope {
     readonly property bool broad: width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
-    readonly property bool tall: upright || height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property real usualStrip: (upright ? 196 : tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
+    readonly property int lines: upright ? (pairs > 6 ? 2 : 1) : tall ? 2 : 1
+    // On an upright screen: the line of words above the tray, and a place of the tray.
+    readonly property real wordsLine: (practises && !skipsBelow ? Math.max(practice.height, skip.height)
+                                                                : Math.max(practises ? practice.height : 0, progress.implicitHeight)) + 16 * Theme.unit
+    readonly property real shelfSlot: Math.floor(Math.min(132 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / lines))))
+    readonly property real usualStrip: upright ? wordsLine + lines * shelfSlot + 8 * Theme.unit
+                                               : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
+    // Where the words about the game stand: above the tray, or beside it in the same line.
+    readonly property real wordsAt: 12 * Theme.unit
+    readonly property real wordsHigh: upright ? wordsLine - 8 * Theme.unit : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property bool skipsBelow: !broad
-        && practice.width + progress.implicitWidth + skip.implicitWidth + 240 * Theme.unit + 5 * Theme.gap > width
+        && practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: 78 * Theme.unit
     readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
@@ -98,7 +107,7 @@ FocusScope {
         id: practice
         visible: view.practises
         x: Theme.gap
-        y: view.broad ? table.y : tray.y + (tray.height - height) / 2
+        y: view.broad ? table.y : view.wordsAt + (view.wordsHigh - height) / 2
         width: named.width + 1.6 * Theme.gap
         height: named.height + 0.5 * Theme.gap
         radius: height / 2
@@ -118,9 +127,9 @@ FocusScope {
     PlainText {
         id: progress
         x: !view.practises ? (view.broad ? Theme.gap : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
-        y: !view.broad ? tray.y : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
+        y: !view.broad ? view.wordsAt : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
-        height: view.broad ? implicitHeight : tray.height
+        height: view.broad ? implicitHeight : view.wordsHigh
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
         text: view.board.progress
@@ -132,9 +141,9 @@ FocusScope {
         // Nothing counts in a practice.
         visible: !view.practises
         x: view.broad ? Theme.gap : table.x + table.width - width
-        y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : tray.y
+        y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : view.wordsAt
         width: view.broad ? view.side - Theme.gap : implicitWidth
-        height: view.broad ? implicitHeight : tray.height
+        height: view.broad ? implicitHeight : view.wordsHigh
         verticalAlignment: Text.AlignVCenter
         wrapMode: view.broad ? Text.Wrap : Text.NoWrap
         text: view.board.moves
@@ -143,13 +152,13 @@ FocusScope {
     }
     Tray {
         id: tray
-        x: view.broad ? view.width - view.side : progress.x + progress.width + Theme.gap
-        y: view.broad ? table.y : 12 * Theme.unit
-        width: view.broad ? view.side - Theme.gap : Math.max(0, end - x - Theme.gap)
+        x: view.broad ? view.width - view.side : view.upright ? table.x - 2 * Theme.gap : progress.x + progress.width + Theme.gap
+        y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
+        width: view.broad ? view.side - Theme.gap : view.upright ? table.width + 4 * Theme.gap : Math.max(0, end - x - Theme.gap)
         readonly property real end: !view.practises ? moves.x : view.skipsBelow ? view.width : skip.x
-        height: view.broad ? table.height : view.strip - 8 * Theme.unit
+        height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
-        lines: view.broad ? Math.ceil(places / 2) : view.tall ? 2 : 1
+        lines: view.broad ? Math.ceil(places / 2) : view.lines
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
         back: view.cardBack
@@ -199,7 +208,7 @@ FocusScope {
         most: view.broad ? view.side - Theme.gap : view.width - 2 * Theme.gap
         x: view.broad ? Theme.gap : view.skipsBelow ? cards.x + (cards.width - width) / 2 : view.width - width - Theme.gap
         y: view.broad ? table.y + table.height - height
-         : view.skipsBelow ? view.height - height - Theme.gap : tray.y + (tray.height - height) / 2
+         : view.skipsBelow ? view.height - height - Theme.gap : view.wordsAt + (view.wordsHigh - height) / 2
         visible: view.practises
         quiet: true
         horizontalPadding: (view.broad ? 20 : 36) * Theme.unit

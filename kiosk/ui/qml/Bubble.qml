@@ -10,6 +10,7 @@ Item {
     required property string sentence
     required property bool hasSpeaker   // whether there is a face below it to point at
     property bool thinks: false         // whether it is still looking for words
+    property bool large: false          // whether there is width for larger letters
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
@@ -32,7 +33,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: text.length > 130 ? Theme.reading : Theme.body
+        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.large ? 6 : 0))
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }

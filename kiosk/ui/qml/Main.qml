@@ -100,11 +100,12 @@ Window {
         // A form without an onlooker stands in the middle.
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
         width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
-        // On an upright screen the assistant stands below: with its sentence, alone, or not at all.
+        // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
+        // large texts, but on a form, where the keys of a number stand in its place.
         height: root.wide ? root.room - root.said
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
-        readonly property real upright: !root.speaks ? 0.78
+        readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.86 : 0.78)
               : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.56, 0.56 + 0.25 * (root.texts - 1)))
               : !boardView.visible ? 0.64
               : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
@@ -243,11 +244,11 @@ Window {
         // The keys of a number stand in its place.
         z: root.kiosk.screen === "form" && !root.kiosk.paused ? -1 : 0
         readonly property bool below: !root.wide || root.whole
-        x: below ? root.width * 0.12 : root.boardOnRight ? Theme.gap : stage.width
+        x: below ? (root.width - width) / 2 : root.boardOnRight ? Theme.gap : stage.width
         // A whole number: edges that move by fractions do not come back to the last bit.
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         y: below ? stage.y + stage.height : above
-        width: below ? root.width * 0.76 : root.width - stage.width - Theme.gap
+        width: below ? root.width * (broad ? 0.88 : 0.76) : root.width - stage.width - Theme.gap
         height: below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
@@ -255,7 +256,8 @@ Window {
         thinks: boardView.visible && root.board.speaking
         rests: root.kiosk.paused
         // Large sentences need the room.
-        share: root.wide ? 0.52 : root.texts <= 1.15 ? 0.72 : 0.64
+        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.76 : 0.72) : 0.64
+        broad: !root.wide
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)

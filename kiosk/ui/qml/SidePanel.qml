@@ -14,6 +14,8 @@ Item {
     property bool thinks: false
     // How much of the height the face has, where it speaks.
     property real share: 0.52
+    // Whether it has the width of an upright screen for what it says.
+    property bool broad: false
     // Whether it rests, with its eyes shut and in silence.
     property bool rests: false
     // A sentence that was read long ago, and is not shown any more.
@@ -88,6 +90,7 @@ Item {
         thinks: panel.speaks && !panel.rests && panel.thinks && panel.avatar.bubble === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
+        large: panel.broad
     }
     Avatar {
         id: face

@@ -15,6 +15,13 @@ Column {
 
     Grid {
         id: tiles
+        // All are as high as the one that needs most.
+        readonly property real highest: {
+            let most = 0
+            for (let i = 0; i < numbers.count; i++)
+                most = Math.max(most, numbers.itemAt(i)?.implicitHeight ?? 0)
+            return most
+        }
         readonly property real each: (today.width - (columns - 1) * spacing) / columns
 
         width: parent.width
@@ -27,6 +34,7 @@ Column {
                 required property var modelData
                 objectName: "today-" + modelData.name
                 width: tiles.each
+                height: tiles.highest
                 title: modelData.title
                 value: modelData.value
                 line: modelData.line

@@ -26,18 +26,21 @@ FocusScope {
     Item {
         id: head
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: view.space }
-        height: Math.max(close.height, clock.height, session.height)
+        // On a narrow screen what is going on stands in a line of its own.
+        readonly property bool narrow: !view.wide
+        readonly property real line: Math.max(close.height, clock.height, title.height)
+        height: narrow ? line + session.height + 0.3 * Theme.gap : Math.max(line, session.height)
 
         PlainText {
             id: title
-            anchors.verticalCenter: parent.verticalCenter
+            y: ((head.narrow ? head.line : head.height) - height) / 2
             text: view.words["console-title"]
             font { pixelSize: Theme.dense * 1.35; bold: true }
             color: Theme.ink
         }
         Row {
             id: pages
-            anchors { left: title.right; leftMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            anchors { left: title.right; leftMargin: Theme.gap; verticalCenter: title.verticalCenter }
             spacing: 9 * Theme.unit
             PanelButton {
                 objectName: "panel-today"
@@ -60,7 +63,9 @@ FocusScope {
         }
         PlainText {
             id: session
-            anchors { left: pages.right; right: clock.left; margins: Theme.gap; verticalCenter: parent.verticalCenter }
+            x: head.narrow ? 0 : pages.x + pages.width + Theme.gap
+            y: head.narrow ? head.height - height : (head.height - height) / 2
+            width: (head.narrow ? head.width : clock.x - Theme.gap) - x
             text: view.panel.choices.session
             font.pixelSize: Theme.dense
             color: Theme.faintInk
@@ -69,7 +74,7 @@ FocusScope {
         PlainText {
             id: clock
             objectName: "today-clock"
-            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: parent.verticalCenter }
+            anchors { right: close.left; rightMargin: Theme.gap; verticalCenter: title.verticalCenter }
             text: view.panel.today.clock
             font { pixelSize: Theme.dense * 1.8; bold: true }
             color: Theme.ink
