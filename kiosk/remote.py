@@ -187,6 +187,22 @@ def _is_here(host: str) -> bool:
         return host == "localhost"
 
 
+_ALARMS = {
+    "robot_lost": "the robot is lost",
+    "voice_lost": "no sentence is heard",
+    "disk_low": "the disk has not enough room for another hour",
+    "early_exits": "three visitors in a row left early",
+    "restarted": "the kiosk failed and was started again",
+    "clock_changed": "the clock was changed",
+    "backup_old": "the last copy is older than a day",
+    "no_visitor": "no visitor for a long time",
+}
+"""The alarms in words; a newer booth may have others."""
+
+_PARTS = {"robot_lost": "robot", "voice_lost": "voice", "disk_low": "disk"}
+"""The part of the status that an alarm is about."""
+
+
 @dataclass(frozen=True)
 class SeenBooth:
     """What is known of a booth; ``heard_s`` is a time of the watcher's clock."""
@@ -208,11 +224,19 @@ class SeenBooth:
 
     @property
     def troubles(self) -> list[str]:
-        """Say in words what is not well: the alarms that hold, and the parts that fail."""
+        """Say in words what is not well: the alarms that hold, and the parts that fail.
+
+        An alarm is left out where the part that it is about says more.
+        """
         if self.status is None:
             return []
-        alarms = [alarm.kind.replace("_", " ") for alarm in self.status.alarms if alarm.passed is None]
-        return [*alarms, *(f"{part.name}: {part.message}" for part in self.status.failing)]
+        failing = {part.name: part.message for part in self.status.failing}
+        alarms = [
+            _ALARMS.get(alarm.kind, alarm.kind.replace("_", " "))
+            for alarm in self.status.alarms
+            if alarm.passed is None and _PARTS.get(alarm.kind) not in failing
+        ]
+        return [*alarms, *(f"{name}: {message}" for name, message in failing.items())]
 
     def row(self, now_s: float, *, connected: bool) -> dict[str, Any]:
         """Return the booth as lists show it; without a connection to the broker nothing is known of now."""
@@ -221,6 +245,7 @@ class SeenBooth:
             "state": self.state(now_s) if connected else "unknown",
             "stage": "",
             "minutes": 0,
+            "paused": False,
             "today": {},
             "trouble": self.troubles,
             "heard_s": round(now_s - self.heard_s),
@@ -230,7 +255,8 @@ class SeenBooth:
         lasted = self.status.age_s(datetime.fromisoformat(self.status.stage_since))
         # Both times are the booth's, so that no clock has to agree with another.
         minutes = round((now_s - self.heard_s - lasted) // 60)
-        return row | {"stage": self.status.stage, "minutes": max(0, minutes), "today": asdict(self.status.today)}
+        now = {"stage": self.status.stage, "minutes": max(0, minutes), "paused": self.status.paused}
+        return row | now | {"today": asdict(self.status.today)}
 
 
 class BoothWatch:

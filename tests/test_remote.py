@@ -22,6 +22,7 @@ from kiosk import UserInputError
 from kiosk.cli import watch as cli
 from kiosk.cli.main import recollect
 from kiosk.config import Remote
+from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, AlarmStatus, PartStatus, utc
 from kiosk.remote import HUNG_S, LONGEST, LOST, QUEUED, BoothWatch, SeenBooth, StatusPublisher, booth_name, served
 from tests.analysis.chromium import opened_browser
@@ -311,12 +312,20 @@ def test_what_is_no_status_is_left_alone(payload: bytes, watch: BoothWatch) -> N
 def test_alarms_that_hold_and_parts_that_fail_are_told() -> None:
     alarms = (
         AlarmStatus("robot_lost", utc(0), seen=False, passed=None),
+        AlarmStatus("disk_low", utc(0), seen=False, passed=None),
+        AlarmStatus("flooded_hall", utc(0), seen=False, passed=None),
         AlarmStatus("no_visitor", utc(0), seen=True, passed=utc(1)),
     )
     ill = replace(STATUS, alarms=alarms, parts=(PartStatus("disk", ok=False, message="only 20 MiB free"),))
     booth = SeenBooth("hall-2", ill)
     assert booth.state(0) == "trouble"
-    assert booth.troubles == ["robot lost", "disk: only 20 MiB free"]
+    assert booth.troubles == ["the robot is lost", "flooded hall", "disk: only 20 MiB free"]
+
+
+def test_every_alarm_has_words_for_those_who_watch_from_afar() -> None:
+    for kind in AlarmKind:
+        alarm = AlarmStatus(kind.value, utc(0), seen=False, passed=None)
+        assert " " in SeenBooth("hall-2", replace(STATUS, alarms=(alarm,))).troubles[0]
 
 
 def test_the_command_prints_a_table_and_tells_by_its_exit_code(
@@ -370,8 +379,9 @@ def test_twenty_booths_on_one_page_and_what_happens_to_them(watch: BoothWatch, t
             "booth-04",
             replace(STATUS, parts=(PartStatus("robot", ok=False, message="<b>gone</b>"),)).to_json().encode(),
         )
-        until(lambda: browser.value("document.getElementById('line').textContent") == "booth-03, booth-04: look there")
+        until(lambda: browser.value("document.getElementById('line').textContent") == "2 of 20 booths need you")
         shown = browser.value(headings)
-        assert "lost" in shown[3]
-        assert "robot: <b>gone</b>" in shown[4]
+        assert [text.split()[0] for text in shown[:3]] == ["booth-03", "booth-04", "booth-00"]
+        assert "lost" in shown[0]
+        assert "robot: <b>gone</b>" in shown[1]
         assert browser.named("Runtime.exceptionThrown") == []
