@@ -176,6 +176,26 @@ def test_frame_time_while_cards_turn(benchmark: Any, tmp_path: Path) -> None:
     benchmark.extra_info["processor ms per frame"] = {"p50": round(median(spent), 1), "p99": round(p99, 1)}
 
 
+@pytest.mark.usefixtures("qapp")
+@pytest.mark.benchmark(group="board arrives")
+def test_arrival_of_the_board(benchmark: Any, tmp_path: Path) -> None:
+    """From an empty table until the first frame with all 24 cards is drawn, at 1080 lines."""
+    with headless(Settings(), tmp_path) as app:
+        app.screens.kiosk.show("game")
+
+        def empty() -> None:
+            app.screens.board.clear()
+            lay_out(app.window)
+
+        def arrive() -> None:
+            app.screens.board.deal(4, 6, 12, "animals")
+            lay_out(app.window)
+            app.window.grabWindow()
+
+        benchmark.pedantic(arrive, setup=empty, rounds=30, warmup_rounds=1)
+    tell_percentiles(benchmark)
+
+
 MOST_OF_A_CORE = 0.15
 """What the start screen may cost all day."""
 

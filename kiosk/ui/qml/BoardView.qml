@@ -96,6 +96,8 @@ FocusScope {
                 Image {
                     required property string modelData
                     visible: false
+                    // Beside the frames: a card that is turned before that loads its own.
+                    asynchronous: true
                     source: modelData
                     sourceSize: Qt.size(loaded.modelData, loaded.modelData)
                 }

@@ -12,6 +12,7 @@ Item {
     // How much of the shadow is seen: a card that lies flat has none.
     property real shade: 1
 
+    // A card is a square. Its pictures depend on its width alone: a change of both sides would load each of them twice.
     // 0 closed .. 1 open; the side changes half way.
     property real turn: up ? 1 : 0
     Behavior on turn { NumberAnimation { duration: Theme.motion * 1.5; easing.type: Easing.InOutSine } }
@@ -31,7 +32,7 @@ Item {
         height: parent.height * 1.1
         opacity: card.shade * (1 - 0.4 * card.lift)
         source: card.shadow
-        sourceSize: Qt.size(width, height)
+        sourceSize: Qt.size(1.1 * card.width, 1.1 * card.width)
         transform: Scale {
             origin.x: card.width * 0.55
             xScale: card.narrow
@@ -52,7 +53,7 @@ Item {
         anchors.fill: parent
         visible: card.turn < 0.5
         source: card.back
-        sourceSize: Qt.size(width, height)
+        sourceSize: Qt.size(card.width, card.width)
         transform: [
             Scale { origin.x: card.width / 2; xScale: card.narrow },
             Translate { x: card.lean }
@@ -62,7 +63,7 @@ Item {
         anchors.fill: parent
         visible: card.turn >= 0.5
         source: card.picture
-        sourceSize: Qt.size(width, height)
+        sourceSize: Qt.size(card.width, card.width)
         transform: [
             Scale { origin.x: card.width / 2; xScale: card.narrow },
             Translate { x: card.lean }

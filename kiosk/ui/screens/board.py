@@ -109,20 +109,25 @@ class BoardScreen(QAbstractListModel):
         self._reset(0, 0, 0, practice=False)
 
     def _reset(self, rows: int, columns: int, pairs: int, *, practice: bool) -> None:
-        self.beginResetModel()
+        # The old cards go first, and the new ones come last: none is made in the size of another board.
+        self._put([])
         self._rows, self._columns, self._pairs = rows, columns, pairs
         self._practice = practice
-        self._faces = [_Face() for _ in range(rows * columns)]
         self._tray = []
-        self._deck = self._pictures.deck(self._deck_name) if self._faces else []
-        self.endResetModel()
-        self.dealt.emit()
+        self._deck = self._pictures.deck(self._deck_name) if rows * columns else []
         self._pairs_found = self._moves = 0
         self._wait = None
         self.changed.emit()
+        self._put([_Face() for _ in range(rows * columns)])
+        self.dealt.emit()
         self.counted.emit()
         self.waited.emit()
         self.clear_highlight()
+
+    def _put(self, faces: list[_Face]) -> None:
+        self.beginResetModel()
+        self._faces = faces
+        self.endResetModel()
 
     def reveal(self, position: Position, card: str) -> None:
         """Show one card's picture."""
