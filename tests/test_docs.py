@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from queue import SimpleQueue
 from types import ModuleType
@@ -206,3 +207,24 @@ def test_the_card_for_the_table_has_every_shortcut() -> None:
     page = (ROOT / "docs" / "reference" / "checklists.md").read_text("utf-8")
     pressed = re.findall(r"^\| .+ \| (Ctrl\+\S+) \|$", page.partition("## The card for the table")[2], flags=re.M)
     assert sorted(pressed) == sorted(Settings().shortcuts.model_dump().values())
+
+
+def test_the_sample_data_set_has_the_columns_that_an_export_has_today() -> None:
+    sample = ROOT / "docs" / "sample" / "memory-at-the-fair.zip"
+    tables = re.split(r"^## ", REFERENCE.GENERATED["reference/columns.md"](), flags=re.M)[1:]
+    declared = {
+        part.split("\n", 1)[0]: {
+            name for name in re.findall(r"^\| `(\w+)` \|", part, flags=re.M) if not name.endswith(("_sum", "_mean"))
+        }
+        for part in tables
+    }
+    with zipfile.ZipFile(sample) as archive:
+        there = {
+            name: set(archive.read(file).decode("utf-8").splitlines()[0].split(","))
+            for file in archive.namelist()
+            for name in declared
+            if file.endswith(f"_description-{name}_data.csv")
+        }
+    assert there.keys() == declared.keys()
+    lacking = {name: columns - there[name] for name, columns in declared.items() if columns - there[name]}
+    assert lacking == {}, "run `python packaging/make_sample.py` and commit what it writes"
