@@ -199,6 +199,8 @@ class AuditEvent(Enum):
     PIN_REFUSED = "PinRefused"
     PIN_ACCEPTED = "PinAccepted"
     PANEL_OPENED = "PanelOpened"
+    BREAK_BEGAN = "BreakBegan"
+    BREAK_ENDED = "BreakEnded"
     APPLICATION_QUIT = "ApplicationQuit"
     BACKUP_MADE = "BackupMade"
     BACKUP_FAILED = "BackupFailed"

@@ -148,6 +148,35 @@ def wrong_pins(folder: Path) -> WrongPins:
     return WrongPins(times, last_ms)
 
 
+@dataclass(frozen=True)
+class OpenBreak:
+    """A break between visitors that was not ended."""
+
+    minutes: int
+    back_ms: int
+    """When the experimenter wanted to be back, in ms since 1970."""
+
+
+LONGEST_BREAK_MS = 12 * MS_PER_HOUR
+"""A break that began before that was forgotten the day before."""
+
+
+def open_break(folder: Path, now_ms: int) -> OpenBreak | None:
+    """Return the break that a failed kiosk left open, or None. Leaving the kiosk ends a break."""
+    kinds = (AuditEvent.BREAK_BEGAN, AuditEvent.BREAK_ENDED, AuditEvent.APPLICATION_QUIT)
+    with _looking_at(folder) as connection:
+        row = connection.execute(
+            """
+            SELECT type, payload FROM audit_event WHERE type IN (?, ?, ?) AND wall_ms >= ? ORDER BY id DESC LIMIT 1
+            """,
+            (*(kind.value for kind in kinds), now_ms - LONGEST_BREAK_MS),
+        ).fetchone()
+    if row is None or row[0] != AuditEvent.BREAK_BEGAN.value:
+        return None
+    payload = json.loads(row[1])
+    return OpenBreak(payload["minutes"], payload["back_ms"])
+
+
 @contextmanager
 def _looking_at(folder: Path) -> Iterator[sqlite3.Connection]:
     with closing(open_for_reading(folder)) as connection:

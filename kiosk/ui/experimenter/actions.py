@@ -20,7 +20,7 @@ from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, Devi
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.robots.embodiment import EmbodimentSelector, Health
 from kiosk.store.recorder import Recorder, StoreBusy
-from kiosk.store.snapshot import InterruptedSession, UnreadableSession
+from kiosk.store.snapshot import InterruptedSession, OpenBreak, UnreadableSession
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.experimenter.authorisation import AuthorisationFlow
 from kiosk.ui.experimenter.maintenance import MaintenanceScheduler
@@ -28,7 +28,7 @@ from kiosk.ui.experimenter.view_model import NoteScreen
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import BusyWait, ConditionAssigner, SessionRunner
 from kiosk.ui.voice import Voice
-from kiosk.units import MS_PER_MINUTE
+from kiosk.units import MS_PER_MINUTE, MS_PER_SECOND
 
 NOTE_MS = 2_000
 """How long a note stays; as long the condition's shortcut goes on without asking anew."""
@@ -355,15 +355,27 @@ class ActionController:
 
     def _break(self, choice: str, _reason: str) -> None:
         """Show when the people at the table are back, in so many minutes; without a choice the break ends."""
-        runner, kiosk = self._booth.runner, self._booth.screens.kiosk
-        self.break_minutes = int(choice or 0)
+        runner, minutes = self._booth.runner, int(choice or 0)
+        back = datetime.now().astimezone() + timedelta(minutes=minutes)
         if self.resting:
+            # A session records its pauses itself. Between sessions, this tells a kiosk that starts again.
+            began = {"minutes": minutes, "back_ms": int(back.timestamp() * MS_PER_SECOND)}
+            if not self._written(*((AuditEvent.BREAK_BEGAN, began) if choice else (AuditEvent.BREAK_ENDED, {}))):
+                return
             runner.set_break(taken=bool(choice))
         else:
             self._dispatch(happened.PauseRequested(at_ms=runner.now_ms()))
             self.paused_by_panel = not choice
-        back = datetime.now().astimezone() + timedelta(minutes=self.break_minutes)
-        kiosk.come_back_at(f"{back:%H:%M}" if choice else "")
+        self._show_break(minutes, back)
+
+    def resume_break(self, left: OpenBreak) -> None:
+        """Go on with a break that was under way when the kiosk failed."""
+        self._booth.runner.set_break(taken=True)
+        self._show_break(left.minutes, datetime.fromtimestamp(left.back_ms / MS_PER_SECOND).astimezone())
+
+    def _show_break(self, minutes: int, back: datetime) -> None:
+        self.break_minutes = minutes
+        self._booth.screens.kiosk.come_back_at(f"{back:%H:%M}" if minutes else "")
 
     def break_choices(self) -> tuple[int, ...]:
         """Return the lengths of a break that can be chosen now, in minutes; a session ends after its longest pause."""

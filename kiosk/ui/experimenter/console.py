@@ -25,6 +25,7 @@ from kiosk.sd_notify import BEAT_WITHIN
 from kiosk.store.snapshot import (
     DashboardSnapshot,
     last_written_ms,
+    open_break,
     read_day,
     read_interrupted_session,
     read_snapshot,
@@ -494,6 +495,9 @@ class ExperimenterConsole:
         screen.held.connect(self._held)
         booth.voice.health_changed.connect(self._voice_changed)
         booth.embodiments.on_own_voice = self._robot_uses_own_voice
+        left = open_break(folder, now_ms())
+        if left is not None:
+            self.actions.resume_break(left)
 
     def close(self) -> None:
         """Listen no more, and write down what is left to be."""

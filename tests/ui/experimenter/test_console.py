@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from datetime import datetime, timedelta
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -18,10 +19,12 @@ from kiosk.experiment.experimenter import Action
 from kiosk.store.maintenance import FreeSpace
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
+from kiosk.store.snapshot import LONGEST_BREAK_MS, OpenBreak, open_break
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.experimenter.console import CLOSE_MS, WORDS
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from kiosk.ui.simulated_visitor import find_item
+from kiosk.units import MS_PER_SECOND
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
@@ -139,6 +142,34 @@ def test_a_break_between_visitors_takes_none_until_it_is_ended(assigner: Desk, e
     assert kiosk.back_at == ""
     assigner.app.runner.start("en")
     assert assigner.stage is not Stage.ATTRACT
+
+
+def test_a_break_between_visitors_outlives_a_failure_of_the_kiosk(make_assigner: MakeDesk) -> None:
+    failing = make_assigner()
+    failing.open_panel()
+    failing.click("break-30")
+    told = failing.app.screens.kiosk.property("pauseLine")
+    ((minutes, back_ms),) = [each.values() for kind, each in failing.notes if kind == "BreakBegan"]
+    assert minutes == 30
+    assert f"{datetime.fromtimestamp(back_ms / MS_PER_SECOND).astimezone():%H:%M}" in told
+    failing.close()
+    again = make_assigner(data=failing.data)
+    assert again.screen == "pause"
+    assert again.app.screens.kiosk.property("pauseLine") == told
+    again.open_panel()
+    again.click("break-end")
+    assert again.notes[-1] == ("BreakEnded", {})
+    again.close()
+    assert make_assigner(data=failing.data).screen == "attract"
+
+
+def test_a_break_is_not_taken_up_again_by_a_kiosk_that_was_left_or_on_another_day(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder:
+        recorder.add_audit_event("BreakBegan", {"minutes": 15, "back_ms": 900_000}, wall_ms=1)
+        assert open_break(tmp_path, 2) == OpenBreak(15, 900_000)
+        assert open_break(tmp_path, 2 + LONGEST_BREAK_MS) is None
+        recorder.add_audit_event("ApplicationQuit", {"stage": "over", "reason": ""}, wall_ms=2)
+    assert open_break(tmp_path, 2) is None
 
 
 def test_nothing_behind_the_panel_can_be_reached(assigner: Desk) -> None:
