@@ -760,7 +760,7 @@ class ExperimenterConfig(ConfigModel):
     @classmethod
     def _hash_the_pin(cls, pin: str) -> str:
         # It is not repeated: it may be the PIN itself.
-        if not re.fullmatch(r"(scrypt:[0-9a-f]{32}:[0-9a-f]{64})?", pin):
+        if not re.fullmatch(r"(scrypt:1[0-8]:[0-9a-f]{32}:[0-9a-f]{64})?", pin):
             raise ValueError("this is no hashed PIN, such as 'recollect study set-pin' prints")
         return pin
 

@@ -22,7 +22,7 @@ COPIED = ("etc/apt/apt.conf.d", "etc/apt/auth.conf.d", "etc/ssl/certs", "etc/res
 
 INSIDE = 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"'
 
-PIN = f"scrypt:{'0' * 32}:{'0' * 64}"
+PIN = f"scrypt:16:{'0' * 32}:{'0' * 64}"
 """A PIN of the right form, which no digits open."""
 
 KEEP = f"""

@@ -29,7 +29,7 @@ from kiosk.game import Board
 SHORT = ("introduction", "game", "result", "questions")
 """The stages around a game, with nothing to be decided beforehand."""
 
-WITH_PIN = f'[experimenter]\npin_hash = "scrypt:{"0" * 32}:{"0" * 64}"\n'
+WITH_PIN = f'[experimenter]\npin_hash = "scrypt:10:{"0" * 32}:{"0" * 64}"\n'
 """The lines of a study file for a PIN of the right form, which no digits open."""
 
 CATALOGUES = {folder.name: Catalogue(folder) for folder in sorted((ASSETS / "sentences").iterdir())}

@@ -105,9 +105,9 @@ def set_pin_command(*, as_json: bool) -> None:
 
     The line belongs in the study file.
     """
-    from kiosk.experiment.experimenter import SALT_BYTES, hash_pin
+    from kiosk.experiment.experimenter import LEAST, MOST, SALT_BYTES, hash_pin
 
-    chosen = _ask("PIN (4 to 12 digits)")
+    chosen = _ask(f"PIN ({LEAST} to {MOST} digits)")
     if _ask("The same again") != chosen:
         raise UserInputError("the two PINs are not the same; nothing was changed")
     line = hash_pin(chosen, secrets.token_bytes(SALT_BYTES))

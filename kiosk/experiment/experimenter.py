@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 from types import MappingProxyType
 
 from kiosk import UserInputError
@@ -227,41 +228,53 @@ DEVIATIONS = frozenset(
 """What a day's protocol has to tell; the rest is routine."""
 
 
-LEAST, MOST = 4, 12
+LEAST, MOST = 6, 12
 """How many digits a PIN has."""
 
 SALT_BYTES = 16
 LONGEST_WAIT_MS = 60_000
 _FIRST_WAIT_MS = 1_000
-_COST, _BLOCK, _WORKERS = 2**14, 8, 1
-"""What scrypt is made to cost: about 50 ms and 16 MB for each try."""
+COST = 16
+"""The power of two that scrypt is made to cost: about 200 ms and 64 MiB for each try."""
+
+_BLOCK, _WORKERS = 8, 1
 
 _KEY_BYTES = 32
+_LEAST_DIFFERENT = 4
 _PIN = re.compile(rf"[0-9]{{{LEAST},{MOST}}}", re.ASCII)
 
 
-def hash_pin(pin: str, salt: bytes) -> str:
+def hash_pin(pin: str, salt: bytes, cost: int = COST) -> str:
     """Return a PIN as the study file keeps it.
 
-    Raises UserInputError if it is none. ``salt`` is 16 random bytes.
+    Raises UserInputError if it is none, or one that people guess first. ``salt`` is 16 random bytes.
     """
     if not _PIN.fullmatch(pin):
         raise UserInputError(f"a PIN has {LEAST} to {MOST} digits and nothing else")
-    return f"scrypt:{salt.hex()}:{_key(pin, salt).hex()}"
+    if _is_guessed_first(pin):
+        raise UserInputError("this PIN is too easy to guess: do not repeat or count, and use at least 4 digits")
+    return f"scrypt:{cost}:{salt.hex()}:{_key(pin, salt, cost).hex()}"
+
+
+def _is_guessed_first(pin: str) -> bool:
+    """Return whether a PIN is one digit, one part, or one step over and over, or made of few digits."""
+    steps = {(int(after) - int(before)) % 10 for before, after in pairwise(pin)}
+    # A text is a shorter one repeated if it stands in its double before the end.
+    return len(steps) == 1 or (pin + pin).find(pin, 1) < len(pin) or len(set(pin)) < _LEAST_DIFFERENT
 
 
 def pin_matches(pin: str, line: str) -> bool:
     """Tell whether this is the PIN that the study file keeps.
 
-    It takes about 50 ms, as long for a wrong one as for a right.
+    It takes about 200 ms, as long for a wrong one as for a right.
     """
-    _, salt, key = line.split(":")
-    return hmac.compare_digest(_key(pin, bytes.fromhex(salt)), bytes.fromhex(key))
+    _, cost, salt, key = line.split(":")
+    return hmac.compare_digest(_key(pin, bytes.fromhex(salt), int(cost)), bytes.fromhex(key))
 
 
 @dataclass(frozen=True)
 class WrongPins:
-    """How many wrong PINs there were in a row, and when the last one came, in ms since 1970."""
+    """How many wrong PINs came in a row, and when the last one came, in monotonic ms."""
 
     times: int = 0
     last_ms: int = 0
@@ -275,9 +288,11 @@ class WrongPins:
         return min(LONGEST_WAIT_MS, _FIRST_WAIT_MS << min(self.times - 1, LONGEST_WAIT_MS.bit_length()))
 
     def left_ms(self, now_ms: int) -> int:
-        """How long that still is; a clock that was set back never makes the wait longer than from now."""
+        """How long that still is."""
         return min(self.wait_ms, max(0, self.last_ms + self.wait_ms - now_ms))
 
 
-def _key(pin: str, salt: bytes) -> bytes:
-    return hashlib.scrypt(pin.encode(), salt=salt, n=_COST, r=_BLOCK, p=_WORKERS, dklen=_KEY_BYTES)
+def _key(pin: str, salt: bytes, cost: int) -> bytes:
+    # OpenSSL wants the memory to be allowed: 128 bytes for each block, and a little.
+    memory = 128 * _BLOCK * ((1 << cost) + _WORKERS + 2)
+    return hashlib.scrypt(pin.encode(), salt=salt, n=1 << cost, r=_BLOCK, p=_WORKERS, maxmem=memory, dklen=_KEY_BYTES)

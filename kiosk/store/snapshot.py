@@ -15,7 +15,7 @@ from kiosk import UserInputError
 from kiosk.experiment.booth_status import DayCounts, EndedSession, utc
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage, Status, WorldEvent
-from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent, WrongPins
+from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment, participant_name
@@ -135,17 +135,17 @@ def last_written_ms(folder: Path) -> int:
         return _last_ms(connection)
 
 
-def wrong_pins(folder: Path) -> WrongPins:
-    """Return the wrong PINs since the last right one."""
+def wrong_pins(folder: Path) -> int:
+    """Return how many wrong PINs came since the last right one."""
     with _looking_at(folder) as connection:
-        times, last_ms = connection.execute(
+        times: int = connection.execute(
             """
-            SELECT count(*), coalesce(max(wall_ms), 0) FROM audit_event WHERE type = ?
+            SELECT count(*) FROM audit_event WHERE type = ?
             AND id > (SELECT coalesce(max(id), 0) FROM audit_event WHERE type = ?)
             """,
             (AuditEvent.PIN_REFUSED.value, AuditEvent.PIN_ACCEPTED.value),
-        ).fetchone()
-    return WrongPins(times, last_ms)
+        ).fetchone()[0]
+    return times
 
 
 @dataclass(frozen=True)

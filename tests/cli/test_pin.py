@@ -20,19 +20,26 @@ def choose(*typed: str, options: tuple[str, ...] = ()) -> Result:
 
 
 def test_what_is_printed_goes_into_a_study_file_as_it_is() -> None:
-    told = choose("2580", "2580")
+    told = choose("258013", "258013")
     assert told.exit_code == 0
     settings = Settings.model_validate(tomllib.loads(told.stdout))
-    assert pin_matches("2580", settings.experimenter.pin_hash)
-    assert "2580" not in told.output.replace(settings.experimenter.pin_hash, "")
+    assert pin_matches("258013", settings.experimenter.pin_hash)
+    assert "258013" not in told.output.replace(settings.experimenter.pin_hash, "")
 
 
 def test_two_of_the_same_pin_have_lines_of_their_own() -> None:
-    lines = {json.loads(choose("2580", "2580", options=("--json",)).stdout)["pin_hash"] for _ in range(2)}
+    lines = {json.loads(choose("258013", "258013", options=("--json",)).stdout)["pin_hash"] for _ in range(2)}
     assert len(lines) == 2
 
 
-@pytest.mark.parametrize(("typed", "why"), [(("2580", "2581"), "not the same"), (("12", "12"), "4 to 12 digits")])
+@pytest.mark.parametrize(
+    ("typed", "why"),
+    [
+        (("258013", "258014"), "not the same"),
+        (("12", "12"), "6 to 12 digits"),
+        (("123456", "123456"), "too easy to guess"),
+    ],
+)
 def test_a_slip_and_what_is_no_pin_are_refused(typed: tuple[str, str], why: str) -> None:
     told = choose(*typed)
     assert isinstance(told.exception, UserInputError)

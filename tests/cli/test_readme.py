@@ -98,7 +98,7 @@ class Newcomer:
 
     def run(self, arguments: Sequence[str], program: str = PROGRAM) -> subprocess.CompletedProcess[str]:
         """Run the program in their home."""
-        return self.loaded.run(arguments, self.home, self.environment, "2580\n2580\n", program)
+        return self.loaded.run(arguments, self.home, self.environment, "258013\n258013\n", program)
 
 
 def bootstrap() -> ModuleType:

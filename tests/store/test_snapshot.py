@@ -107,7 +107,7 @@ def test_deviations_are_those_of_the_day_without_routine(tmp_path: Path) -> None
 
 def test_wrong_pins_are_counted_since_the_last_right_one(tmp_path: Path) -> None:
     with Recorder(tmp_path) as recorder:
-        assert wrong_pins(tmp_path).wait_ms == 0
+        assert wrong_pins(tmp_path) == 0
         for note in (
             AuditEvent.PIN_REFUSED,
             AuditEvent.PIN_ACCEPTED,
@@ -116,7 +116,7 @@ def test_wrong_pins_are_counted_since_the_last_right_one(tmp_path: Path) -> None
             AuditEvent.PANEL_OPENED,
         ):
             recorder.add_audit_event(note.value, {})
-        assert wrong_pins(tmp_path).times == 2
+        assert wrong_pins(tmp_path) == 2
 
 
 def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:

@@ -82,7 +82,7 @@ CASES: dict[str, tuple[Edit, str, str, Impact]] = {
     "the title": (("study.toml", '"A study"', '"Another"'), "title", "becomes", Impact.NONE),
     "a comment": (("form.toml", "[[items]]", "[[items]] # a comment"), "", "", Impact.NONE),
     "the PIN": (
-        ("study.toml", "[consent]", f'[experimenter]\npin_hash = "scrypt:{"0" * 32}:{"0" * 64}"\n[consent]'),
+        ("study.toml", "[consent]", f'[experimenter]\npin_hash = "scrypt:10:{"0" * 32}:{"0" * 64}"\n[consent]'),
         *("", "", Impact.NONE),
     ),
     "the points of a scale": (

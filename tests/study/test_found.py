@@ -10,7 +10,7 @@ from kiosk.preflight import Severity
 from kiosk.study import checks
 from kiosk.study.loader import read_study
 
-HASHED = f"scrypt:{'0' * 32}:{'1' * 64}"
+HASHED = f"scrypt:10:{'0' * 32}:{'1' * 64}"
 
 
 def test_every_fault_of_a_study_file_keeps_a_session_from_being_held() -> None:

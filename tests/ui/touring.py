@@ -24,7 +24,7 @@ from tests.ui.reaching import Keyboard
 
 SEED = 1
 """With this seed the visitor practises."""
-PIN, WRONG = "2580", "9999"
+PIN, WRONG = "258013", "9999"
 SHORTCUT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 GALLERY = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml")
@@ -41,7 +41,7 @@ def whole_study(first: str = "en", **screen: object) -> Settings:
     ``screen`` is that section of the study file.
     """
     languages = sorted(SMALL.languages, key=lambda language: language != first)
-    more = {"languages": languages, "screen": screen, "experimenter": {"pin_hash": hash_pin(PIN, bytes(16))}}
+    more = {"languages": languages, "screen": screen, "experimenter": {"pin_hash": hash_pin(PIN, bytes(16), cost=10)}}
     return Settings.model_validate({**SMALL.model_dump(exclude={"experimenter", "languages"}), **more})
 
 

@@ -34,10 +34,14 @@ class PinVerifier:
     or before the next try is allowed, is refused unseen. So no burst gets more tries than the waits allow.
     """
 
-    def __init__(self, line: str, wrong: WrongPins, now_ms: Callable[[], int], work: Executor, write: Write) -> None:
-        """``line`` is the PIN as the study file keeps it, ``wrong`` what the records tell of the last wrong ones."""
+    def __init__(self, line: str, wrong: int, now_ms: Callable[[], int], work: Executor, write: Write) -> None:
+        """Lock with the PIN as the study file keeps it, after so many wrong ones in a row.
+
+        ``now_ms`` never goes back and is no clock that can be set. A wait that was under way when the kiosk was closed
+        begins anew, so that neither setting the clock nor a restart ends it.
+        """
         self._line = line
-        self._wrong = wrong
+        self._wrong = WrongPins(wrong, now_ms())
         self._now_ms = now_ms
         self._work = work
         self._write = write

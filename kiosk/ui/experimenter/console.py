@@ -437,7 +437,9 @@ class ExperimenterConsole:
         self._written_ms = last_written_ms(folder)
         self._kind = booth.assigner.kind
         self._write = AuditLog(booth.recorder, booth.clock)
-        self._lock = PinVerifier(settings.experimenter.pin_hash, wrong_pins(folder), now_ms, work, self._write.record)
+        self._lock = PinVerifier(
+            settings.experimenter.pin_hash, wrong_pins(folder), booth.clock.now_ms, work, self._write.record
+        )
         self._asking = AuthorisationFlow(card, self._lock, booth.clock, catalogue)
         self.upkeep = MaintenanceScheduler(
             MaintenanceTasks.of(folder, settings.experimenter.backups, settings.experimenter.backup_every),

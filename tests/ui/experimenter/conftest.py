@@ -27,8 +27,8 @@ from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen, Note
 from tests.ui.conftest import Booth
 from tests.ui.headless import headless
 
-PIN = "2580"
-LINE = hash_pin(PIN, bytes(SALT_BYTES))
+PIN = "258013"
+LINE = hash_pin(PIN, bytes(SALT_BYTES), cost=10)
 TINY = {"game": {"rows": 1, "columns": 2}, "practice": {"rows": 1, "columns": 2}}
 """Boards on which the first two cards are a pair."""
 

@@ -99,9 +99,9 @@ def test_a_wrong_pin_is_waited_for_at_once_and_written_down_as_soon_as_it_can_be
     assigner.type("1111")
     assigner.enter()
     assert assigner.card.asks_for is AuthorisationStep.WAIT
-    assert wrong_pins(assigner.data).times == 0
+    assert wrong_pins(assigner.data) == 0
     other.execute("ROLLBACK")
-    assigner.wait_until(lambda: wrong_pins(assigner.data).times == 1)
+    assigner.wait_until(lambda: wrong_pins(assigner.data) == 1)
 
 
 def test_leaving_waits_for_nobody_but_what_is_left_is_written_while_it_closes(

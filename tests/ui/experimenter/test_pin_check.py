@@ -7,17 +7,17 @@ from typing import Any
 
 import pytest
 
-from kiosk.experiment.experimenter import SALT_BYTES, AuditEvent, WrongPins, hash_pin
+from kiosk.experiment.experimenter import SALT_BYTES, AuditEvent, hash_pin
 from kiosk.ui.event_loop import InlineExecutor
 from kiosk.ui.experimenter.authorisation import PinVerifier
 
-LINE = hash_pin("2580", bytes(SALT_BYTES))
+LINE = hash_pin("258013", bytes(SALT_BYTES), cost=10)
 
 
 class Door:
     """A lock, the time, and what it was heard to say."""
 
-    def __init__(self, wrong: WrongPins = WrongPins()) -> None:  # noqa: B008 - it is frozen
+    def __init__(self, wrong: int = 0) -> None:
         self.now_ms = 1_000_000
         self.heard: list[object] = []
         self.lock = PinVerifier(LINE, wrong, lambda: self.now_ms, InlineExecutor(), self.write)
@@ -40,22 +40,22 @@ class Door:
 
 def test_a_right_and_a_wrong_pin_are_written_down_then_told_whatever_the_disk_says() -> None:
     door = Door()
-    assert door.check("2580") == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
     assert door.check("1111") == [AuditEvent.PIN_REFUSED, False]
 
 
 def test_while_nobody_may_try_the_right_one_is_not_even_looked_at() -> None:
     door = Door()
     door.check("1111")
-    assert door.check("2580") == [False]
+    assert door.check("258013") == [False]
     door.now_ms += door.lock.left_ms
-    assert door.check("2580") == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
 
 
-def test_the_row_goes_on_from_the_records() -> None:
-    door = Door(WrongPins(4, last_ms=999_000))
-    assert door.lock.left_ms == 7000
-    door.now_ms += 7000
+def test_the_row_goes_on_from_the_records_and_the_wait_begins_anew() -> None:
+    door = Door(wrong=4)
+    assert door.lock.left_ms == 8000
+    door.now_ms += 8000
     door.check("1111")
     assert door.lock.left_ms == 16_000
 
@@ -80,24 +80,25 @@ class Slow:
 def test_of_a_burst_one_pin_is_checked_and_the_right_one_among_them_opens_nothing() -> None:
     slow = Slow()
     door = Door()
-    door.lock = PinVerifier(LINE, WrongPins(), lambda: door.now_ms, slow, door.write)
-    for pin in ("1111", *["2580"] * 39):
+    door.lock = PinVerifier(LINE, 0, lambda: door.now_ms, slow, door.write)
+    for pin in ("1111", *["258013"] * 39):
         door.lock.check_pin(pin, door.tell)
     assert len(slow.jobs) == 1
     slow.do()
     assert door.heard == [*[False] * 39, AuditEvent.PIN_REFUSED, False]
-    assert door.check("2580") == [False]
+    assert door.check("258013") == [False]
     assert slow.jobs == []
     door.now_ms += door.lock.left_ms
-    door.check("2580")
+    door.check("258013")
     slow.do()
     assert door.heard == [AuditEvent.PIN_ACCEPTED, True]
 
 
 def test_the_wait_is_whole_however_long_the_check_took() -> None:
     slow = Slow()
-    door = Door(WrongPins(4, last_ms=0))
-    door.lock = PinVerifier(LINE, WrongPins(4), lambda: door.now_ms, slow, door.write)
+    door = Door(4)
+    door.lock = PinVerifier(LINE, 4, lambda: door.now_ms, slow, door.write)
+    door.now_ms += door.lock.left_ms
     door.check("1111")
     door.now_ms += 10_000
     slow.do()
@@ -109,7 +110,7 @@ def test_a_check_that_fails_counts_as_a_wrong_pin_and_locks_nobody_out(monkeypat
     with monkeypatch.context() as patch:
         patch.setattr("kiosk.ui.experimenter.authorisation.pin_matches", lambda *_: 1 / 0)
         with pytest.raises(ZeroDivisionError):
-            door.lock.check_pin("2580", door.tell)
+            door.lock.check_pin("258013", door.tell)
     assert door.heard == [AuditEvent.PIN_REFUSED, False]
     door.now_ms += door.lock.left_ms
-    assert door.check("2580") == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
