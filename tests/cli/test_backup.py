@@ -9,6 +9,7 @@ import socket
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from time import monotonic
 
@@ -92,7 +93,7 @@ def test_a_verified_copy_is_browsed_on_this_machine_alone_and_removed_at_the_end
 def test_a_database_that_is_not_as_it_was_written_is_not_browsed(tmp_path: Path) -> None:
     pytest.importorskip("datasette")
     store(tmp_path / "data", [(visitor(1), 1)])
-    with sqlite3.connect(tmp_path / "data" / FILE) as connection:
+    with closing(sqlite3.connect(tmp_path / "data" / FILE)) as connection, connection:
         triggers = connection.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall()
         for (name,) in triggers:
             connection.execute(f"DROP TRIGGER {name}")
