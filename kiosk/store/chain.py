@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder
+from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 
 FILE = "recollect.heads"
 """The file of heads, beside the database."""
@@ -175,6 +175,7 @@ class HeadsFile:
         try:
             if not self._path.exists():
                 self._path.touch(mode=PRIVATE)
+                make_private(self._path)
                 give_to_owner_of_folder(self._path)
             self._file = self._path.open("r+b", buffering=0)
             # What a crash left of a line is written over.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sqlite3
+import stat
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -72,14 +73,19 @@ def for_writing(path: Path) -> Connection:
         path.touch(mode=PRIVATE, exist_ok=False)
         give_to_owner_of_folder(path)
     for file in (path, *(_beside(path, log) for log in LOGS)):
-        # A file of another user, or one that has just gone, stays as it is.
-        with suppress(PermissionError, FileNotFoundError):
-            if file.stat().st_mode & ~PRIVATE & 0o777:
-                file.chmod(PRIVATE)
+        make_private(file)
     connection = sqlite3.connect(path, isolation_level=None, factory=Connection)
     connection.path = path.resolve()
     _writers.add(connection)
     return connection
+
+
+def make_private(file: Path) -> None:
+    """Have only its owner read and write a file, whatever the umask was when it was made."""
+    # A file of another user, or one that has just gone, stays as it is.
+    with suppress(PermissionError, FileNotFoundError):
+        if stat.S_ISREG(mode := file.lstat().st_mode) and stat.S_IMODE(mode) != PRIVATE:
+            file.chmod(PRIVATE)
 
 
 def give_to_owner_of_folder(path: Path) -> None:

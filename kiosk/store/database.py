@@ -19,6 +19,7 @@ from kiosk.store.connecting import (
     for_writing,
     give_to_owner_of_folder,
     in_memory,
+    make_private,
     primary_code,
     reason,
 )
@@ -265,6 +266,12 @@ SCHEMA = MIGRATIONS[-1].number
 
 FILE = "recollect.db"
 LOCK = "recollect.lock"
+BACKUPS = "backups"
+"""Where copies are kept in a data folder, unless told otherwise."""
+
+_OURS = ("recollect*", f"{BACKUPS}/recollect-*", f"{BACKUPS}/*.lock", "status.json")
+"""What an earlier version, a copy by hand or another system may have left open to others."""
+
 LOCK_WAIT_S = 1.0
 APPLICATION_ID = int.from_bytes(b"Rclt")
 """Stands in the file's header, so that a database of another program is never touched."""
@@ -295,6 +302,9 @@ def lock_folder(folder: Path) -> FileLock:
         # A reader holds the lock for a moment, which is no reason to give up.
         held.acquire(timeout=LOCK_WAIT_S)
         give_to_owner_of_folder(folder / LOCK)
+        for pattern in _OURS:
+            for file in folder.glob(pattern):
+                make_private(file)
     except Timeout as error:
         raise UserInputError(f"another Recollect is writing in {folder}") from error
     except OSError as error:

@@ -17,7 +17,7 @@ from filelock import FileLock, Timeout
 
 from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
-from kiosk.store.database import FILE, open_as_it_is
+from kiosk.store.database import BACKUPS, FILE, open_as_it_is
 from kiosk.units import MIB
 
 WARN_MIB = 512
@@ -69,7 +69,7 @@ def free_space(folder: Path, copies_per_hour: int = 1) -> FreeSpace:
         raise UserInputError(f"the room that is left for {folder} cannot be told: {error.strerror}") from error
 
 
-FOLDER = "backups"
+FOLDER = BACKUPS
 """Where copies are kept in a data folder, unless told otherwise."""
 
 KEPT = 10

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sqlite3
 import subprocess
@@ -19,6 +20,7 @@ from kiosk import StorageError, UserInputError
 from kiosk.experiment.session_config import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store import withdrawal as withdraw_module
+from kiosk.store.chain import FILE as HEADS
 from kiosk.store.checks import database_check
 from kiosk.store.database import FILE, open_for_reading
 from kiosk.store.maintenance import FOLDER, back_up, list_backups
@@ -272,6 +274,29 @@ def test_only_the_owner_may_read_the_database_its_logs_and_its_copies(data: Path
     assert len(modes(data)) == 3
 
 
-def test_a_new_database_is_never_open_to_others(tmp_path: Path) -> None:
-    with Recorder(tmp_path / "new"):
-        assert set(modes(tmp_path / "new").values()) == {0o600}
+@pytest.mark.parametrize("mask", [0, 0o077, 0o377])
+def test_a_new_database_is_the_owners_whatever_the_umask(tmp_path: Path, mask: int) -> None:
+    folder, before = tmp_path / "new", os.umask(0o077)
+    try:
+        folder.mkdir()
+        os.umask(mask)
+        with Recorder(folder) as recorder:
+            recorder.begin(Provenance(plan(), 9, "avatar", "abc123", kind=SessionKind.SIMULATED), COMPLETED)
+            assert set(modes(folder).values()) == {0o600}
+            assert (folder / HEADS).stat().st_mode & 0o777 == 0o600
+    finally:
+        os.umask(before)
+
+
+def test_a_folder_that_others_can_read_is_mended_at_the_next_start(data: Path) -> None:
+    (data / "recollect.log").write_text("a line\n", encoding="utf-8")
+    link = data / "recollect-elsewhere"
+    outside = data.parent / "outside"
+    outside.write_text("", encoding="utf-8")
+    link.symlink_to(outside)
+    files = [file for file in data.rglob("recollect*") if file.is_file() and not file.is_symlink()]
+    for file in (*files, outside):
+        file.chmod(0o664)
+    Recorder(data).__exit__(None, None, None)
+    assert {file.name for file in files if file.exists() and file.stat().st_mode & 0o777 != 0o600} == set()
+    assert outside.stat().st_mode & 0o777 == 0o664
