@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtQuick import QQuickItem
 
 from kiosk.experiment.information import ConsentPage, Purpose
@@ -49,6 +49,18 @@ def test_nothing_is_ticked_beforehand_and_the_required_boxes_say_so(booth: Booth
         box = booth.item(f"purpose-{purpose.id}")
         assert not box.property("on")
         assert says(box, "needed to take part" if purpose.required else "up to you")
+
+
+@pytest.mark.usefixtures("done")
+def test_what_is_scrolled_away_is_not_drawn_over_the_title(booth: Booth) -> None:
+    booth.app.window.setProperty("textSize", 1.5)
+    booth.app.screens.consent.show(booth.app.assigner.study.plans[0].information.consent)
+    title = booth.item("page-title")
+    strip = title.mapRectToScene(QRectF(0, 0, title.width(), title.height())).toRect()
+    unscrolled = booth.app.window.grabWindow().copy(strip)
+    booth.click("more")
+    booth.click("more")
+    assert booth.app.window.grabWindow().copy(strip) == unscrolled
 
 
 def test_a_tap_reports_a_tick_and_shows_none_before_it_counts(booth: Booth, done: Done) -> None:

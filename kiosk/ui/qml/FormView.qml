@@ -97,9 +97,11 @@ PageFrame {
         visible: text !== ""
         text: view.form.progress
         font.pixelSize: Theme.reading
-        x: Theme.across(view.column - width, width, view.column)
+        // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
+        readonly property bool follows: view.width > view.height && view.titleWidth + width + 2 * Theme.gap < view.column
+        x: Theme.across(follows ? view.titleWidth + Theme.gap : view.column - width, width, view.column)
         // In the title's line.
-        y: -Theme.gap - 0.5 * (Theme.pageTitle * 1.36 + height)
+        y: -Theme.gap - 0.5 * (Theme.pageTitle * 1.36 + height) + (follows ? 0.13 * Theme.pageTitle : 0)
         color: Theme.faintInk
         Accessible.role: Accessible.StaticText
         Accessible.name: text
@@ -128,7 +130,7 @@ PageFrame {
                 return sum
             }
             spacing: Math.max((view.dense || view.tight ? 8 : 12) * Theme.unit,
-                Math.min((view.width < view.height ? 40 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
+                Math.min((view.width < view.height ? 56 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
             Repeater {
                 id: boxes
                 model: view.form.items

@@ -40,7 +40,7 @@ Item {
         height: width
         radius: width / 2
         color: Theme.sand
-        Shape {
+        ClippedShape {
             anchors.centerIn: parent
             width: 24
             height: 24

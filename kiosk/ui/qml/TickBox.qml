@@ -43,7 +43,7 @@ Choosable {
             radius: 10 * Theme.unit
             color: box.on ? Theme.sea : Theme.white
             border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning ? 6 : 4) * Theme.unit }
-            Shape {
+            ClippedShape {
                 anchors.fill: parent
                 visible: box.on
                 ShapePath {

@@ -21,7 +21,7 @@ Rectangle {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : 13) * Theme.unit
+    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : large ? 26 : 13) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -69,7 +69,7 @@ Rectangle {
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
-        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : 8) * Theme.unit
+        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.large ? 18 : 8) * Theme.unit
 
         PlainText {
             width: parent.width

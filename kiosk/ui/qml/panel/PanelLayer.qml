@@ -42,7 +42,9 @@ Item {
         Accessible.ignored: true
     }
     PanelNote {
-        anchors { horizontalCenter: parent.horizontalCenter; top: parent.top; topMargin: 14 * Theme.unit }
+        // At the lower edge while the panel is open, so that it covers nothing that is read there.
+        x: (parent.width - width) / 2
+        y: desk.experimenter.panel.shown ? parent.height - height - 14 * Theme.unit : 14 * Theme.unit
         note: desk.experimenter.note
     }
     // For a booth without a keyboard. What lies below takes every touch as if this were not here.
