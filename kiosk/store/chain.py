@@ -124,9 +124,9 @@ def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Itera
         if head.session in gone:
             continue
         row = connection.execute(
-            "SELECT (SELECT count(*) FROM event WHERE session = ?1),"
-            " (SELECT hash FROM event WHERE session = ?1 AND seq = ?2)",
-            (head.session, head.events),
+            "SELECT (SELECT count(*) FROM event WHERE session = :session),"
+            " (SELECT hash FROM event WHERE session = :session AND seq = :events)",
+            {"session": head.session, "events": head.events},
         ).fetchone()
         there, written = row
         if not there:

@@ -290,10 +290,11 @@ def check_not_given_out_again(connection: sqlite3.Connection, session: int) -> N
     """Raise UserInputError if another completed game took the slot of a session that was cut off."""
     site, kind, slot, finished = connection.execute(
         """
-        SELECT site, kind, allocation_slot, EXISTS (SELECT 1 FROM event WHERE session = ?1 AND type = 'GameFinished')
-        FROM session WHERE id = ?1
+        SELECT site, kind, allocation_slot,
+            EXISTS (SELECT 1 FROM event WHERE session = :session AND type = 'GameFinished')
+        FROM session WHERE id = :session
         """,
-        (session,),
+        {"session": session},
     ).fetchone()
     lists = AllocationLists(connection, site, kind=SessionKind(kind))
     if slot is not None and not finished and lists.is_consumed(slot):

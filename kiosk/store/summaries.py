@@ -148,7 +148,7 @@ def go_on(connection: sqlite3.Connection, session: int) -> None:
 
 def numbers_so_far(connection: sqlite3.Connection, session: int) -> dict[str, Any]:
     """Return the numbers of a session that is under way, by the columns of its summary; it has no status."""
-    row = connection.execute(_numbers("?1"), (session,)).fetchone()
+    row = connection.execute(_numbers(":session"), {"session": session}).fetchone()
     return dict(zip(NUMBERS, row, strict=True)) | {"status": None, "ended_ms": None}
 
 
@@ -166,7 +166,7 @@ def wrong_summaries(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]
             if kept[0] is not None:
                 yield session, "is said to have ended, and has not"
             continue
-        numbers = connection.execute(_numbers("?1"), (session,)).fetchone()
+        numbers = connection.execute(_numbers(":session"), {"session": session}).fetchone()
         wrong = [name for name, there, true in zip(NUMBERS, kept, numbers, strict=True) if there != true]
         if wrong:
             yield session, f"is not what its events say: {', '.join(wrong)}"

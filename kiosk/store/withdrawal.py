@@ -165,10 +165,10 @@ def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
                 'interrupted'
             ),
             EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
-            ?2
-        FROM session JOIN participant ON participant.session = session.id WHERE session.id = ?1
+            :today
+        FROM session JOIN participant ON participant.session = session.id WHERE session.id = :session
         """,
-        (session, datetime.now(UTC).date().isoformat()),
+        {"session": session, "today": datetime.now(UTC).date().isoformat()},
     )
     connection.execute("INSERT INTO unfinished_withdrawal VALUES (?, ?)", (session, _sha256(checked_code(code))))
     connection.execute("DELETE FROM head WHERE session = ?", (session,))

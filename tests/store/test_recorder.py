@@ -31,7 +31,9 @@ from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from tests.experiment.driver import Driver, replay
 from tests.store.writer import GONE
 
-A_TOMBSTONE = "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
+A_TOMBSTONE = (
+    "INSERT INTO tombstone VALUES (:session, '', :session, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
+)
 START = happened.SessionStarted(at_ms=0)
 
 
@@ -211,7 +213,7 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
         recorder.count_visit(NotRecordedReason.LEFT, kind=SessionKind.SIMULATED)
         recorder.add_audit_event("deviation", {"why": "the robot fell over"})
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
-        connection.execute(A_TOMBSTONE, (7,))
+        connection.execute(A_TOMBSTONE, {"session": 7})
     before = rows(folder, f"SELECT * FROM {table}")  # noqa: S608 - a table of ours
     assert before
     with closing(sqlite3.connect(folder / FILE)) as connection:
@@ -258,7 +260,7 @@ def test_only_a_tombstone_lets_a_session_go(folder: Path, provenance: Provenance
         recorder.begin(provenance, [START])
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
-        connection.execute(A_TOMBSTONE, (1,))
+        connection.execute(A_TOMBSTONE, {"session": 1})
         key = "id" if table == "session" else "session"
         connection.execute(f"DELETE FROM {table} WHERE {key} = 1")  # noqa: S608 - a table of ours
         with pytest.raises(sqlite3.IntegrityError, match="what is recorded is never changed"):
@@ -270,7 +272,7 @@ def test_a_session_that_was_withdrawn_does_not_come_back(folder: Path, provenanc
         recorder.begin(provenance, [START])
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute("CREATE TEMP TABLE kept AS SELECT * FROM session")
-        connection.execute(A_TOMBSTONE, (1,))
+        connection.execute(A_TOMBSTONE, {"session": 1})
         connection.execute("DELETE FROM session")
         with pytest.raises(sqlite3.IntegrityError, match="what was withdrawn does not come back"):
             connection.execute("INSERT INTO session SELECT * FROM kept")

@@ -172,8 +172,9 @@ def test_a_place_stays_consumed_when_its_game_is_withdrawn(folder: Path, provena
     for session, completed in ((1, 1), (2, 0)):
         with closing(sqlite3.connect(folder / FILE)) as connection, connection:
             connection.execute(
-                "INSERT INTO tombstone VALUES (?1, '', ?1, 1, 'tom', 1, ?1, 'list', 'completed', ?2, '2026-01-31')",
-                (session, completed),
+                "INSERT INTO tombstone VALUES"
+                " (:session, '', :session, 1, 'tom', 1, :session, 'list', 'completed', :completed, '2026-01-31')",
+                {"session": session, "completed": completed},
             )
             for table, key in (("event", "session"), ("participant", "session"), ("session", "id")):
                 connection.execute(f"DELETE FROM {table} WHERE {key} = ?", (session,))  # noqa: S608 - a table of ours
