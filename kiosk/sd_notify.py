@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import os
 import queue
+import signal
 import socket
+import subprocess
 import sys
+import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -167,3 +170,40 @@ def parse_notification(notice: bytes) -> Notice:
     """Return a notice by its names; whatever is no line of one is left out."""
     lines = (line.partition("=") for line in notice.decode(errors="replace").splitlines())
     return {name: value for name, equals, value in lines if equals}
+
+
+RELAY_TICK_S = 0.2
+
+
+def relay(command: Sequence[str], environment: Mapping[str, str] = os.environ) -> int:
+    """Run a command, send its notices on as one's own, and return its exit code, negative for a signal.
+
+    systemd drops notices from processes that a login session has taken out of their service, but not those of the
+    service's main process. A request to end goes to all of the process group.
+    """
+    above = Notifier(environment)
+    with tempfile.TemporaryDirectory(prefix="recollect-relay-") as folder:
+        listener = notify_listener(Path(folder))
+        given = {**environment, **listener.environment}
+        child = subprocess.Popen(command, env=given, pass_fds=listener.inherited)  # noqa: S603
+
+        def pass_on(number: int, _frame: object) -> None:
+            signal.signal(number, signal.SIG_IGN)
+            if sys.platform != "win32" and os.getpgrp() == os.getpid():
+                os.killpg(0, number)
+            else:
+                child.send_signal(number)
+
+        before = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
+        try:
+            while child.poll() is None:
+                if notice := listener.hear(RELAY_TICK_S):
+                    above.tell(**notice)
+            while last_words := listener.hear(0):
+                above.tell(**last_words)
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+            listener.close()
+            above.close()
+    return child.returncode

@@ -72,6 +72,7 @@ _COMMANDS = {name: entry for group in _GROUPS.values() for name, entry in group.
 _WORKERS = {
     "_display": "kiosk.cli.workers:display_command",
     "_markers": "kiosk.cli.workers:markers_command",
+    "_relay": "kiosk.cli.workers:relay_command",
     "_splash": "kiosk.cli.workers:splash_command",
     "_voice": "kiosk.cli.workers:voice_command",
 }

@@ -16,6 +16,7 @@ from kiosk.cli.composition import read_settings
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import read_catalogue, shipped_languages, study_option
 from kiosk.preflight import CheckResult
+from kiosk.sd_notify import relay
 from kiosk.ui.qt_platform import missing_library, obstacle
 
 # Each command loads what it needs. Qt is loaded by the look itself: where the system lacks a library of Qt's, that is
@@ -109,6 +110,18 @@ def markers_command(name: str, source: str) -> None:
     from kiosk.robots.lsl_worker import run_lsl_worker
 
     run_lsl_worker(name, source)
+
+
+@click.command(hidden=True, context_settings={"ignore_unknown_options": True})
+@click.argument("command", nargs=-1, required=True, type=click.UNPROCESSED)
+def relay_command(command: tuple[str, ...]) -> None:
+    """Run a command and send its notices on to systemd; recollect-cage@.service starts it."""
+    code = relay(command)
+    sys.exit(code if code >= 0 else _BY_SIGNAL - code)
+
+
+_BY_SIGNAL = 128
+"""A shell's exit code for a program that a signal ended is this and the signal's number."""
 
 
 @click.command(hidden=True)

@@ -33,6 +33,11 @@ def test_a_cage_that_breaks_is_no_good_end(tmp_path: Path) -> None:
     assert ended(tmp_path, "#!/bin/sh\nkill -9 $$\n", "exit 0") == 1
 
 
+def test_a_supervisor_that_is_asked_to_end_is_waited_for_although_cage_is_gone(tmp_path: Path) -> None:
+    gone_at_once = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\nshift\n"$@" &\nsleep 0.1\nkill $PPID\nexit 1\n'
+    assert ended(tmp_path, gone_at_once, "sleep 0.4; exit 0") == 0
+
+
 def ended(folder: Path, cage: str, supervisor: str) -> int:
     """Return the exit code with this cage, and this supervisor inside."""
     for name, text in (("cage", cage), ("recollect", f"#!/bin/sh\n{supervisor}\n")):

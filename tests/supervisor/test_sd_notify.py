@@ -11,7 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.sd_notify import Notifier, NotifyListener, NotifyPipeListener, NotifySocketListener, parse_notification
+from kiosk.sd_notify import (
+    Notifier,
+    NotifyListener,
+    NotifyPipeListener,
+    NotifySocketListener,
+    parse_notification,
+    relay,
+)
 
 LONG = 10.0
 """Seconds; nothing here takes as long unless it fails."""
@@ -84,3 +91,34 @@ def test_telling_somebody_who_does_not_listen_never_waits(tmp_path: Path) -> Non
 
 def test_what_is_no_notice_is_left_out() -> None:
     assert parse_notification(b"READY=1\nnonsense\n\xff=\xff=1\n") == {"READY": "1", "\ufffd": "\ufffd=1"}
+
+
+TELLS = """
+import os, sys
+from kiosk.sd_notify import Notifier
+Notifier(os.environ).tell(READY=1, MAINPID=os.getppid())
+sys.exit(7)
+"""
+
+
+def test_the_notices_of_a_command_are_sent_on_by_the_process_that_systemd_listens_to(tmp_path: Path) -> None:
+    """As a service with a login session needs it: there systemd hears its main process alone."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
+        systemd.bind(str(tmp_path / "systemd"))
+        systemd.setsockopt(socket.SOL_SOCKET, socket.SO_PASSCRED, 1)
+        systemd.settimeout(LONG)
+        environment = {**os.environ, "NOTIFY_SOCKET": str(tmp_path / "systemd")}
+        assert relay([sys.executable, "-c", TELLS], environment) == 7
+        words, passed, _, _ = systemd.recvmsg(1000, socket.CMSG_SPACE(12))
+    assert parse_notification(words) == {"READY": "1", "MAINPID": str(os.getpid())}
+    assert int.from_bytes(passed[0][2][:4], sys.byteorder) == os.getpid()
+
+
+def test_a_command_that_is_asked_to_end_by_way_of_the_relay_ends_in_order() -> None:
+    waits = "import signal, sys; signal.signal(15, lambda *_: sys.exit(5)); print('up', flush=True); signal.pause()"
+    program = f"from kiosk.sd_notify import relay; import sys; sys.exit(relay([sys.executable, '-c', {waits!r}]))"
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, process_group=0) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"up\n"
+        process.terminate()
+        assert process.wait(LONG) == 5
