@@ -4,6 +4,7 @@ It is put together and handed to dpkg-deb. Data are the user's own and in no pac
 """
 
 import gzip
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -45,6 +46,11 @@ Description: kiosk for studies in which a robot helps a person play Concentratio
 """
 
 
+def debian_version(version: str) -> str:
+    """Return a version of Python's as Debian sorts it: 0.2.0rc1 is 0.2.0~rc1, which comes before 0.2.0."""
+    return re.sub(r"\.?(a|b|rc|dev)(?=\d)", r"~\1", version)
+
+
 def package(built: Path, work: Path, place: Path, level: int) -> Path:
     """Make the package of a built folder, compressed at a level of zstd, in ``place``; return its file."""
     tree = work / "deb"
@@ -59,7 +65,7 @@ def package(built: Path, work: Path, place: Path, level: int) -> Path:
     architecture = _say("dpkg", "--print-architecture")
     _put(_control(tree, architecture).encode(), tree / "DEBIAN" / "control")
     _set_modes(tree)
-    file = place / f"recollect_{__version__}_{architecture}.deb"
+    file = place / f"recollect_{debian_version(__version__)}_{architecture}.deb"
     # Level 19 would take a minute or more, for a tenth less than level 9.
     _say("dpkg-deb", "--root-owner-group", "-Zzstd", f"-z{level}", "--build", str(tree), str(file))
     return file
@@ -68,7 +74,7 @@ def package(built: Path, work: Path, place: Path, level: int) -> Path:
 def _control(tree: Path, architecture: str) -> str:
     size = sum(file.stat().st_size for file in tree.rglob("*") if file.is_file() and not file.is_symlink())
     return CONTROL.format(
-        version=__version__,
+        version=debian_version(__version__),
         architecture=architecture,
         kilobytes=size // 1024,
         libc=_say("getconf", "GNU_LIBC_VERSION").split()[-1],

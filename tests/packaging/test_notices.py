@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import re
 from collections.abc import Iterator
@@ -94,3 +95,14 @@ def test_a_package_without_any_licence_to_read_is_not_shipped(notices: ModuleTyp
     (nameless / "METADATA").write_text("Metadata-Version: 2.1\nName: nameless\nVersion: 1\n", encoding="utf-8")
     with pytest.raises(notices.NoLicence, match="nameless comes without the text of its licence"):
         notices.of_distribution(Distribution.at(nameless))
+
+
+@pytest.mark.parametrize(
+    ("version", "expected"),
+    [("0.2.0", "0.2.0"), ("0.2.0rc1", "0.2.0~rc1"), ("1.0a2", "1.0~a2"), ("0.3.0.dev4", "0.3.0~dev4")],
+)
+def test_a_package_of_a_version_before_the_release_is_older_than_the_release(
+    version: str, expected: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "packaging"))
+    assert importlib.import_module("debian").debian_version(version) == expected
