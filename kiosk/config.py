@@ -15,7 +15,15 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, field_validator, model_validator
 
 from kiosk import UserInputError
-from kiosk.errors import shortened, toml_error_message, toml_line, validation_messages
+from kiosk.errors import (
+    code_point,
+    control_character,
+    control_characters,
+    shortened,
+    toml_error_message,
+    toml_line,
+    validation_messages,
+)
 from kiosk.extensions import ExtensionGroup, registered_names
 from kiosk.language_codes import is_right, standard
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
@@ -36,13 +44,22 @@ STAGES = (
 """Every stage that a session can have between attract and its end, in the study's order."""
 
 
+MOST_CHARACTERS = 500
+"""A title, an address or a path that is longer fits on no screen."""
+
+MOST_IN_TEXT = 10_000
+"""A text that visitors read, such as a page of instructions, is never longer."""
+
+
 class ConfigModel(BaseModel):
     """Something that is declared in a TOML file, in whole or in part.
 
     It is unchangeable once read; a key that does not exist is refused, and so is a value that would have to be bent.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, str_max_length=MOST_CHARACTERS
+    )
 
     file_kind: ClassVar[str] = "file"
     """What such a file is called in a refusal."""
@@ -53,6 +70,9 @@ class ConfigModel(BaseModel):
         name = f"the {cls.file_kind} {path}"
         text = read_text(name, path)
         given = _toml(name, text)
+        unseen = [f"{name}: {sentence}" for sentence in control_characters(given, text)]
+        if unseen:
+            raise UserInputError(*unseen)
         try:
             return cls.model_validate(given)
         except ValidationError as error:
@@ -65,7 +85,8 @@ MOST_BYTES = 1024 * 1024
 """No file that a person writes for a study is longer; a longer one is a mistake, and slow to read."""
 
 _MOST_DOTS = 1000
-"""A key with very many dots takes the reader of TOML hours."""
+_MOST_DOTS_SQUARED = 5_000_000
+"""A key with very many dots takes the reader of TOML hours, and so do many with hundreds: its time is their square."""
 
 _LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
 """Far beyond all bounds; Python refuses to read whole numbers of more than 4,300 digits."""
@@ -79,17 +100,21 @@ def read_text(name: str, path: Path) -> str:
         if len(content) > MOST_BYTES:
             raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")
         # Some editors begin a file with a mark that is no text, and some end lines in two characters.
-        return content.decode("utf-8-sig").replace("\r\n", "\n")
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise UserInputError(f"{name} is not UTF-8; save it with that encoding") from error
+    if unseen := control_character(text):
+        line = text.count("\n", 0, unseen.start()) + 1
+        raise UserInputError(f"{name}, line {line}, has the control character {code_point(unseen)}; take it out")
+    return text
 
 
 def _toml(name: str, text: str) -> dict[str, Any]:
-    dotted = next((n for n, line in enumerate(text.splitlines(), 1) if line.count(".") > _MOST_DOTS), None)
-    if dotted is not None:
-        raise UserInputError(f"{name} is not for reading: line {dotted} has more than {_MOST_DOTS} dots")
+    dots = [line.count(".") for line in text.split("\n")]
+    if max(dots) > _MOST_DOTS or sum(count**2 for count in dots) > _MOST_DOTS_SQUARED:
+        raise UserInputError(f"{name} has too many dots to be read: line {dots.index(max(dots)) + 1} has {max(dots)}")
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -109,10 +134,6 @@ Lines = Annotated[int, Field(ge=1, le=12)]
 
 Metres = Annotated[float, Field(ge=-10, le=10), Unit("m")]
 Size = Annotated[float, Field(ge=0.01, le=10), Unit("m")]
-
-
-MOST_CHARACTERS = 500
-"""A title or an address that is longer fits on no screen."""
 
 MOST_REMINDER = 200
 """Characters of a line of the morning checklist."""
@@ -868,6 +889,9 @@ class MarkersConfig(ConfigModel):
     ] = "Recollect"
 
 
+OwnText = Annotated[str, Field(max_length=MOST_IN_TEXT)]
+
+
 class Settings(ConfigModel):
     """Everything that one study may set."""
 
@@ -886,7 +910,7 @@ class Settings(ConfigModel):
         ),
     ] = ("en", "it", "es")
     texts: Annotated[
-        dict[str, str | dict[str, str | dict[str, str]]],
+        dict[str, OwnText | dict[str, OwnText | dict[str, OwnText]]],
         Field(
             max_length=MOST_ENTRIES,
             description="Own words for single messages of a language: [texts.en] with a key for each message, or "

@@ -108,6 +108,7 @@ def toml_lines(text: str) -> Mapping[Steps, int]:
             here = _table(given, tables)
             _note(found, here, at + 1)
         elif given:
+            _note(found, here, at + 1)
             _note_all(found, here, given, at + 1)
         at = end
     return found
@@ -128,13 +129,45 @@ def _table(header: Mapping[str, Any], tables: dict[Steps, int]) -> Steps:
     return steps
 
 
+def control_characters(given: object, text: str) -> Iterator[str]:
+    """Yield a sentence for every key and value that holds a character which can be neither seen nor stored."""
+    waiting: list[tuple[Steps, object]] = [((), given)]
+    while waiting:
+        steps, value = waiting.pop()
+        if isinstance(value, dict):
+            for key in value:
+                if unseen := control_character(key):
+                    yield f"a key {_HOLDS.format(code_point(unseen))}{at_line(text, (*steps, key))}"
+            waiting += [((*steps, key), each) for key, each in reversed(value.items())]
+        elif isinstance(value, list):
+            waiting += [((*steps, number), each) for number, each in reversed(list(enumerate(value)))]
+        elif isinstance(value, str) and (unseen := control_character(value)):
+            yield f"{_place(steps, given, names_kinds=False)} {_HOLDS.format(code_point(unseen))}{at_line(text, steps)}"
+
+
+_HOLDS = "has the control character {}; take it out"
+
+
+def control_character(text: str) -> re.Match[str] | None:
+    """Find the first control character of a text that is no tab and ends no line."""
+    return _CONTROL.search(text)
+
+
+def code_point(found: re.Match[str]) -> str:
+    """Return how Unicode numbers a character, such as U+001B."""
+    return f"U+{ord(found[0]):04X}"
+
+
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")
+
+
 def _note(found: dict[Steps, int], steps: Steps, line: int) -> None:
     for length in range(1, len(steps) + 1):
         found.setdefault(steps[:length], line)
 
 
 def _note_all(found: dict[Steps, int], here: Steps, value: Any, line: int) -> None:
-    _note(found, here, line)
+    found.setdefault(here, line)
     if isinstance(value, dict | list):
         inside = value.items() if isinstance(value, dict) else enumerate(value)
         for step, each in inside:
@@ -312,8 +345,11 @@ def toml_value(value: object) -> str:
     return "a table" if isinstance(value, dict) else _SHORT.repr(value)
 
 
-def _place(steps: Sequence[int | str], given: Any) -> str:
-    """Return a place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``."""
+def _place(steps: Sequence[int | str], given: Any, *, names_kinds: bool = True) -> str:
+    """Return a place as the file has it: ``game.rows``, or ``item 2 (SOC2), option 1 (no): text.en``.
+
+    ``names_kinds``: the steps are pydantic's, which name the kind of a table too.
+    """
     entries: list[str] = []
     keys: list[str] = []
     here = given
@@ -323,15 +359,23 @@ def _place(steps: Sequence[int | str], given: Any) -> str:
             *above, name = keys or ["entry"]
             entries.append(".".join((*above, _entry(name, step + 1, here))))
             keys = []
-        elif not keys and isinstance(here, dict) and here.get(KIND) == step and _is_entry(steps, at):
+        elif names_kinds and not keys and isinstance(here, dict) and here.get(KIND) == step and _is_entry(steps, at):
             # Pydantic names the kind of a table as a step; what all of a kind share stands under that name itself.
             key = steps[at + 1] if at + 1 < len(steps) else None
             if key not in here and isinstance(given.get(step), dict) and key in given[step]:
                 entries, keys, here = [], [step], given[step]
         else:
-            keys.append(step)
+            keys.append(_shown(step))
             here = here.get(step) if isinstance(here, dict) else None
     return ": ".join(part for part in (", ".join(entries), ".".join(keys)) if part)
+
+
+def _shown(name: str) -> str:
+    """Return a name, cut short if no file that is meant has it."""
+    return name if len(name) <= _LONGEST_NAME else f"{name[:_COMPARED]}..."
+
+
+_LONGEST_NAME = 80
 
 
 def _is_entry(steps: Sequence[int | str], at: int) -> bool:
@@ -339,7 +383,7 @@ def _is_entry(steps: Sequence[int | str], at: int) -> bool:
 
 
 def _entry(name: str, number: int, entry: Any) -> str:
-    named = f" ({entry['id']})" if isinstance(entry, dict) and isinstance(entry.get("id"), str) else ""
+    named = f" ({_shown(entry['id'])})" if isinstance(entry, dict) and isinstance(entry.get("id"), str) else ""
     singular = name.removesuffix("s")
     return f"{singular} {number}{named}" if singular != name else f"{name}, number {number}{named}"
 

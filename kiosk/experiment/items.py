@@ -15,10 +15,10 @@ from unicodedata import category
 
 from pydantic import AfterValidator, BeforeValidator, Field, Strict, field_validator, model_validator
 
-from kiosk.config import ConfigModel
+from kiosk.config import MOST_IN_TEXT, ConfigModel
 from kiosk.language_codes import standard
 
-Text = Annotated[str, Field(min_length=1)]
+Text = Annotated[str, Field(min_length=1, max_length=MOST_IN_TEXT)]
 
 
 def _by_language(given: object) -> object:
@@ -123,7 +123,10 @@ def _name(name: str) -> str:
     return name
 
 
-Name = Annotated[str, AfterValidator(_name)]
+MOST_IN_NAME = 64
+"""What SPSS takes, and short enough for two of them in the name of a file."""
+
+Name = Annotated[str, Field(max_length=MOST_IN_NAME), AfterValidator(_name)]
 """Names go into records, columns and messages."""
 
 
@@ -132,7 +135,7 @@ def _option_name(name: str) -> str:
     return name if re.fullmatch("0|[1-9][0-9]{0,3}", name) else _name(name)
 
 
-OptionName = Annotated[str, AfterValidator(_option_name)]
+OptionName = Annotated[str, Field(max_length=MOST_IN_NAME), AfterValidator(_option_name)]
 """A name, or a whole number up to 9999 without zeros before it."""
 
 Points = Annotated[int, Field(ge=2, le=11)]

@@ -91,6 +91,10 @@ class ItemOrder(Enum):
 _SHUFFLED = "the items are shuffled, so what the condition asks about may come later; a condition needs a fixed order"
 
 
+MOST_ITEMS = 600
+"""Items of a questionnaire; the longest inventories have 567."""
+
+
 class Questionnaire(ConfigModel):
     """Items in their order; ``version`` changes whenever one does, and ``note`` says where the wording is from.
 
@@ -106,7 +110,7 @@ class Questionnaire(ConfigModel):
     order: Annotated[ItemOrder, Field(strict=False)] = ItemOrder.FIXED
     least_answered: Annotated[float, Field(ge=0, le=1)] = 0.5
     """The share of a scale's items that must be answered for the scale to have a mean; one is needed in any case."""
-    items: Annotated[tuple[Item, ...], Field(min_length=1, strict=False)]
+    items: Annotated[tuple[Item, ...], Field(min_length=1, max_length=MOST_ITEMS, strict=False)]
 
     @property
     def sha256(self) -> str:

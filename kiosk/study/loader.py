@@ -158,6 +158,9 @@ def _of_options(item: Item) -> Iterator[str]:
 
 _FONTS = (".ttf", ".otf", ".ttc")
 
+MOST_ITEMS = 1000
+"""Items of all questionnaires of a study; an export has a column for each, and spreadsheets slow down beyond."""
+
 MODEL_LANGUAGE = "en"
 """The language that all others are held against."""
 
@@ -448,12 +451,16 @@ class _Look:
         names = (("about_you", settings.about_you), *(("questionnaires", name) for name in settings.questionnaires))
         asked = tuple(read for key, name in names if (read := self._questionnaire(key, name)))
         for one, other in combinations(asked, 2):
-            both = [item.id for item in one.items if item.id in {item.id for item in other.items}]
+            names_of_other = {item.id for item in other.items}
+            both = [item.id for item in one.items if item.id in names_of_other]
             if one.id == other.id:
                 self._blame("questionnaires", f"two of them have the id {one.id!r}")
             elif both:
                 self._blame("questionnaires", f"{one.id!r} and {other.id!r} both have the items {', '.join(both)}")
         self.faults += unclear_names(self._asked)
+        items = sum(len(each.items) for _, each in self._asked)
+        if items > MOST_ITEMS:
+            self._blame("questionnaires", f"together they have {items:,} items; a study has at most {MOST_ITEMS:,}")
         return asked
 
     def _questionnaire(self, key: str, name: str) -> Questionnaire | None:

@@ -68,6 +68,9 @@ highest = { en = "much", it = "molto", es = "mucho" }
 OWN = 'questionnaires = ["own.toml"]'
 """What a study file says to ask these questions."""
 
+HEAD_OF_QUESTIONS, _, _ = QUESTIONS.partition("[[items]]")
+ITEM = '[[items]]\nid = "i{}"\nkind = "text"\ntext = {{ en = "?" }}\n'
+
 SHEETS = {f"sheets/{language}.toml": asset(f"consent/study/{language}.toml") for language in ("en", "it", "es")}
 TOLD = '[consent]\ntext = "sheets"'
 SENTENCES = {f"de/{file.name}": file.read_text("utf-8") for file in (ASSETS / "sentences" / "en").glob("*.ftl")}
@@ -166,7 +169,7 @@ STUDIES: dict[str, Bad] = {
     "long title": Bad(f"title = '{'x' * 501}'", ("{study}: title must have at most 500 characters",)),
     "long file": Bad(f"title = '{'x' * 2**20}'", ("{study} is too long: it has more than 1024 KiB",)),
     "key of very many parts": Bad(
-        f"title{'.a' * 300_000} = 1", ("{study} is not for reading: line 1 has more than 1000 dots",)
+        f"title{'.a' * 300_000} = 1", ("{study} has too many dots to be read: line 1 has 300000",)
     ),
     "brackets in brackets": Bad(
         f"title = {'[' * 10_000}", ("{study} is not TOML: brackets stand in brackets too often",)
@@ -515,6 +518,49 @@ STUDIES: dict[str, Bad] = {
                 for option in ("home", "Home", "NA", "MAR1", "TRUE")
             )
             + "]\n"
+        },
+    ),
+    "too long a name": Bad(
+        OWN,
+        (f"the questionnaire {{here}}/own.toml: item 1 ({'o' * 40}...): id must have at most 64 characters",),
+        asked(('"one"', f'"{"o" * 70_000}"')),
+    ),
+    "too long a text": Bad(
+        OWN,
+        ("the questionnaire {here}/own.toml: item 1 (one): text.en must have at most 10000 characters",),
+        asked(("How?", "How? " * 2001)),
+    ),
+    "too long a path": Bad(f"about_you = '{'a/' * 300}b'", ("{study}: about_you must have at most 500 characters",)),
+    "control characters": Bad(
+        'title = \'a\'\nlanguages = [\'en\', "e\\u0000n"]\n[assistance]\nname = "\\u001b[31m"\n"\\u009b" = 1',
+        (
+            "{study}: language 2 has the control character U+0000; take it out",
+            "{study}: a key has the control character U+009B; take it out",
+            "{study}: assistance.name has the control character U+001B; take it out",
+        ),
+    ),
+    "a control character in the sentences": Bad(
+        "languages = ['en', 'de']\nquestionnaires = ['own.toml']",
+        ("the file {here}/de/hints.ftl, line 2, has the control character U+001B; take it out", *UNTRANSLATED),
+        asked() | SENTENCES | {"de/hints.ftl": "# Words\na = \x1b[31m"},
+    ),
+    "a control character in a question": Bad(
+        OWN,
+        ("the questionnaire {here}/own.toml: item 1 (one): text.it has the control character U+0000; take it out",),
+        asked(("Come?", "Come\\u0000?")),
+    ),
+    "more items than a form can have": Bad(
+        OWN,
+        ("the questionnaire {here}/own.toml: items must have at most 600 entries, but it has 601",),
+        {"own.toml": HEAD_OF_QUESTIONS + "".join(ITEM.format(number) for number in range(601))},
+    ),
+    "more items than a study can have": Bad(
+        "languages = ['en']\nquestionnaires = ['a.toml', 'b.toml']",
+        ("{study}: questionnaires: together they have 1,003 items; a study has at most 1,000",),
+        {
+            f"{name}.toml": HEAD_OF_QUESTIONS.replace("own", name)
+            + "".join(ITEM.format(f"{name}{number}") for number in range(500))
+            for name in "ab"
         },
     ),
     "purposes that differ by capitals": Bad(
