@@ -15,9 +15,9 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "errors", "config", "extensions", "files", "language_codes", "preflight", "units"}
-"""The package itself, user errors, the study file's types, extensions, whole files, language codes, check results and
-units: every package may import them, and they import no package."""
+BELOW_ALL = {"kiosk", "errors", "config", "extensions", "files", "garbage", "language_codes", "preflight", "units"}
+"""The package itself, user errors, the study file's types, extensions, whole files, Python's collector, language codes,
+check results and units: every package may import them, and they import no package."""
 
 PACKAGES: dict[str, set[str]] = {
     "kiosk": set(),
@@ -25,6 +25,7 @@ PACKAGES: dict[str, set[str]] = {
     "config": set(),
     "extensions": set(),
     "files": set(),
+    "garbage": set(),
     "language_codes": set(),
     "preflight": set(),
     "units": set(),

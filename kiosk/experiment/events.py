@@ -6,7 +6,7 @@ they follow from the world events, and are recorded beside them so that the data
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
 from functools import cache
@@ -19,6 +19,7 @@ from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
+from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import FlipRejection, Position
 
 
@@ -741,7 +742,7 @@ _EXPLAINING = _converter(explaining=True)
 
 
 @cache
-def _kinds() -> Mapping[str, type[Event]]:
+def event_kinds() -> Mapping[str, type[Event]]:
     """Return every class of event that has none below it, by its name."""
     found: dict[str, type[Event]] = {}
     above: list[type[Event]] = [Event]
@@ -763,14 +764,54 @@ def to_record(event: Event) -> dict[str, Any]:
 def from_record(record: Mapping[str, Any]) -> Event:
     """Return the event that ``to_record`` wrote; raises ValueError, saying where, for anything else."""
     fields = dict(record)
-    kind = _kinds().get(fields.pop("type", ""))
+    return _read(fields.pop("type", ""), fields)
+
+
+def from_fields(kind: str, at_ms: int, fields: Mapping[str, Any]) -> Event:
+    """Return the event of a kind with these fields beside its time; raises ValueError as ``from_record`` does."""
+    return _read(kind, {"at_ms": at_ms, **fields})
+
+
+def _read(name: str, fields: dict[str, Any]) -> Event:
+    kind = event_kinds().get(name)
     if kind is None:
-        raise ValueError(f"event: there is no event {record.get('type')!r}")
+        raise ValueError(f"event: there is no event {name!r}")
+    read = _plain_reader(name)
+    try:
+        if read is not None:
+            return read(fields)
+    except Exception:  # noqa: BLE001, S110 - what is not written as ever may be right, and is read in general
+        pass
     try:
         event: Event = _CONVERTER.get_structure_hook(kind)(fields, kind)
     except Exception:  # noqa: BLE001 - anything can be wrong in a record; the other converter finds out what
         event = _explained(fields, kind)
     return event
+
+
+@cache
+def _plain_reader(name: str) -> Callable[[dict[str, Any]], Event] | None:
+    return plain_reader(event_kinds()[name], _CONVERTERS, _CONVERTER.get_structure_hook)
+
+
+_TRACE = tuple[tuple[int, float, float], ...]
+
+
+def _trace(places: list[Any]) -> tuple[tuple[int, float, float], ...]:
+    read: tuple[tuple[int, float, float], ...] = _CONVERTER.structure(places, _TRACE) if places else ()
+    return read
+
+
+_CONVERTERS: Mapping[Any, Callable[[Any], Any]] = {
+    Position: read_position,
+    ActionSpec: _action,
+    EmbodimentName: EmbodimentName.from_text,
+    Response | None: lambda value: _response(value, None),
+    tuple[str, ...]: read_texts,
+    _TRACE: _trace,
+    **{closed_set: by_name(closed_set) for closed_set in (Phase, MoveOutcome, GateDecision)},
+}
+"""How the fields are read that are not written as they are."""
 
 
 def _explained(fields: dict[str, Any], kind: type[Event]) -> Event:

@@ -357,6 +357,7 @@ _OF_SPEECH: frozenset[type[Event]] = frozenset(
 """Which events each part of the state takes notice of; the other ones cannot change it."""
 
 
+_Kept = TypeVar("_Kept")
 _AnyEvent = TypeVar("_AnyEvent", bound=Event | None)
 
 
@@ -423,6 +424,13 @@ class _Course:
                 self.pauses[-1] = replace(self.pauses[-1], until_ms=at_ms)
 
 
+def _with(one: _Kept, **changes: object) -> _Kept:
+    """Return an object with other values; as dataclasses.replace, in a third of the time."""
+    made = object.__new__(type(one))
+    object.__setattr__(made, "__dict__", {**vars(one), **changes})
+    return made
+
+
 class _Boards:
     """The boards, and since when the last one can be tapped."""
 
@@ -481,13 +489,13 @@ class _Boards:
             case HintGiven(flip=flip):
                 self._hints[flip] = BoardHint(event)
             case HintHighlighted(flip=flip, at_ms=at_ms) if flip in self._hints:
-                self._hints[flip] = replace(self._hints[flip], marked_ms=at_ms)
+                self._hints[flip] = _with(self._hints[flip], marked_ms=at_ms)
             case BoardUnlocked(at_ms=at_ms) if self._hints or self._remarks:
                 flip = max((*self._hints, *self._remarks))
                 if flip in self._hints:
-                    self._hints[flip] = replace(self._hints[flip], opened_ms=at_ms)
+                    self._hints[flip] = _with(self._hints[flip], opened_ms=at_ms)
                 else:
-                    self._remarks[flip] = replace(self._remarks[flip], opened_ms=at_ms)
+                    self._remarks[flip] = _with(self._remarks[flip], opened_ms=at_ms)
 
 
 class _Responses:
@@ -526,7 +534,7 @@ class _Responses:
             case HiddenItemsChanged(questionnaire=questionnaire, hidden=hidden, withdrawn=withdrawn):
                 self._hidden[questionnaire] = hidden
                 lost = {(questionnaire, item) for item in withdrawn} & self._here.keys()
-                self._here |= {key: replace(self._here[key], response=None) for key in lost}
+                self._here |= {key: _with(self._here[key], response=None) for key in lost}
             case QuestionnairePageShown(questionnaire=questionnaire, items=items, at_ms=at_ms):
                 self._questionnaire = questionnaire
                 for item in items:
@@ -594,18 +602,18 @@ class _Speech:
     def _report(self, event: Event) -> None:
         match event:
             case SpeechStarted(utterance=number, at_ms=at_ms) if number in self.sentences:
-                self._set_last(number, replace(self._last(number), started_ms=at_ms, heard=event))
+                self._set_last(number, _with(self._last(number), started_ms=at_ms, heard=event))
             case SpeechFinished(utterance=number, at_ms=at_ms) if number in self.sentences:
-                self._set_last(number, replace(self._last(number), finished_ms=at_ms))
+                self._set_last(number, _with(self._last(number), finished_ms=at_ms))
                 self._stop(number)
             case SpeechFailed(utterance=number, at_ms=at_ms) if number in self.sentences:
                 self._fail(number, at_ms)
             case SpeechCutShort(utterance=number, at_ms=at_ms) if number in self.sentences:
-                self._set_last(number, replace(self._last(number), cut_ms=at_ms))
+                self._set_last(number, _with(self._last(number), cut_ms=at_ms))
                 self._stop(number)
 
     def _fail(self, number: int, at_ms: int) -> None:
-        self._set_last(number, replace(self._last(number), failed_ms=at_ms))
+        self._set_last(number, _with(self._last(number), failed_ms=at_ms))
         self._stop(number)
 
     def _stop(self, number: int) -> None:
@@ -617,12 +625,12 @@ class _Speech:
 
     def _set_last(self, number: int, attempt: SpeechAttempt) -> None:
         said = self.sentences[number]
-        self.sentences[number] = replace(said, attempts=(*said.attempts[:-1], attempt))
+        self.sentences[number] = _with(said, attempts=(*said.attempts[:-1], attempt))
 
     def _say_again(self, at_ms: int) -> None:
         """Begin anew with the sentence that was broken off, if one was."""
         number, self._broken_off = self._broken_off, None
         if number is not None:
             said = self.sentences[number]
-            self.sentences[number] = replace(said, attempts=(*said.attempts, SpeechAttempt(self._embodiment, at_ms)))
+            self.sentences[number] = _with(said, attempts=(*said.attempts, SpeechAttempt(self._embodiment, at_ms)))
             self._under_way = number

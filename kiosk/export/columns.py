@@ -126,11 +126,11 @@ class Table(Generic[Whole, Row]):
         """The table without its contents."""
         return TableShape(self.name, self.about, self.key, tuple(column.variable for column in self.columns))
 
-    def cells(self, whole: Whole) -> Iterator[list[str]]:
-        """Yield the rows as texts, in the order of the columns."""
-        values, formats = [column.of for column in self.columns], _FORMATS
-        for row in self.rows(whole):
-            yield [formats.get(type(cell), format_cell)(cell) for cell in [of(row) for of in values]]
+    def cells(self, whole: Whole) -> Iterator[tuple[str, ...]]:
+        """Return the rows as texts, in the order of the columns."""
+        rows = tuple(self.rows(whole))
+        # A column's cells are mostly of one kind, so that what writes them is chosen once and not for every cell.
+        return zip(*(_written(map(column.of, rows)) for column in self.columns), strict=True)
 
 
 class Label(str):
@@ -142,24 +142,28 @@ class Label(str):
     __slots__ = ()
 
 
+class Json(str):
+    """A JSON object that is written already; it stands in a cell as it is."""
+
+    __slots__ = ()
+
+
 # json.dumps makes an encoder at each call where it is asked for anything but ASCII.
-_as_json = json.JSONEncoder(ensure_ascii=False).encode
+_as_json = json.JSONEncoder(ensure_ascii=False, separators=(",", ":")).encode
+
+
+def _written(cells: Iterable[Cell]) -> Iterable[str]:
+    """Return the cells of a column as they stand in a file."""
+    cells = tuple(cells)
+    kinds = set(map(type, cells))
+    if len(kinds) == 1:
+        return map(_FORMATS.get(kinds.pop(), format_cell), cells)
+    return [_FORMATS.get(type(cell), format_cell)(cell) for cell in cells]
 
 
 def format_cell(cell: Cell) -> str:
     """Return a cell as it stands in a file: numbers so that they can be read back exactly."""
-    match cell:
-        case None:
-            return ""
-        case bool():
-            return str(cell).lower()
-        case dict():
-            return _as_json(cell)
-        case tuple():
-            return marked(SEPARATOR.join(cell))
-        case str():
-            return MARK + cell if isinstance(cell, Label) and cell.isdigit() else marked(str(cell))
-    return str(cell)
+    return next(_FORMATS[kind] for kind in type(cell).__mro__ if kind in _FORMATS)(cell)
 
 
 def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
@@ -192,8 +196,12 @@ _FORMATS: Mapping[type, Callable[[Any], str]] = {
     int: str,
     float: str,
     str: marked,
+    dict: _as_json,
+    Json: lambda cell: cell,
+    Label: lambda cell: MARK + cell if cell.isdigit() else marked(str(cell)),
+    tuple: lambda cell: marked(SEPARATOR.join(cell)),
 }
-"""What ``format_cell`` does with the commonest kinds of cells: most time of an export goes into them."""
+"""How each kind of cell is written."""
 
 
 def unmarked(cell: str) -> str:

@@ -14,6 +14,7 @@ from kiosk.export.layouts import DatasetContents, Layout, new_folder
 from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
+from kiosk.garbage import rare_collections
 from kiosk.store.plans import frozen_plans
 from kiosk.store.session_records import RecordSource, SessionRecord, open_records, shuffling_secret
 
@@ -56,7 +57,7 @@ def export_dataset(  # noqa: PLR0913 - each is asked for by itself
     used, or dates are asked for, which tell the order that shuffling hides.
     """
     kinds = frozenset({SessionKind.STUDY, *(kind for extra, kind in _KINDS.items() if extra in extras)})
-    with open_records(data, kinds) as stored, new_folder(out) as folder:
+    with rare_collections(), open_records(data, kinds) as stored, new_folder(out) as folder:
         study = StudyMaterials(stored.plans())
         if shuffled_ids or study.asks_for_shuffled_ids:
             if ExportOption.DATES in extras:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from dataclasses import fields as fields_of
 from enum import Enum
-from typing import Any
+from itertools import repeat
+from typing import Any, NamedTuple
 
-from kiosk.experiment.events import Stage
+from kiosk.experiment.events import Stage, event_kinds
 from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
@@ -22,16 +24,23 @@ from kiosk.export.columns import (
     Column,
     ColumnKind,
     ExportOption,
+    Json,
     Level,
     Table,
     Variable,
     enum_levels,
     make_columns,
 )
-from kiosk.export.records import TELLS_THE_ORDER, StudyMaterials, safe_fields
+from kiosk.export.records import FREE, TELLS_THE_ORDER, StudyMaterials, safe_fields
 from kiosk.store.session_records import Deviation, EventRecord, SessionRecord
 
 FIELDS = "fields"
+
+_FIELDS_CHANGED = frozenset({"trace", "setup", "value"})
+_CHANGED = FREE.keys() | {
+    name for name, kind in event_kinds().items() if _FIELDS_CHANGED & {field.name for field in fields_of(kind)}
+}
+"""The events of which a field may be left out or stand otherwise than it was written."""
 
 
 class SoundDevice(Enum):
@@ -68,8 +77,7 @@ NOWHERE = "null"
 """The device that is heard by no one; as kiosk.robots.audio calls it."""
 
 
-@dataclass(frozen=True)
-class _Logged:
+class _Logged(NamedTuple):
     kept: SessionRecord
     record: EventRecord
 
@@ -81,7 +89,9 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
     told = "" if with_texts else " Fields that may hold free text are left out."
     told += "" if ages is None else f" Ages stand in bands of {ages.years} years."
 
-    def fields(row: _Logged) -> dict[str, object]:
+    def fields(row: _Logged) -> Json | dict[str, object]:
+        if row.record.event is not None and row.record.type not in _CHANGED:
+            return Json(row.record.payload)
         given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
         # The way of the pointer has a table of its own.
         given.pop("trace", None)
@@ -127,7 +137,7 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
         "One row for every event of a session, as it was written; the other tables follow from it.",
         ("participant_id", "seq"),
         logged,
-        lambda kept: [_Logged(kept, record) for record in kept.records],
+        lambda kept: map(_Logged, repeat(kept), kept.records),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from datetime import UTC, date, datetime, time, timedelta
@@ -21,7 +21,7 @@ from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import Event, LanguageSelected, Stage, Status, from_record
+from kiosk.experiment.events import Event, LanguageSelected, Stage, Status, from_fields
 from kiosk.experiment.information import Information
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire
 from kiosk.experiment.replay import DecisionContext, agrees_with_record
@@ -89,6 +89,17 @@ class StoredSession:
             "simulated": self.kind is SessionKind.SIMULATED,
             "trial": self.kind is SessionKind.TRIAL,
         }
+
+
+StoredEvent = tuple[int, int, str, str, str]
+"""An event's seq, at_ms, type, origin, and its own fields as JSON."""
+
+
+def decoded(rows: Iterable[StoredEvent]) -> list[dict[str, Any]]:
+    """Return the fields of events."""
+    # One array is read in a third of the time of as many objects.
+    fields: list[dict[str, Any]] = json.loads(f"[{','.join(row[-1] for row in rows)}]")
+    return fields
 
 
 RUNNING = "running"
@@ -202,20 +213,28 @@ class SessionRepository:
 
     def event_fields(self, number: int) -> Iterator[tuple[int, int, str, str, dict[str, Any]]]:
         """Yield every event of a session: seq, at_ms, type, origin, and its own fields as JSON values."""
+        rows = self.stored_events(number)
+        for (seq, at_ms, kind, origin, _), fields in zip(rows, decoded(rows), strict=True):
+            yield seq, at_ms, kind, origin, fields
+
+    def stored_events(self, number: int) -> list[StoredEvent]:
+        """Return every event of a session: seq, at_ms, type, origin, and its own fields as JSON."""
         self._row(number)
-        rows = self._database.conn.execute(
-            "SELECT seq, at_ms, type, origin, payload FROM event WHERE session = ? ORDER BY seq", (number,)
-        )
-        for seq, at_ms, kind, origin, payload in rows:
-            yield seq, at_ms, kind, origin, json.loads(payload)
+        query = "SELECT seq, at_ms, type, origin, payload FROM event WHERE session = ? ORDER BY seq"
+        rows: list[StoredEvent] = self._database.conn.execute(query, (number,)).fetchall()
+        return rows
 
     def events(self, number: int) -> list[Event]:
         """Every event of a session."""
-        return [_event(record) for record in self.records(number)]
+        return [from_fields(kind, at_ms, fields) for _, at_ms, kind, _, fields in self.event_fields(number)]
 
     def story(self, number: int) -> list[Event]:
         """Return every event of a session, without the ends that were added after a crash."""
-        return [_event(record) for record in self.records(number) if record["origin"] != "recovery"]
+        return [
+            from_fields(kind, at_ms, fields)
+            for _, at_ms, kind, origin, fields in self.event_fields(number)
+            if origin != "recovery"
+        ]
 
     def plan(self, number: int) -> SessionConfig:
         """Return what a session followed, from its stored sources; raise UserInputError if they cannot be read."""
@@ -312,10 +331,6 @@ def open_repository(folder: Path) -> Iterator[SessionRepository]:
             yield SessionRepository(sqlite_utils.Database(connection), in_use=in_use(folder))
         except sqlite3.DatabaseError as error:
             raise unreadable(error, folder) from error
-
-
-def _event(record: dict[str, Any]) -> Event:
-    return from_record({key: value for key, value in record.items() if key not in ("seq", "origin")})
 
 
 class DecisionExplainer:

@@ -10,25 +10,25 @@ import hmac
 import json
 import secrets
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import sqlite_utils
 
 from kiosk import UserInputError
-from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_record
+from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_fields
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.files import replace_file
 from kiosk.store.database import in_use, open_for_reading, unreadable
-from kiosk.store.queries import SessionRepository
+from kiosk.store.queries import SessionRepository, StoredEvent, decoded
 
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
@@ -36,14 +36,17 @@ PADDED = 4
 _LETTERS = {SessionKind.STUDY: "P", SessionKind.SIMULATED: "r", SessionKind.TRIAL: "t"}
 
 
-@dataclass(frozen=True)
-class EventRecord:
-    """One event as it was written, its stage, and how this program reads it, if it can."""
+class EventRecord(NamedTuple):
+    """One event as it was written, its stage, and how this program reads it, if it can.
+
+    ``payload`` is the JSON of its ``fields``.
+    """
 
     seq: int
     at_ms: int
     origin: str
     type: str
+    payload: str
     fields: Mapping[str, Any]
     stage: Stage
     event: Event | None
@@ -196,7 +199,7 @@ class RecordSource:
 
     def _record(self, number: int) -> SessionRecord:
         (row,) = self._rows(f"AND session.id = {number}")
-        records = tuple(_told(self.archive.event_fields(row["id"])))
+        records = tuple(_told(self.archive.stored_events(row["id"])))
         deviations = self._deviations.get(number, ())
         return SessionRecord(row, self._status(records), self._plan(row), records, self.secret, deviations)
 
@@ -311,16 +314,17 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
             raise unreadable(error, folder) from error
 
 
-def _told(rows: Iterable[tuple[int, int, str, str, dict[str, Any]]]) -> Iterator[EventRecord]:
+def _told(rows: Sequence[StoredEvent]) -> Iterator[EventRecord]:
     """Yield the records with the stage that each fell into."""
-    rows = tuple(rows)
-    events = (_event(at_ms, kind, fields) for _, at_ms, kind, _, fields in rows)
-    for (seq, at_ms, kind, origin, fields), (stage, event) in zip(rows, with_stages(events), strict=True):
-        yield EventRecord(seq, at_ms, origin, kind, fields, stage, event)
+    written = decoded(rows)
+    events = (_event(at_ms, kind, fields) for (_, at_ms, kind, _, _), fields in zip(rows, written, strict=True))
+    for row, fields, (stage, event) in zip(rows, written, with_stages(events), strict=True):
+        seq, at_ms, kind, origin, payload = row
+        yield EventRecord(seq, at_ms, origin, kind, payload, fields, stage, event)
 
 
 def _event(at_ms: int, kind: str, fields: Mapping[str, Any]) -> Event | None:
     try:
-        return from_record({"at_ms": at_ms, "type": kind, **fields})
+        return from_fields(kind, at_ms, fields)
     except ValueError:
         return None

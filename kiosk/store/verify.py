@@ -14,7 +14,8 @@ from functools import partial
 from pathlib import Path
 
 from kiosk import UserInputError
-from kiosk.experiment.events import from_record
+from kiosk.experiment.events import from_fields
+from kiosk.garbage import rare_collections
 from kiosk.store.chain import broken_links, lost_ends, missing_since_written
 from kiosk.store.connecting import reason
 from kiosk.store.database import MIGRATIONS, open_as_it_is
@@ -59,7 +60,7 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
     A kiosk may be writing meanwhile: all is seen as it stood at one moment.
     """
     flaws: list[Flaw] = []
-    with closing(open_as_it_is(folder)) as connection:
+    with rare_collections(), closing(open_as_it_is(folder)) as connection:
         connection.execute("BEGIN")
         looks = _LOOKS | {Verification.HEADS: partial(_heads, folder=folder)}
         for done, (check, look) in enumerate(looks.items()):
@@ -175,7 +176,7 @@ def _readable(connection: sqlite3.Connection) -> _Found:
         if (kind, payload) in readable:
             continue
         try:
-            from_record({"at_ms": at_ms, "type": kind, **json.loads(payload)})
+            from_fields(kind, at_ms, json.loads(payload))
         except (ValueError, TypeError) as error:
             yield f"session {session}, event {seq}", f"{kind} cannot be read: {error}"
             continue

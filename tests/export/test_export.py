@@ -209,7 +209,7 @@ def test_of_an_event_that_cannot_be_read_no_field_is_told_unless_texts_are_asked
         export_dataset(tmp_path / "data", tmp_path / f"with-{len(extras)}", PsychDs, extras)
         first = rows_of(tmp_path / f"with-{len(extras)}", "events")[0]
         told[len(extras)] = (first["type"], first["fields"])
-    assert told == {0: ("NameTyped", "{}"), 1: ("NameTyped", '{"name": "Zaphod"}')}
+    assert told == {0: ("NameTyped", "{}"), 1: ("NameTyped", '{"name":"Zaphod"}')}
 
 
 def test_a_sentence_that_the_robot_broke_off_has_a_row_for_the_robot_and_one_for_the_avatar(tmp_path: Path) -> None:

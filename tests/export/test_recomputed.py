@@ -166,7 +166,7 @@ def test_a_decision_takes_as_long_as_the_board_was_open_before_it(read: Read) ->
         times = [
             int(event["at_ms"])
             for event in events[of]
-            if event["type"] in opened or event["fields"] == '{"timer": "turn_back"}'
+            if event["type"] in opened or event["fields"] == '{"timer":"turn_back"}'
         ]
         for flip in flips:
             at = int(flip["at_ms"])
@@ -179,7 +179,7 @@ def test_a_card_lies_open_until_it_is_turned_back_or_its_pair_is_found(read: Rea
     measured = 0
     for of, flips in by_participant(read("flips")).items():
         paused = spans(events[of], "PauseRequested", "PauseEnded", 0)
-        turned_back = [int(e["at_ms"]) for e in events[of] if e["fields"] == '{"timer": "turn_back"}']
+        turned_back = [int(e["at_ms"]) for e in events[of] if e["fields"] == '{"timer":"turn_back"}']
         for flip in flips:
             if not flip["exposure_ms"]:
                 continue
