@@ -6,7 +6,7 @@ import json
 import queue
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import chain, product
@@ -33,6 +33,7 @@ from kiosk.robots.embodiment import (
     Utterance,
     chosen_voice,
 )
+from kiosk.robots.furhat_rules import Request
 from kiosk.robots.registry import create_robot
 from kiosk.robots.tts_engines import SpeechEngine, create_engine
 from kiosk.robots.tts_worker import SpeechSource
@@ -61,6 +62,7 @@ class RobotTrial:
 @click.option("--language", help="The language that it is to speak; the study's unless told otherwise.")
 @click.option("--say", "sentence", help="A sentence for it to say.")
 @click.option("--study", type=click.Path(path_type=Path), help="The study file (TOML), for its axes and deadlines.")
+@click.option("--pretend", is_flag=True, help="Be a Furhat without a robot, on this machine, until Ctrl+C.")
 @json_option
 def robot_command(
     host: str | None,
@@ -70,9 +72,16 @@ def robot_command(
     study: Path | None,
     kind: str | None,
     *,
+    pretend: bool,
     as_json: bool,
 ) -> None:
     """Try a robot step by step and say what it has and does."""
+    if pretend:
+        others = (host, kind, language, sentence, study)
+        if as_json or any(each is not None for each in others):
+            raise UserInputError("--pretend goes with --port alone")
+        _pretend(port)
+        return
     settings = read_settings(study, host or (None if study or kind else "localhost"), port)
     language = language or settings.language_codes[0]
     asked = settings.robot.model_copy(update={"kind": kind} if kind else {})
@@ -90,6 +99,25 @@ def robot_command(
             json.dumps({"robot": asked.host, "kind": asked.kind, "works": worked, "steps": [*map(asdict, steps)]})
         )
     sys.exit(0 if worked else FAILED)
+
+
+def _pretend(port: int | None) -> None:
+    """Serve a pretended Furhat until it is interrupted, and print what it is asked."""
+    from kiosk.robots.furhat import Furhat  # noqa: PLC0415 - for this option alone
+    from kiosk.robots.furhat_pretended import PretendedFurhat  # noqa: PLC0415
+
+    port = port or Furhat.default_port
+    heard: queue.SimpleQueue[Request] = queue.SimpleQueue()
+    try:
+        robot = PretendedFurhat(port=port, heard=heard.put)
+    except OSError as error:
+        raise UserInputError(f"no Furhat can be pretended at port {port}: {error.strerror}") from error
+    with robot, suppress(KeyboardInterrupt):
+        click.echo(f"A pretended Furhat listens at localhost, port {robot.port}. Ctrl+C ends it.")
+        while True:
+            request = heard.get()
+            words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())
+            click.echo(f"{request.path.removeprefix('/furhat/'):12}{words}")
 
 
 def greet(settings: Settings, language: str, sentence: str) -> RobotTrial | None:

@@ -83,7 +83,9 @@ GUIDES = {
         "how-to/booth.md",
         ("rehearse --headless --seed 1 --shots pictures", "rehearse --headless --sessions 200 --study study.toml"),
     ),
-    "robot": Guide("explanation/embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml")),
+    "robot": Guide(
+        "explanation/embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml", "robot --pretend")
+    ),
     "status": Guide("how-to/booth.md", ("status", "status --json")),
     "sessions": Guide(
         "reference/data-set.md", ("sessions", "sessions --since 2026-05-01 --status abandoned", "sessions --codes")

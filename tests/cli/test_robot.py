@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -30,6 +32,27 @@ def tried(*arguments: object) -> tuple[int, dict[str, Any]]:
 def steps(found: dict[str, Any]) -> dict[str, str]:
     """Return what every step found."""
     return {step["step"]: step["found"] for step in found["steps"]}
+
+
+def test_a_pretended_furhat_takes_what_a_robot_takes_and_prints_it() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    command = [sys.executable, "-u", "-m", "kiosk", "robot", "--pretend", "--port", str(port)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as pretended:
+        assert pretended.stdout is not None
+        assert f"port {port}" in pretended.stdout.readline()
+        code, found = tried("--host", "127.0.0.1", "--port", port, "--say", "Hi")
+        pretended.send_signal(signal.SIGINT)
+        said = pretended.stdout.read()
+    assert (code, found["works"], pretended.returncode) == (0, True, 0)
+    assert "text=Hi" in said
+    assert "gesture     name=" in said
+
+
+@pytest.mark.parametrize("other", ["--host=robot", "--kind=furhat", "--json"])
+def test_a_pretended_robot_has_no_other_options(other: str) -> None:
+    result = CliRunner().invoke(recollect, ["robot", "--pretend", other])
+    assert str(result.exception) == "--pretend goes with --port alone"
 
 
 def test_a_robot_that_is_well_does_every_step() -> None:

@@ -219,7 +219,7 @@ def test_nobody_to_look_at_is_no_failure(fake: FurhatFake) -> None:
 
 @pytest.mark.parametrize("success", ['"true"', "1", "null"])
 def test_only_true_counts_as_true(fake: FurhatFake, success: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tests.robots.furhat_fake.json.dumps", lambda _: f'{{"success": {success}}}')
+    monkeypatch.setattr("kiosk.robots.furhat_pretended.json.dumps", lambda _: f'{{"success": {success}}}')
     with pytest.raises(RobotError) as failed:
         furhat(fake).stop_speech()
     assert failed.value.kind is FailureKind.GARBAGE

@@ -1,6 +1,6 @@
 """What a Furhat's Remote API takes, strictly: a verb, a path and parameters that it does not list are refused.
 
-From the maker's documentation, as far as it goes; no test may rely on more than that.
+From the maker's documentation, as far as it goes. Nothing here was tried with a real robot.
 """
 
 from __future__ import annotations
@@ -24,6 +24,10 @@ GESTURES = {
 VOICES = {"Matthew": "en-US", "Amy": "en-GB", "Lucia": "es-ES", "Bianca": "it-IT", "Astrid": "sv-SE"}
 
 LONGEST = 1000
+MOST_DEGREES = 50
+"""How far neck and eyes turn to each side."""
+METRES = 3
+"""A place has three coordinates."""
 
 
 class Refused(Exception):
@@ -88,7 +92,9 @@ def _definition(body: Any) -> None:
         _need(set(frame) <= {"time", "persist", "params"} and frame["time"] == sorted(frame["time"]), "no frame")
         for name, value in frame["params"].items():
             wide = name.startswith(("NECK_", "GAZE_"))
-            _need(name == "reset" or (-50 <= value <= 50 if wide else 0 <= value <= 1), f"{name} is out of range")
+            _need(
+                name == "reset" or (abs(value) <= MOST_DEGREES if wide else 0 <= value <= 1), f"{name} is out of range"
+            )
 
 
 def _attend(request: Request) -> None:
@@ -97,7 +103,7 @@ def _attend(request: Request) -> None:
     _need(given.get("user", "CLOSEST") in {"CLOSEST", "OTHER", "RANDOM"}, "no such user")
     if "location" in given:
         metres = given["location"].split(",")
-        _need(len(metres) == 3 and all(math.isfinite(float(value)) for value in metres), "no location")
+        _need(len(metres) == METRES and all(math.isfinite(float(value)) for value in metres), "no location")
 
 
 def _voice(request: Request) -> None:
