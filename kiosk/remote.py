@@ -199,9 +199,6 @@ _ALARMS = {
 }
 """The alarms in words; a newer booth may have others."""
 
-_PARTS = {"robot_lost": "robot", "voice_lost": "voice", "disk_low": "disk"}
-"""The part of the status that an alarm is about."""
-
 
 @dataclass(frozen=True)
 class SeenBooth:
@@ -224,19 +221,11 @@ class SeenBooth:
 
     @property
     def troubles(self) -> list[str]:
-        """Say in words what is not well: the alarms that hold, and the parts that fail.
-
-        An alarm is left out where the part that it is about says more.
-        """
+        """Say in words what is not well: the alarms that hold, and the parts that fail."""
         if self.status is None:
             return []
-        failing = {part.name: part.message for part in self.status.failing}
-        alarms = [
-            _ALARMS.get(alarm.kind, alarm.kind.replace("_", " "))
-            for alarm in self.status.alarms
-            if alarm.passed is None and _PARTS.get(alarm.kind) not in failing
-        ]
-        return [*alarms, *(f"{name}: {message}" for name, message in failing.items())]
+        alarms = (_ALARMS.get(alarm.kind, alarm.kind.replace("_", " ")) for alarm in self.status.holding_alarms)
+        return [*alarms, *(f"{part.name}: {part.message}" for part in self.status.failing)]
 
     def row(self, now_s: float, *, connected: bool) -> dict[str, Any]:
         """Return the booth as lists show it; without a connection to the broker nothing is known of now."""

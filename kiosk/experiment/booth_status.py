@@ -80,6 +80,10 @@ class AlarmStatus:
     passed: str | None
 
 
+_ABOUT = {"robot_lost": "robot", "voice_lost": "voice", "disk_low": "disk"}
+"""Of an alarm's kind the name of the part that it is about."""
+
+
 @dataclass(frozen=True)
 class BoothStatus:
     """The whole of status.json; times are UTC in ISO 8601."""
@@ -137,6 +141,12 @@ class BoothStatus:
     def failing(self) -> tuple[PartStatus, ...]:
         """The parts that are not well."""
         return tuple(part for part in self.parts if not part.ok)
+
+    @property
+    def holding_alarms(self) -> tuple[AlarmStatus, ...]:
+        """The alarms that hold, but for those of a failing part, which says more itself."""
+        failing = {part.name for part in self.failing}
+        return tuple(alarm for alarm in self.alarms if alarm.passed is None and _ABOUT.get(alarm.kind) not in failing)
 
     def changed_from(self, earlier: BoothStatus | None) -> bool:
         """Return whether anything but the time of writing is different."""

@@ -36,9 +36,9 @@ from kiosk.ui.event_loop import (
 )
 from kiosk.ui.experimenter.actions import Services
 from kiosk.ui.experimenter.console import ExperimenterConsole, read_for, wall_ms
-from kiosk.ui.experimenter.operator_strip import OperatorStrip, operator_screen
+from kiosk.ui.experimenter.operator_strip import OperatorStrip
 from kiosk.ui.input import Activity, ChoiceReset, PointerTrace
-from kiosk.ui.kiosk_window import KioskWindow, numbered_screens
+from kiosk.ui.kiosk_window import KioskWindow
 from kiosk.ui.markers import MarkerStream
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
@@ -125,7 +125,7 @@ class App:
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         self._publisher = self._publish(settings, recorder, undo) if not virtual else None
-        self._strip = self._open_strip(settings.screen.operator_display, mode, undo)
+        self._strip = self._open_strip(settings, mode, undo)
         if not virtual:
             self.experimenter.upkeep.begin()
             self.experimenter.status_file.begin()
@@ -240,16 +240,13 @@ class App:
         self.experimenter.remote_trouble = lambda: publisher.trouble
         return publisher
 
-    def _open_strip(self, display: int, mode: RunMode, undo: ExitStack) -> OperatorStrip | None:
-        """Show the experimenter's strip, if the study asks for one and its screen is there."""
-        if display < 0 or mode.display is WindowMode.NOWHERE:
-            return None
-        screen = operator_screen(numbered_screens(), display)
-        if screen is None:
+    def _open_strip(self, settings: Settings, mode: RunMode, undo: ExitStack) -> OperatorStrip | None:
+        """Show the experimenter's strip, if the study asks for one, whenever its screen is there."""
+        if settings.screen.operator_display < 0 or mode.display is WindowMode.NOWHERE:
             return None
         strip = OperatorStrip(self._window.engine, self.screens.board, self.assigner.study.plans[0].catalogue)
         undo.callback(strip.close)
-        strip.show(screen)
+        strip.follow(settings.screen.operator_display, settings.screen.display)
         self.experimenter.status_file.observers.append(strip.update)
         return strip
 

@@ -14,6 +14,7 @@ from PySide6.QtQuick import QQuickItem
 from kiosk.config import Settings
 from kiosk.experiment.booth_status import CLOSED, AlarmStatus, PartStatus, utc
 from kiosk.game import Position
+from kiosk.ui.experimenter import operator_strip
 from kiosk.ui.experimenter.operator_strip import OperatorStrip, operator_screen, strip_place
 from tests.samples import ENGLISH
 from tests.samples import PLAYING as WELL
@@ -51,8 +52,9 @@ def test_it_tells_what_is_wrong_now_and_not_what_has_passed(strip: OperatorStrip
         AlarmStatus("disk_low", utc(0), seen=False, passed=None),
         AlarmStatus("robot_lost", utc(0), seen=True, passed=utc(1)),
     )
-    strip.update(replace(WELL, alarms=alarms, parts=(PartStatus("Voice", ok=False, message="no device"),)))
-    assert strip.window.property("words") == "The disk has not enough room for another hour; Voice: no device"
+    voice = (AlarmStatus("voice_lost", utc(0), seen=False, passed=None),)
+    strip.update(replace(WELL, alarms=alarms + voice, parts=(PartStatus("voice", ok=False, message="no device"),)))
+    assert strip.window.property("words") == "The disk has not enough room for another hour; voice: no device"
     assert strip.window.property("well") is False
 
 
@@ -79,12 +81,33 @@ def test_it_takes_no_keys_and_lies_along_the_lower_edge(strip: OperatorStrip) ->
     assert strip.window.geometry() == strip_place(screen.geometry())
 
 
-def test_without_its_screen_it_is_not_shown_to_visitors(
-    qapp: QGuiApplication, caplog: pytest.LogCaptureFixture
+def test_it_is_shown_while_its_screen_is_there_and_never_to_visitors(
+    strip: OperatorStrip, qapp: QGuiApplication, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    assert operator_screen(qapp.screens(), len(qapp.screens())) is None
-    assert "there is no screen" in caplog.text
-    assert operator_screen(qapp.screens(), 0) is qapp.screens()[0]
+    screen, there = qapp.primaryScreen(), list(qapp.screens())
+    monkeypatch.setattr(operator_strip, "numbered_screens", lambda: there)
+    strip.follow(1)
+    assert not strip.window.isVisible()
+    assert "there is no screen 1" in caplog.text
+    there.append(screen)
+    qapp.screenAdded.emit(screen)
+    qapp.processEvents()
+    assert strip.window.isVisible()
+    strip.window.setX(strip.window.x() - 190)
+    there.pop()
+    qapp.screenRemoved.emit(screen)
+    qapp.processEvents()
+    assert not strip.window.isVisible()
+    there.append(screen)
+    qapp.screenAdded.emit(screen)
+    qapp.processEvents()
+    assert strip.window.geometry() == strip_place(screen.geometry())
+
+
+def test_the_screen_that_visitors_have_for_want_of_their_own_is_not_taken(qapp: QGuiApplication) -> None:
+    screens = qapp.screens()[:1]
+    assert operator_screen(screens, 0, visitors=1) is None
+    assert operator_screen(screens, 0) is screens[0]
 
 
 def test_the_visitors_screen_is_refused() -> None:
