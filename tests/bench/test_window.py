@@ -180,8 +180,10 @@ def test_frame_time_while_cards_turn(benchmark: Any, tmp_path: Path) -> None:
 @pytest.mark.benchmark(group="board arrives")
 def test_arrival_of_the_board(benchmark: Any, tmp_path: Path) -> None:
     """From an empty table until the first frame with all 24 cards is drawn, at 1080 lines."""
-    with headless(Settings(), tmp_path) as app:
+    moving = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
+    with headless(Settings.model_validate({"voice": {"enabled": False}}), tmp_path, mode=moving) as app:
         app.screens.kiosk.show("game")
+        app.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
 
         def empty() -> None:
             app.screens.board.clear()

@@ -13,6 +13,8 @@ FocusScope {
     required property url cardShadow
     // Whether the screen is higher than wide: then the tray is a shelf with lines of its own above the cards.
     property bool upright: false
+    // Whether pictures are loaded in the time between frames; without a wall's clock there is none.
+    property bool prepares: false
     // Whether a sentence of the assistant stands on the screen.
     property bool said: false
     // Asked of the board once, and not by every card.
@@ -32,17 +34,17 @@ FocusScope {
     LayoutMirroring.enabled: false
     LayoutMirroring.childrenInherit: true
     // Where there is far more room beside the cards than above them, the tray stands there.
-    readonly property bool broad: width > 1.6 * height
+    readonly property bool broad: !upright && width > 1.6 * height
     readonly property real side: broad ? Math.min(300 * Theme.unit, 0.17 * width) : 0
     // Where the cards leave room for it, the tray has two rows of larger places.
     readonly property bool tall: height - (182 + 70) * Math.max(1, Theme.textSize) * Theme.unit - rows * widest > 70 * Theme.unit
-    readonly property int lines: upright ? (pairs > 6 ? 2 : 1) : tall ? 2 : 1
-    // On an upright screen: the line of words above the tray, and a place of the tray.
-    readonly property real wordsLine: (practises && !skipsBelow ? Math.max(practice.height, skip.height)
-                                                                : Math.max(practises ? practice.height : 0, progress.implicitHeight)) + 16 * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(132 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / lines))))
-    readonly property real usualStrip: upright ? wordsLine + lines * shelfSlot + 8 * Theme.unit
-                                               : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
+    readonly property int shelfLines: pairs > 6 ? 2 : 1
+    readonly property int lines: upright ? shelfLines : tall ? 2 : 1
+    // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
+    readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 16) * Theme.unit
+    readonly property real shelfSlot: Math.floor(Math.min(132 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
+    readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
     // Where the words about the game stand: above the tray, or beside it in the same line.
@@ -56,7 +58,7 @@ FocusScope {
     readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
-    readonly property real wish: 34 * Theme.unit + usualStrip + numbers + pill.height
+    readonly property real wish: 34 * Theme.unit + shelf + numbers + pill.height
         + rows * (width - numbers - 2 * Theme.gap) / Math.max(1, columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
@@ -96,8 +98,8 @@ FocusScope {
                 Image {
                     required property string modelData
                     visible: false
-                    // Beside the frames: a card that is turned before that loads its own.
-                    asynchronous: true
+                    // A card that is turned meanwhile waits for the same picture.
+                    asynchronous: view.prepares
                     source: modelData
                     sourceSize: Qt.size(loaded.modelData, loaded.modelData)
                 }

@@ -43,6 +43,9 @@ Window {
     readonly property bool wide: width >= height
     // A robot stands outside the screen: then the board has the whole width, and what is said stands below it.
     readonly property bool whole: wide && !avatar.present
+    // Beside a robot an upright screen has all of its height, but for a line of controls and the sentence above it.
+    readonly property bool high: !wide && !avatar.present
+    readonly property real sentence: speaks ? 260 * Math.max(1, texts) * Theme.unit : 0
     readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
     readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
     readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
@@ -94,7 +97,9 @@ Window {
     Item {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
-        y: !root.wide && boardView.visible ? Math.round(0.035 * root.room) : 0
+        y: root.wide || !boardView.visible ? 0
+         : Math.round(root.high ? Math.max(0, (free - height) / 2) : 0.035 * root.room)
+        readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
@@ -103,6 +108,7 @@ Window {
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
         // large texts, but on a form, where the keys of a number stand in its place.
         height: root.wide ? root.room - root.said
+              : root.high ? (boardView.visible ? Math.min(free, boardView.wish) : free)
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.86 : 0.78)
@@ -184,6 +190,7 @@ Window {
             cardShadow: root.cardShadow
             onTouchedSomething: helper.notice(helper.mapFromItem(boardView, touched.x, touched.y))
             upright: !root.wide
+            prepares: root.prepares
             said: helper.says
             onWon: if (!root.board.practice) feast.begin()
             // How a practice goes is clear by now.
@@ -249,7 +256,7 @@ Window {
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         y: below ? stage.y + stage.height : above
         width: below ? root.width * (broad ? 0.88 : 0.76) : root.width - stage.width - Theme.gap
-        height: below ? root.room - y : root.room - above
+        height: root.high ? root.sentence : below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
         speaks: root.wide || root.speaks
@@ -271,7 +278,7 @@ Window {
         canRepeat: root.avatar.bubble !== "" && ["practice", "game"].includes(root.kiosk.screen)
         // There is nothing to be done in a pause.
         opacity: root.kiosk.paused ? 0 : 1
-        places: !root.wide ? (stage.unwatched ? 5 : 1) : root.whole && root.speaks ? 3 : 5
+        places: !root.wide ? (stage.unwatched || root.high ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
         x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
         y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
