@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -27,9 +28,12 @@ from kiosk.store import merge as merging
 from kiosk.store import verify as checking
 from kiosk.store import withdrawal as withdrawing
 from kiosk.store.database import FILE as DATABASE
+from kiosk.store.database import in_use
 from kiosk.store.verify import Flaw, Verification
 
 SHORT_SHA = 12
+MOST_PROCESSES = 4
+"""One process reads for all, so more of them would wait for it."""
 SOMETHING_WRONG = 1
 """The exit code when something is found, or the disk fails."""
 
@@ -243,7 +247,10 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
     """
     extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
     with progress_bar("sessions", hidden=as_json) as bar:
-        exported = write(data, out, Bids if bids else PsychDs, extras, bar, shuffled_ids=shuffled_ids)
+        # A kiosk that is open on the folder has the other processors to itself.
+        processes = 1 if in_use(data) else min(os.cpu_count() or 1, MOST_PROCESSES)
+        layout = Bids if bids else PsychDs
+        exported = write(data, out, layout, extras, bar, shuffled_ids=shuffled_ids, processes=processes)
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return

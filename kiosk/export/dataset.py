@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -10,13 +10,14 @@ from pathlib import Path
 from kiosk import UserInputError
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
-from kiosk.export.layouts import DatasetContents, Layout, new_folder
+from kiosk.export.layouts import DatasetContents, Layout, PsychDs, new_folder
+from kiosk.export.parallel import WORTH_IT, ExportTask, written_elsewhere
 from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
 from kiosk.garbage import rare_collections
 from kiosk.store.plans import frozen_plans
-from kiosk.store.session_records import RecordSource, SessionRecord, open_records, shuffling_secret
+from kiosk.store.session_records import RecordSource, open_records, shuffling_secret
 
 _KINDS = {ExportOption.REHEARSALS: SessionKind.SIMULATED, ExportOption.TRIALS: SessionKind.TRIAL}
 """The kinds of sessions that are exported for those who ask for them."""
@@ -49,10 +50,12 @@ def export_dataset(  # noqa: PLR0913 - each is asked for by itself
     tell: Callable[[int, int], None] | None = None,
     *,
     shuffled_ids: bool = False,
+    processes: int = 1,
 ) -> Exported:
     """Write the data set of the data folder ``data`` into the new folder ``out``.
 
-    ``tell`` hears how many sessions are done, of how many. Names of participants are shuffled if that is asked for
+    ``tell`` hears how many sessions are done, of how many. Several ``processes`` write the same, and help where there
+    are many sessions and the layout is Psych-DS. Names of participants are shuffled if that is asked for
     here or by the settings of any session. Raises UserInputError if there is nothing to export, ``out`` cannot be
     used, or dates are asked for, which tell the order that shuffling hides.
     """
@@ -68,22 +71,35 @@ def export_dataset(  # noqa: PLR0913 - each is asked for by itself
         flows = {kind: ParticipantFlow(kind, stored.archive.counts(kind=kind)) for kind in sorted(kinds)}
         with closing(layout(folder, contents)) as writing:
             wanted = len(stored)
-            for done, kept in enumerate(stored, 1):
-                _add(kept, writing, flows[kept.kind], extras)
+            if processes > 1 and wanted >= WORTH_IT and isinstance(writing, PsychDs):
+                writes = _with_help(stored, writing, flows, data, processes)
+            else:
+                writes = _alone(stored, writing, flows)
+            for done in writes:
                 if tell is not None:
                     tell(done, wanted)
             writing.finish(tuple(flows.values()))
         return replace(_exported(flows, data, stored), cautions=study.cautions)
 
 
-def _add(kept: SessionRecord, writing: Layout, flow: ParticipantFlow, extras: frozenset[ExportOption]) -> None:
-    if kept.status is None:
-        flow.left_out(kept, FlowQuantity.NOT_ENDED)
-    elif not kept.publishable and ExportOption.UNSHARED not in extras:
-        flow.left_out(kept, FlowQuantity.NOT_SHARED)
-    else:
-        writing.add(kept)
-        flow.exported(kept)
+def _alone(stored: RecordSource, writing: Layout, flows: Mapping[SessionKind, ParticipantFlow]) -> Iterator[int]:
+    """Write all sessions in this process, and yield how many are done."""
+    for done, kept in enumerate(stored, 1):
+        if flows[kept.kind].counted(kept, unshared=ExportOption.UNSHARED in writing.contents.extras):
+            writing.add(kept)
+        yield done
+
+
+def _with_help(
+    stored: RecordSource, writing: PsychDs, flows: Mapping[SessionKind, ParticipantFlow], data: Path, processes: int
+) -> Iterator[int]:
+    """Do the same with other processes, which work out the tables; this one reads, and writes in the same order."""
+    contents = writing.contents
+    task = ExportTask(data, stored.kinds, stored.plan_numbers(), contents.study.shuffled, contents.extras)
+    for done, (kind, seen, texts) in enumerate(written_elsewhere(task, stored, processes), 1):
+        flows[kind].seen.update(seen)
+        writing.put(texts)
+        yield done
 
 
 def _exported(flows: dict[SessionKind, ParticipantFlow], data: Path, stored: RecordSource) -> Exported:

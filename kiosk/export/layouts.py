@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import json
 import os
 from abc import ABC, abstractmethod
@@ -12,7 +13,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 from pydantic import BaseModel
 
@@ -63,16 +64,34 @@ class CsvFile:
         # With line ends of two characters every cell that holds either of them is put in quotes.
         _check_columns(path, names)
         self._file = _new(path).open("x", encoding="utf-8", errors="backslashreplace", newline="")
-        self._writer = csv.writer(self._file, lineterminator="\r\n")
+        self._writer = _csv_writer(self._file)
         self._writer.writerow(names)
 
     def write(self, rows: Iterable[Sequence[str]]) -> None:
         """Add rows."""
         self._writer.writerows(rows)
 
+    def append(self, text: str) -> None:
+        """Add rows that are written as such a file has them."""
+        self._file.write(text)
+
     def close(self) -> None:
         """Nothing follows."""
         self._file.close()
+
+
+def _csv_writer(file: TextIO) -> Any:
+    return csv.writer(file, lineterminator="\r\n")
+
+
+def csv_texts(tables: DatasetTables, kept: SessionRecord) -> dict[str, str]:
+    """Return the rows that one session adds to each table, as they stand in a CSV file."""
+    texts: dict[str, str] = {}
+    for table in tables.sessions:
+        file = io.StringIO(newline="")
+        _csv_writer(file).writerows(table.cells(kept))
+        texts[table.name] = file.getvalue()
+    return texts
 
 
 class TsvFile:
@@ -288,6 +307,11 @@ class PsychDs(Layout):
         """Write what one session adds to the tables."""
         for table in self.contents.tables.sessions:
             self._files[table.name].write(table.cells(kept))
+
+    def put(self, texts: Mapping[str, str]) -> None:
+        """Write what ``csv_texts`` made of one session."""
+        for name, text in texts.items():
+            self._files[name].append(text)
 
     def finish(self, flows: tuple[ParticipantFlow, ...]) -> None:
         """Write the flow, and all that describes the tables."""

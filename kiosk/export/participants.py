@@ -102,6 +102,17 @@ class ParticipantFlow:
         if kept.status is not Status.COMPLETED:
             self.seen[FlowQuantity.ENDED_AT, last_stage(kept.state).value] += 1
 
+    def counted(self, kept: SessionRecord, *, unshared: bool) -> bool:
+        """Count a session, and return whether it is in the data set; ``unshared`` takes those in as well."""
+        if kept.status is None:
+            self.left_out(kept, FlowQuantity.NOT_ENDED)
+        elif not kept.publishable and not unshared:
+            self.left_out(kept, FlowQuantity.NOT_SHARED)
+        else:
+            self.exported(kept)
+            return True
+        return False
+
     def left_out(self, kept: SessionRecord, why: FlowQuantity) -> None:
         """Count one that is not."""
         self.seen[why, str(kept.row["condition"])] += 1

@@ -52,6 +52,14 @@ class EventRecord(NamedTuple):
     event: Event | None
 
 
+class StoredRecord(NamedTuple):
+    """A session as it is stored, before its events and its plan are read."""
+
+    row: Mapping[str, Any]
+    events: Sequence[StoredEvent]
+    deviations: tuple[Deviation, ...]
+
+
 @dataclass(frozen=True)
 class Deviation:
     """Something out of the ordinary that was done or happened at the booth, and the session that it concerns.
@@ -197,11 +205,23 @@ class RecordSource:
         found = [number for number, began in rows if since <= datetime.fromisoformat(began) < until]
         yield from map(self._record, found)
 
+    def stored(self) -> Iterator[StoredRecord]:
+        """Every session in the same order, for ``read``; one in memory at a time."""
+        yield from map(self._stored, self._in_order())
+
+    def read(self, stored: StoredRecord) -> SessionRecord:
+        """Return a stored session with its events and its plan."""
+        records = tuple(_told(stored.events))
+        return SessionRecord(
+            stored.row, self._status(records), self._plan(stored.row), records, self.secret, stored.deviations
+        )
+
     def _record(self, number: int) -> SessionRecord:
+        return self.read(self._stored(number))
+
+    def _stored(self, number: int) -> StoredRecord:
         (row,) = self._rows(f"AND session.id = {number}")
-        records = tuple(_told(self.archive.stored_events(row["id"])))
-        deviations = self._deviations.get(number, ())
-        return SessionRecord(row, self._status(records), self._plan(row), records, self.secret, deviations)
+        return StoredRecord(row, self.archive.stored_events(number), self._deviations.get(number, ()))
 
     @cached_property
     def _deviations(self) -> dict[int, tuple[Deviation, ...]]:
@@ -249,9 +269,17 @@ class RecordSource:
 
     def plans(self) -> tuple[SessionConfig, ...]:
         """Return the plans that the sessions followed, the newest first, as far as they can be read."""
-        newest = f"GROUP BY {', '.join(_FOLLOWED)} ORDER BY max(session.id) DESC"
-        plans = [self._plan(row) for row in self._rows(newest)]
+        return self.plans_of(self.plan_numbers())
+
+    def plans_of(self, numbers: Sequence[int]) -> tuple[SessionConfig, ...]:
+        """Return the plans that these sessions followed, as far as they can be read."""
+        plans = [self._plan(row) for number in numbers for row in self._rows(f"AND session.id = {number}")]
         return tuple(plan for plan in plans if plan is not None)
+
+    def plan_numbers(self) -> tuple[int, ...]:
+        """Return a session for each plan that was followed, the newest first."""
+        newest = f"GROUP BY {', '.join(_FOLLOWED)} ORDER BY max(session.id) DESC"
+        return tuple(row["id"] for row in self._rows(newest))
 
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(

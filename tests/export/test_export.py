@@ -45,6 +45,17 @@ def test_the_same_data_give_the_same_data_set_byte_for_byte(stored: Path, export
     assert contents(tmp_path / "again") == contents(exported)
 
 
+def test_several_processes_write_the_same(
+    stored: Path, exported: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kiosk.export.dataset.WORTH_IT", 1)
+    seen: list[tuple[int, int]] = []
+    told = export_dataset(stored, tmp_path / "again", PsychDs, tell=lambda *done: seen.append(done), processes=2)
+    assert told == Exported(PARTICIPANTS, not_shared=0, under_way=0)
+    assert contents(tmp_path / "again") == contents(exported)
+    assert seen == [(done, PARTICIPANTS) for done in range(1, PARTICIPANTS + 1)]
+
+
 def test_an_empty_folder_is_written_into(stored: Path, tmp_path: Path) -> None:
     assert export_dataset(stored, tmp_path, PsychDs) == Exported(PARTICIPANTS, not_shared=0, under_way=0)
 
