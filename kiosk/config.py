@@ -418,6 +418,35 @@ class AssistanceConfig(ConfigModel):
             "never does.",
         ),
     ] = 0.0
+    hesitation_max: Annotated[
+        int,
+        Field(
+            ge=0,
+            le=100,
+            description="How often in a game a visitor who hesitates gets a hint; 0 never.",
+        ),
+    ] = 0
+    hesitation_times: Annotated[
+        float,
+        Field(
+            ge=1,
+            le=20,
+            description="A visitor hesitates after this many times their own usual time: the median of their times "
+            "for the same card of a move, without help, in this game.",
+        ),
+    ] = 2.5
+    hesitation_flips: Annotated[
+        int, Field(ge=1, le=100, description="How many such times make a usual time; before, no one hesitates.")
+    ] = 4
+    hesitation_least_ms: Annotated[
+        int, Field(ge=500, le=120_000, description="The least wait, in ms, that counts as hesitating.")
+    ] = 5_000
+    hesitation_still_ms: Annotated[
+        int, Field(ge=0, le=60_000, description="How long, in ms, the pointer must have rested by then.")
+    ] = 1_500
+    hesitation_action: Annotated[
+        Literal["sug_col", "sug_row", "sug_card"], Field(description="What a hint after hesitating gives away.")
+    ] = "sug_col"
 
     @property
     def models_memory(self) -> bool:
@@ -428,6 +457,8 @@ class AssistanceConfig(ConfigModel):
     def _check_that_the_table_decides_if_it_learns(self) -> Self:
         if self.step and self.timing == "model":
             raise ValueError("step must be 0 with timing 'model', as no table decides that could go on learning")
+        if self.step and self.hesitation_max:
+            raise ValueError("step must be 0 with hesitation_max, as the table would learn from hints it did not give")
         return self
 
 

@@ -8,6 +8,7 @@ from random import Random
 from typing import Any, Protocol
 
 from kiosk import UserInputError
+from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate, MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, GateDecision, Phase, Precision, QTable, State
@@ -180,6 +181,12 @@ class Assistant:
         self._last = decision.action
         return decision
 
+    def offer(self, game: Concentration, action: ActionSpec) -> Hint:
+        """Return a hint for the coming flip of ``game`` after all, though no help had been decided."""
+        target = self._mentaliser.target(game)
+        self._last = action
+        return Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
+
     def _estimate(self, game: Concentration) -> MemoryEstimate | None:
         """Return what the player may remember, where that is modelled."""
         if not self._rules.models_memory:
@@ -225,13 +232,16 @@ class Explanation:
     overridden: bool = False
     spoken: str | None = None
     rules: DecisionRules = BY_TABLE
+    hesitation: Wait | None = None
+    """Set where no help was decided, and the hint came because the player hesitated."""
 
     def to_json(self) -> dict[str, Any]:
         """Return the explanation as JSON values: locations from 0 row by row, rows and columns from 1.
 
         Without a hint ``target``, ``counts`` and ``reason`` are null. ``overridden`` is there only when the action
         was not left to gate and table, ``said`` only when it is known, ``memory`` only where memory is modelled,
-        ``timing`` only where it decides (``q`` is empty then), and ``chance`` only where the action was drawn.
+        ``timing`` only where it decides (``q`` is empty then), ``chance`` only where the action was drawn, and
+        ``hesitation`` only where the help came because the player hesitated.
         """
         decision = self.decision
         return {
@@ -241,7 +251,7 @@ class Explanation:
             "q": dict(self.values),
             **self._memory(),
             "action": decision.action.label,
-            **self._chance(),
+            **({"hesitation": asdict(self.hesitation)} if self.hesitation else self._chance()),
             **({"overridden": True} if self.overridden else {}),
             **self._pointing(decision.hint),
             "targets": [self.board.location(position) for position in self.candidates],

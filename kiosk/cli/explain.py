@@ -20,6 +20,7 @@ from pydantic_core import ErrorDetails
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
+from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
@@ -31,6 +32,7 @@ from kiosk.experiment.replay import DecisionContext
 from kiosk.files import write_file
 from kiosk.game import Board, Concentration, Position
 from kiosk.store.queries import DecisionExplainer, open_repository
+from kiosk.units import MS_PER_SECOND
 
 SHAPE = Game()
 """The board of a case is the study's."""
@@ -417,11 +419,7 @@ def _lines(explanation: Explanation, *, brief: bool = False) -> Iterator[str]:
         yield from _memory(decision.memory, explanation.board)
     if explanation.rules.timing and decision.by_memory and decision.memory:
         yield _line("timing", explanation.rules.timing.told(decision.memory))
-    yield _line(
-        "action", decision.action.label + (", by the case and not by the table" if explanation.overridden else "")
-    )
-    if decision.is_randomised:
-        yield _line("chance", f"drawn with probability {decision.probability:.4g}; else {decision.greedy.label}")
+    yield from _taken(explanation)
     yield _line("targets", _places(explanation))
     if decision.hint is not None:
         yield from _pointing(decision.hint, explanation.board)
@@ -429,6 +427,27 @@ def _lines(explanation: Explanation, *, brief: bool = False) -> Iterator[str]:
         yield _line("said", explanation.spoken)
     for number, sentence in enumerate(() if brief else explanation.sentences):
         yield _line("" if number else "sentences", sentence)
+
+
+def _taken(explanation: Explanation) -> Iterator[str]:
+    """Yield what was done, and what besides the layers led to it."""
+    decision = explanation.decision
+    yield _line(
+        "action", decision.action.label + (", by the case and not by the table" if explanation.overridden else "")
+    )
+    if explanation.hesitation:
+        yield _line("hesitation", _waited(explanation.hesitation))
+    elif decision.is_randomised:
+        yield _line("chance", f"drawn with probability {decision.probability:.4g}; else {decision.greedy.label}")
+
+
+def _waited(wait: Wait) -> str:
+    """Say why a hint came that had not been decided before."""
+    seconds = (each / MS_PER_SECOND for each in (wait.waited_ms, wait.threshold_ms, wait.usual_ms))
+    return (
+        "no help was decided, but the visitor had waited for {:.1f} s; from {:.1f} s on they hesitate, as they "
+        "usually take {:.1f} s".format(*seconds)
+    )
 
 
 def _memory(memory: MemoryEstimate, board: Board) -> Iterator[str]:

@@ -151,7 +151,7 @@ def rehearse(
     _check(prepared, speed, language)
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
-    memories = _memories(people, seed)
+    memories = _memories(people, seed, HESITATES if prepared.settings.assistance.hesitation_max else 0.0)
     if sessions > 1:
         visitors = draw_visitors(sessions, seed, prepared.languages)
         characters = tuple(replace(visitor, memory=next(memories)) for visitor in visitors)
@@ -315,12 +315,16 @@ def _walk(
     return None
 
 
-def _memories(people: Path | None, seed: int) -> Iterator[MemoryTraits]:
+HESITATES = 0.08
+"""How often a visitor hesitates before a click, in a study that helps those who do."""
+
+
+def _memories(people: Path | None, seed: int, hesitation: float) -> Iterator[MemoryTraits]:
     """Return the memories of the visitors to come: all alike, or drawn from a file of people."""
     if people is None:
-        return repeat(MemoryTraits())
+        return repeat(MemoryTraits(hesitation=hesitation))
     population, rng = PopulationPlayer.load(people), Random(f"{seed}/people")
-    return (MemoryTraits(population.draw(rng), population.follow, population.lapse) for _ in count())
+    return (MemoryTraits(population.draw(rng), population.follow, population.lapse, hesitation) for _ in count())
 
 
 def _check(study: StudyConfig, speed: float | None, language: str | None) -> None:

@@ -56,6 +56,7 @@ class Timer(Enum):
     PAUSE = "pause"
     IDLE = "idle"
     STILL_THERE = "still_there"
+    HESITATION = "hesitation"
 
 
 class Status(Enum):
@@ -334,9 +335,9 @@ class TypingActivity(WorldEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class UserActivity(WorldEvent):
-    """The visitor scrolled, dragged or moved by keyboard, and did it last ``ago_ms`` milliseconds before.
+    """The visitor scrolled, dragged, or moved the pointer, and did it last ``ago_ms`` milliseconds before.
 
-    It is sent when the idle time ends, and so at most once in each.
+    It is sent in place of the end of the idle time, or of a wait for hesitation, and so at most once in each.
     """
 
     by_visitor = True
@@ -590,6 +591,22 @@ class HintGiven(SessionEvent):
     column: int | None
     sentence: str
     utterance: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class HesitationNoticed(SessionEvent):
+    """The visitor hesitated before flip number ``flip``, for which no help had been decided, and gets a hint.
+
+    They had waited ``waited_ms``. From ``threshold_ms`` on they hesitate, which follows from ``usual_ms``, their own
+    usual time for this card of a move.
+    """
+
+    flip: int
+    card: FlipInMove
+    waited_ms: int
+    usual_ms: int
+    threshold_ms: int
+    action: ActionSpec
 
 
 @dataclass(frozen=True, kw_only=True)

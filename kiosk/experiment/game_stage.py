@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.assistant import Assistant, Decision
+from kiosk.assistance.hesitation import HesitationRule, PlayerTimes
 from kiosk.assistance.mentaliser import Hint, Mentaliser
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.config import Timing
@@ -29,6 +30,8 @@ class HintGuide:
 
     assistant: Assistant
     sentences: Sentences
+    hesitation: HesitationRule | None = None
+    """When a player who hesitates gets help; None: never."""
 
 
 @dataclass(frozen=True)
@@ -131,6 +134,7 @@ class GameStage(StageHandler):
         self._table = table
         self._guide = guide
         self._sentences = guide.sentences if guide is not None else None
+        self._times = PlayerTimes(guide.hesitation) if guide is not None and guide.hesitation is not None else None
         self._timing = timing
         self._utterances = utterances
         self._given: _Given | None = None
@@ -153,6 +157,7 @@ class GameStage(StageHandler):
 
     def react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
         """Follow a tap, the end of a wait, or a report of the voice."""
+        self._watch_hesitation(event, outcome)
         match event:
             case happened.CardSelected(position=position):
                 self._select_card(position, outcome)
@@ -199,6 +204,7 @@ class GameStage(StageHandler):
         except IllegalFlip as refusal:
             outcome.emit(happened.CardSelectionRejected(at_ms=outcome.at_ms, position=position, why=refusal.refusal))
             return
+        self._note_time(flip, outcome)
         given, self._given = self._given, None
         if given is not None and given.holds and not given.is_read and self._timing.tap_ends_sentence:
             outcome.emit(happened.SpeechCutShort(at_ms=outcome.at_ms, utterance=given.utterance))
@@ -307,10 +313,14 @@ class GameStage(StageHandler):
     def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
         action, hint = self._choose_help(outcome)
-        sentences = self._sentences
-        if sentences is None or action is ActionSpec.NO_HELP:
+        if self._sentences is None or action is ActionSpec.NO_HELP:
             outcome.effect(do.UnlockBoard())
+            self._await_hesitation(outcome)
             return
+        self._give(action, hint, self._sentences, outcome)
+
+    def _give(self, action: ActionSpec, hint: Hint | None, sentences: Sentences, outcome: OutcomeBuilder) -> None:
+        """Say a hint or a remark, and hold the board with it."""
         sentence = sentences.remark(action) if hint is None else sentences.sentence(hint)
         given = _Given(hint, action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
@@ -340,6 +350,59 @@ class GameStage(StageHandler):
         )
         if not given.held_long_enough:
             outcome.effect(do.StartTimer(Timer.HOLD, self._timing.hold_min_ms))
+
+    def _await_hesitation(self, outcome: OutcomeBuilder) -> None:
+        """Wait until the player would be hesitating, where hesitation is helped."""
+        if self._times is not None:
+            self._times.open(outcome.at_ms)
+            threshold_ms = self._times.threshold_ms(FlipInMove.coming(self.game))
+            if threshold_ms is not None:
+                outcome.effect(do.StartTimer(Timer.HESITATION, threshold_ms))
+
+    def _note_time(self, flip: Flip, outcome: OutcomeBuilder) -> None:
+        """Keep how long the player took for a flip."""
+        if self._times is not None:
+            self._times.flip(FlipInMove.FIRST if flip.matched is None else FlipInMove.SECOND, outcome.at_ms)
+            outcome.effect(do.StopTimer(Timer.HESITATION))
+
+    def _watch_hesitation(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:
+        """Help a player who hesitates; one who moves the pointer does not, and one who is away is not there."""
+        times = self._times
+        if times is None or self._given is not None:
+            return
+        match event:
+            case happened.TimerExpired(timer=Timer.HESITATION):
+                self._help_hesitation(times, outcome)
+            case happened.UserActivity(ago_ms=ago_ms) if times.has_waited(FlipInMove.coming(self.game), outcome.at_ms):
+                still_ms = times.rule.still_ms - ago_ms
+                if still_ms > 0:
+                    outcome.effect(do.StartTimer(Timer.HESITATION, still_ms))
+                else:
+                    outcome.effect(do.StopTimer(Timer.HESITATION))
+                    self._help_hesitation(times, outcome)
+            case happened.TimerExpired(timer=Timer.IDLE) | happened.PauseRequested():
+                times.spoil()
+                outcome.effect(do.StopTimer(Timer.HESITATION))
+
+    def _help_hesitation(self, times: PlayerTimes, outcome: OutcomeBuilder) -> None:
+        """Give a hint to a player who hesitates."""
+        wait = times.wait(FlipInMove.coming(self.game), outcome.at_ms)
+        if self._guide is None or wait is None:
+            return
+        times.count_offer()
+        hint = self._guide.assistant.offer(self.game, times.rule.action)
+        outcome.emit(
+            happened.HesitationNoticed(
+                at_ms=outcome.at_ms,
+                flip=self.game.flips + 1,
+                card=hint.card,
+                waited_ms=wait.waited_ms,
+                usual_ms=wait.usual_ms,
+                threshold_ms=wait.threshold_ms,
+                action=hint.action,
+            )
+        )
+        self._give(hint.action, hint, self._guide.sentences, outcome)
 
     def _choose_help(self, outcome: OutcomeBuilder) -> tuple[ActionSpec, Hint | None]:
         """Return the action for the coming flip, and its hint if it points to a card."""

@@ -21,6 +21,7 @@ from kiosk.assistance.assistant import (
     memory_before_flip,
     table_before_flip,
 )
+from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ActionSpec, State
@@ -28,7 +29,7 @@ from kiosk.assistance.wording import Catalogue, Wording
 from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import Event, Stage, WorldEvent
+from kiosk.experiment.events import Event, HesitationNoticed, Stage, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import DealtBoard
@@ -103,18 +104,20 @@ class DecisionContext:
     memory: MemoryEstimate | None = None
     drawn: ActionSpec | None = None
     """The action that was taken, where chance had a part in it."""
+    hesitated: HesitationNoticed | None = None
+    """Set where the help came because the player hesitated."""
 
     @classmethod
     def before(cls, flip: int, game: DealtBoard, plan: SessionConfig) -> DecisionContext:
         """Rebuild the moment before a flip (from 1) of a game that was played; the flip need not have come."""
-        before, hint = game.decisions.get(flip - 1), game.hints.get(flip)
+        hint = game.hints.get(flip)
         flips = tuple(each.event.position for number, each in game.flips.items() if number < flip)
         config, decision = plan.settings.assistance, game.decisions.get(flip)
         actions = {number: each.action for number, each in game.decisions.items()} if config.explore else None
         return cls(
             board=game.board,
             flips=flips,
-            last=before.action if before else ActionSpec.NO_HELP,
+            last=game.action(flip - 1),
             condition=plan.condition,
             cell=plan.cell,
             rule=TargetRule(config.target_rule),
@@ -124,6 +127,7 @@ class DecisionContext:
             rules=DecisionRules.of(config),
             memory=memory_before_flip(config, game.board, flips, game.hints) if plan.cell.helps else None,
             drawn=decision.action if decision and config.explore else None,
+            hesitated=game.hesitations.get(flip),
         )
 
     def explained(self) -> Explanation:
@@ -133,11 +137,11 @@ class DecisionContext:
         if given is None:
             return explain_decision(game, self._undecided(game), None, None)
         point = partial(self._point, given.mentaliser)
-        taken = self.override or self.drawn
+        taken = self.override or (self.hesitated.action if self.hesitated else self.drawn)
         decision = decide(game, self.last, self.policy, point, taken, rules=self.rules, memory=self.memory)
         overridden = self.override is not None
         explanation = explain_decision(game, decision, given.mentaliser, given.sentences, overridden=overridden)
-        return replace(explanation, rules=self.rules)
+        return replace(explanation, rules=self.rules, hesitation=_hesitation(self.hesitated))
 
     def _point(self, mentaliser: Mentaliser, game: Concentration) -> Target:
         return mentaliser.target(game) if self.target is None else mentaliser.pointing_at(self.target, game)
@@ -151,6 +155,10 @@ class DecisionContext:
         state = State.of(game, self.last)
         verdict, row = self.policy.gate.decide(game), self.policy.row(state)
         return Decision(state, verdict, row, ActionSpec.NO_HELP, None, self.policy.actions)
+
+
+def _hesitation(noticed: HesitationNoticed | None) -> Wait | None:
+    return Wait(noticed.waited_ms, noticed.usual_ms, noticed.threshold_ms) if noticed else None
 
 
 def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) -> bool:
@@ -167,10 +175,15 @@ def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
     stored, state = game.decisions.get(flip), today.state
     if stored is None:
         return True
-    return (stored.game, stored.last, stored.outcome, stored.gate, stored.action, stored.greedy) == (
+    if (stored.game, stored.last, stored.outcome, stored.gate, stored.greedy) != (
         *(state.game, state.last, state.outcome),
-        *(today.gate_decision, today.action, today.greedy),
-    ) and math.isclose(stored.probability, today.probability)
+        *(today.gate_decision, today.greedy),
+    ):
+        return False
+    if flip in game.hesitations:
+        # The decision was to give no help, before the player hesitated.
+        return stored.action is ActionSpec.NO_HELP and today.action is game.hesitations[flip].action
+    return stored.action is today.action and math.isclose(stored.probability, today.probability)
 
 
 def _is_same_memory(game: DealtBoard, flip: int, today: MemoryEstimate | None) -> bool:

@@ -9,6 +9,7 @@ from random import Random
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import assistant_with
+from kiosk.assistance.hesitation import HesitationRule
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.wording import Wording
 from kiosk.config import Game, Idle, Practice
@@ -241,7 +242,8 @@ def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[in
     rule = TargetRule(settings.assistance.target_rule)
     given = help_in(plan.cell, rule, wording, targets)
     assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance, explored) if given else None
-    guide = HintGuide(assistant, given.sentences) if given and assistant else None
+    hesitation = HesitationRule.of(settings.assistance)
+    guide = HintGuide(assistant, given.sentences, hesitation) if given and assistant else None
     return GameStage(DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, plan.timing, numbers)
 
 

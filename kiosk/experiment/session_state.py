@@ -22,6 +22,7 @@ from kiosk.experiment.events import (
     EmbodimentName,
     Event,
     GameFinished,
+    HesitationNoticed,
     HiddenItemsChanged,
     HintGiven,
     HintHighlighted,
@@ -151,11 +152,17 @@ class DealtBoard:
     decisions: Mapping[int, AssistanceDecided]
     remarks: Mapping[int, BoardRemark]
     memories: Mapping[int, MemoryEstimated] = field(default_factory=dict)
+    hesitations: Mapping[int, HesitationNoticed] = field(default_factory=dict)
 
     @property
     def board(self) -> Board:
         """The cards as they lay."""
         return Board(self.event.rows, self.event.columns, self.event.cards)
+
+    def action(self, flip: int) -> ActionSpec:
+        """Return the help that a flip had: what was decided, or what hesitating led to."""
+        helped = self.hesitations.get(flip) or self.decisions.get(flip)
+        return helped.action if helped else ActionSpec.NO_HELP
 
     def followed(self, hint: BoardHint) -> bool | None:
         """Tell whether the flip that the hint was for went where it pointed; None if there was no such flip."""
@@ -337,6 +344,7 @@ _OF_BOARDS: frozenset[type[Event]] = frozenset(
         TimerExpired,
         AssistanceDecided,
         MemoryEstimated,
+        HesitationNoticed,
         HintGiven,
         RemarkGiven,
         HintHighlighted,
@@ -441,6 +449,7 @@ class _Boards:
         self._decisions: dict[int, AssistanceDecided] = {}
         self._remarks: dict[int, BoardRemark] = {}
         self._memories: dict[int, MemoryEstimated] = {}
+        self._hesitations: dict[int, HesitationNoticed] = {}
         self._open_since = 0
         self._tap: CardSelected | None = None
         """The last tap; a card is turned by the tap before."""
@@ -450,13 +459,19 @@ class _Boards:
             self._tap = event
         match event:
             case BoardDealt():
-                self._flips, self._hints, self._decisions, self._remarks, self._memories = {}, {}, {}, {}, {}
+                self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
+                self._memories, self._hesitations = {}, {}
                 number, helped = len(self.dealt) + 1, (self._hints, self._decisions, self._remarks)
-                self.dealt.append(DealtBoard(number, stage, event, self._flips, *helped, self._memories))
+                noticed = (self._memories, self._hesitations)
+                self.dealt.append(DealtBoard(number, stage, event, self._flips, *helped, *noticed))
             case CardFlipped():
                 self._flip(event, pauses)
             case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
                 self._cover(at_ms, pauses)
+            case MemoryEstimated(flip=flip):
+                self._memories[flip] = event
+            case HesitationNoticed(flip=flip):
+                self._hesitations[flip] = event
             case _:
                 self._take_help(event)
         match event:
@@ -482,8 +497,6 @@ class _Boards:
         match event:
             case AssistanceDecided(flip=flip):
                 self._decisions[flip] = event
-            case MemoryEstimated(flip=flip):
-                self._memories[flip] = event
             case RemarkGiven(flip=flip):
                 self._remarks[flip] = BoardRemark(event)
             case HintGiven(flip=flip):

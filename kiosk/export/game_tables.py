@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from enum import Enum
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
-from kiosk.experiment.events import AssistanceDecided, InputDevice, MemoryEstimated
+from kiosk.experiment.events import AssistanceDecided, HesitationNoticed, InputDevice, MemoryEstimated
 from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
 from kiosk.export.columns import (
     ACTION,
@@ -313,6 +314,13 @@ MODELLED_DECISIONS = replace(DECISIONS, columns=(*_DECISION_COLUMNS, *_MODELLED)
 """The decisions of a study that has a model of memory, some of whose sessions may have had none."""
 
 
+class HintTrigger(Enum):
+    """What a hint came from."""
+
+    DECISION = "decision"
+    HESITATION = "hesitation"
+
+
 @dataclass(frozen=True)
 class _Hint:
     kept: SessionRecord
@@ -322,6 +330,14 @@ class _Hint:
     @property
     def decision(self) -> AssistanceDecided | None:
         return self.dealt.decisions.get(self.hint.given.flip)
+
+    @property
+    def hesitation(self) -> HesitationNoticed | None:
+        return self.dealt.hesitations.get(self.hint.given.flip)
+
+    @property
+    def trigger(self) -> HintTrigger:
+        return HintTrigger.HESITATION if self.hesitation else HintTrigger.DECISION
 
 
 def _hints(kept: SessionRecord) -> Iterator[_Hint]:
@@ -451,6 +467,41 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
     ),
 )
 
+_TRIGGERS: tuple[Column[_Hint], ...] = make_columns(
+    (
+        Variable(
+            "trigger",
+            "What the hint came from.",
+            levels=enum_levels(
+                HintTrigger,
+                decision="the decision before the flip",
+                hesitation="the visitor waited longer than they usually do",
+            ),
+        ),
+        lambda row: row.trigger.value,
+    ),
+    (
+        Variable(
+            "waited_ms",
+            "How long the visitor had waited when a hint came because they hesitated.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the hint came from the decision before the flip",
+        ),
+        lambda row: row.hesitation.waited_ms if row.hesitation else None,
+    ),
+    (
+        Variable(
+            "usual_ms",
+            "The visitor's own usual time for this card of a move, by then.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the hint came from the decision before the flip",
+        ),
+        lambda row: row.hesitation.usual_ms if row.hesitation else None,
+    ),
+)
+
 HINTS = Table(
     "hints",
     "One row for every hint that was given in the game. Those of the practice stand in the table sentences.",
@@ -458,6 +509,9 @@ HINTS = Table(
     _HINT_COLUMNS,
     _hints,
 )
+
+TRIGGERED_HINTS = replace(HINTS, columns=(*_HINT_COLUMNS, *_TRIGGERS))
+"""The hints of a study in which visitors who hesitate get some."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from kiosk.export.columns import ExportOption, Table, TableShape
-from kiosk.export.game_tables import CARDS, DECISIONS, FLIPS, HINTS, MEMORY, MODELLED_DECISIONS, POINTER_TRACES
+from kiosk.export.game_tables import (
+    CARDS,
+    DECISIONS,
+    FLIPS,
+    HINTS,
+    MEMORY,
+    MODELLED_DECISIONS,
+    POINTER_TRACES,
+    TRIGGERED_HINTS,
+)
 from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
 from kiosk.export.participants import ParticipantFlow, flow_table, participants_table, renamed
 from kiosk.export.records import StudyMaterials
@@ -48,9 +57,11 @@ def renamed_items(study: StudyMaterials) -> dict[str, str]:
 def _others(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[Table[SessionRecord, Any], ...]:
     traced = any(plan.settings.privacy.pointer_trace for plan in study.plans)
     modelled = any(plan.settings.assistance.models_memory for plan in study.plans)
+    triggered = any(plan.settings.assistance.hesitation_max for plan in study.plans)
+    hints = TRIGGERED_HINTS if triggered else HINTS
     decisions = (MODELLED_DECISIONS, MEMORY) if modelled else (DECISIONS,)
     return (
-        *(FLIPS, *((POINTER_TRACES,) if traced else ()), HINTS, *decisions, CARDS),
+        *(FLIPS, *((POINTER_TRACES,) if traced else ()), hints, *decisions, CARDS),
         *(answers_table(study, extras), SCORES, SENTENCES, deviations_table(extras), events_table(study, extras)),
     )
 

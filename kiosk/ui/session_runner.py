@@ -284,7 +284,8 @@ class SessionRunner:
         """Tells with what a session begins; ``local_time`` adds when."""
         self.local_time: Callable[[], datetime | None] = lambda: None
         """What the clock on the wall shows, with its zone; None if time is not that of a clock."""
-        self._idle_since = 0
+        self._waiting_since: dict[Timer, int] = {Timer.IDLE: 0}
+        """When each wait began that any activity of the visitor puts off."""
         self._shut = self._on_break = False
         self._error_screen_wait: TimerWait | None = None
         self._recorder = recorder
@@ -407,9 +408,9 @@ class SessionRunner:
             self._work()
 
     def _timer_expired(self, timer: Timer) -> None:
-        last = self.last_activity_ms()
-        if timer is Timer.IDLE and last is not None and last > self._idle_since:
-            # Scrolling and moving by keyboard show that the visitor is there: the idle time counts from the last of it.
+        last, since = self.last_activity_ms(), self._waiting_since.get(timer)
+        if since is not None and last is not None and last > since:
+            # Scrolling and moving show that the visitor is there, and busy: both waits count from the last of it.
             self.dispatch(happened.UserActivity(at_ms=self.now_ms(), ago_ms=self._clock.now_ms() - last))
         else:
             self.dispatch(happened.TimerExpired(at_ms=self.now_ms(), timer=timer))
@@ -536,8 +537,10 @@ class SessionRunner:
 
     def _before_effects(self, outcome: Outcome, code: str) -> None:
         self._screen_changed = False
-        if _timers(outcome).get(Timer.IDLE):
-            self._idle_since = self._clock.now_ms()
+        started = _timers(outcome)
+        for timer in (Timer.IDLE, Timer.HESITATION):
+            if started.get(timer):
+                self._waiting_since[timer] = self._clock.now_ms()
         self._renderer.screens.debrief.give_code(code)
         self._renderer.screens.kiosk.give_code(code)
 

@@ -270,6 +270,8 @@ class FormFiller:
 
 
 THINKING_MS = (500, 1_600)
+HESITATING = 10
+"""How many times as long a visitor who hesitates thinks."""
 
 
 class BehaviourKind(Enum):
@@ -289,7 +291,7 @@ class BehaviourKind(Enum):
 
 @dataclass(frozen=True)
 class MemoryTraits:
-    """How a visitor plays: chances to forget a card per flip, to follow a hint, to guess.
+    """How a visitor plays: the chances to forget, to follow a hint, to guess and to hesitate.
 
     The study's people followed in .86 (noToM) and .92 (ToM) of the cases.
     """
@@ -297,6 +299,7 @@ class MemoryTraits:
     forgetting: float = 0.15
     following: float = 0.9
     lapse: float = 0.0
+    hesitation: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -339,7 +342,9 @@ class SimulatedParticipant:
 
     def think(self) -> int:
         """How long it thinks before it clicks, in ms."""
-        return self._rng.randint(*THINKING_MS)
+        think_ms = self._rng.randint(*THINKING_MS)
+        hesitates = self._memory.hesitation > 0 and self._rng.random() < self._memory.hesitation
+        return think_ms * HESITATING if hesitates else think_ms
 
     def tosses(self) -> bool:
         """Whether a coin it tosses falls on its right side."""

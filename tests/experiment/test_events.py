@@ -154,7 +154,7 @@ def test_what_is_not_of_its_kind_is_read_as_in_general_or_not_at_all(kind: type[
         ),
         (
             Timer,
-            "turn_back mark reading speech_deadline hold mood finish practice thanks pause idle still_there",
+            "turn_back mark reading speech_deadline hold mood finish practice thanks pause idle still_there hesitation",
         ),
         (Status, "completed abandoned stopped withdrawn interrupted"),
         (NotRecordedReason, "declined under_age left"),

@@ -18,7 +18,7 @@ from kiosk.experiment.events import EmbodimentName, InputDevice, WorldEvent
 from kiosk.store.queries import open_repository
 from kiosk.ui.event_loop import VirtualClock
 from tests.ui.conftest import Booth, MakeBooth
-from tests.ui.headless import SMALL
+from tests.ui.headless import SMALL, short
 from tests.ui.reaching import touch_screen
 from tests.ui.touring import PIN, SHORTCUT, whole_study
 
@@ -308,3 +308,23 @@ def test_the_way_of_the_pointer_is_recorded_in_cards_of_those_who_agree(
     expected = [(0.5, 0.25), (1.5, 0.25), (2.5, 0.25)] if agrees else []
     assert [place for place in way if place[1] < 0.4] == [pytest.approx(place, abs=0.05) for place in expected]
     assert bool(way) is agrees
+
+
+def test_a_hint_for_a_visitor_who_hesitates_waits_until_the_pointer_rests(make_booth: MakeBooth) -> None:
+    rule = {"hesitation_max": 1, "hesitation_times": 2.0, "hesitation_flips": 1, "hesitation_least_ms": 4_000}
+    booth = make_booth(settings=short(assistance=rule))
+    noticed: list[happened.HesitationNoticed] = []
+    booth.app.runner.on_event = lambda _event, outcome, _stage: noticed.extend(
+        each for each in outcome.events if isinstance(each, happened.HesitationNoticed)
+    )
+    booth.start_game()
+    for card in ("card-0", "card-1"):
+        pass_time(booth, 1_000)
+        booth.click(card)
+    booth.wait_until(lambda: len(booth.app.screens.board.closed) == 24)
+    for _ in range(10):
+        pass_time(booth, 700)
+        point(booth)
+    assert not noticed
+    pass_time(booth, 2_000)
+    assert [each.flip for each in noticed] == [3]
