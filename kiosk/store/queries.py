@@ -13,8 +13,6 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-import sqlite_utils
-
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.policy import QTable
@@ -162,9 +160,9 @@ class SessionTotals:
 class SessionRepository:
     """The sessions of one data folder."""
 
-    def __init__(self, database: sqlite_utils.Database, *, in_use: bool) -> None:
+    def __init__(self, connection: sqlite3.Connection, *, in_use: bool) -> None:
         """``in_use``: a kiosk is writing, so that a session without an end may still get one."""
-        self._database = database
+        self._connection = connection
         self._unended = None if in_use else Status.INTERRUPTED
 
     def sessions(
@@ -176,7 +174,7 @@ class SessionRepository:
         """
         where, values = self._where(which)
         query = f"{_SESSIONS} WHERE {where} ORDER BY session.id DESC LIMIT :newest OFFSET :skip"
-        rows = self._database.query(query, values | {"newest": newest, "skip": skip})
+        rows = self._rows(query, values | {"newest": newest, "skip": skip})
         return [self._session(row) for row in rows][::-1]
 
     def totals(self, which: SessionFilter = SessionFilter()) -> SessionTotals:
@@ -185,24 +183,24 @@ class SessionRepository:
         unended = RUNNING if self._unended is None else self._unended.value
         columns = "coalesce(status, :unended) AS status, duration_ms FROM session"
         query = f"SELECT {columns} JOIN session_summary ON session_summary.session = session.id WHERE {where}"
-        rows = self._database.execute(query, values | {"unended": unended}).fetchall()
+        rows = self._connection.execute(query, values | {"unended": unended}).fetchall()
         durations = [duration_ms for status, duration_ms in rows if status == Status.COMPLETED.value]
         return SessionTotals(Counter(status for status, _ in rows), median(durations) if durations else None)
 
     def session(self, number: int) -> StoredSession:
         """One session; raises UserInputError if there is none of this number."""
         self._row(number)
-        (row,) = self._database.query(f"{_SESSIONS} WHERE session.id = :number", {"number": number})
+        (row,) = self._rows(f"{_SESSIONS} WHERE session.id = :number", {"number": number})
         return self._session(row)
 
     def conditions(self) -> list[str]:
         """Every condition that a stored session had, by name."""
-        rows = self._database.query("SELECT DISTINCT condition FROM session_tally WHERE sessions > 0 ORDER BY 1")
-        return [row["condition"] for row in rows]
+        query = "SELECT DISTINCT condition FROM session_tally WHERE sessions > 0 ORDER BY 1"
+        return [condition for (condition,) in self._connection.execute(query)]
 
     def counts(self, *, kind: SessionKind) -> EnrolmentCounts:
         """How many came, by condition and by what became of them: people, rehearsals or trials."""
-        return count_enrolment(self._database.conn, kind=kind, in_use=self._unended is None)
+        return count_enrolment(self._connection, kind=kind, in_use=self._unended is None)
 
     def records(self, number: int) -> list[dict[str, Any]]:
         """Every event of a session as JSON values: seq, at_ms, type, origin, and its own fields."""
@@ -221,7 +219,7 @@ class SessionRepository:
         """Return every event of a session: seq, at_ms, type, origin, and its own fields as JSON."""
         self._row(number)
         query = "SELECT seq, at_ms, type, origin, payload FROM event WHERE session = ? ORDER BY seq"
-        rows: list[StoredEvent] = self._database.conn.execute(query, (number,)).fetchall()
+        rows: list[StoredEvent] = self._connection.execute(query, (number,)).fetchall()
         return rows
 
     def events(self, number: int) -> list[Event]:
@@ -257,8 +255,8 @@ class SessionRepository:
             raise UserInputError(f"what session {number} followed cannot be read: {error}") from error
 
     def _changed_language(self, number: int) -> bool:
-        where = "session = ? AND type = ?"
-        return self._database["event"].count_where(where, [number, LanguageSelected.__name__]) > 0
+        query = "SELECT 1 FROM event WHERE session = ? AND type = ? LIMIT 1"
+        return self._connection.execute(query, (number, LanguageSelected.__name__)).fetchone() is not None
 
     def _translations(self, row: dict[str, Any]) -> tuple[Translation, ...]:
         """All languages that the visitor could go on in."""
@@ -276,16 +274,24 @@ class SessionRepository:
 
     def source(self, sha256: str) -> str:
         """Return what is kept under a hash; raises UserInputError if nothing is."""
-        rows = self._database["source"].rows_where("sha256 = ?", [sha256])
-        for row in rows:
-            return str(row["content"])
-        raise UserInputError(f"nothing is kept under the hash {sha256}")
+        kept = self._connection.execute("SELECT content FROM source WHERE sha256 = ?", (sha256,)).fetchone()
+        if kept is None:
+            raise UserInputError(f"nothing is kept under the hash {sha256}")
+        return str(kept[0])
 
     def _row(self, number: int) -> dict[str, Any]:
-        rows = self._database["session"].rows_where("id = ?", [number]) if abs(number) <= LARGEST else ()
-        for row in rows:
-            return row
-        raise UserInputError(f"there is no session {number}")
+        query = "SELECT * FROM session WHERE id = :number"
+        row = next(self._rows(query, {"number": number}), None) if abs(number) <= LARGEST else None
+        if row is None:
+            raise UserInputError(f"there is no session {number}")
+        return row
+
+    def _rows(self, query: str, values: dict[str, str | int]) -> Iterator[dict[str, Any]]:
+        """Yield each row by the names of its columns."""
+        cursor = self._connection.execute(query, values)
+        names = [column[0] for column in cursor.description]
+        for row in cursor:
+            yield dict(zip(names, row, strict=True))
 
     def _where(self, which: SessionFilter) -> tuple[str, dict[str, str | int]]:
         return which.where(in_use=self._unended is None)
@@ -293,7 +299,7 @@ class SessionRepository:
     def _session(self, row: dict[str, Any]) -> StoredSession:
         status = Status(row["status"]) if row["status"] else self._unended
         if row["status"] is None:
-            row = row | numbers_so_far(self._database.conn, row["id"])
+            row = row | numbers_so_far(self._connection, row["id"])
         return StoredSession(
             id=row["id"],
             started_at=row["started_at"],
@@ -328,7 +334,7 @@ def open_repository(folder: Path) -> Iterator[SessionRepository]:
     """
     with closing(open_for_reading(folder)) as connection:
         try:
-            yield SessionRepository(sqlite_utils.Database(connection), in_use=in_use(folder))
+            yield SessionRepository(connection, in_use=in_use(folder))
         except sqlite3.DatabaseError as error:
             raise unreadable(error, folder) from error
 

@@ -18,8 +18,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import sqlite_utils
-
 from kiosk import UserInputError
 from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_fields
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
@@ -335,7 +333,7 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
     with closing(open_for_reading(folder)) as connection:
         writing = in_use(folder)
         connection.execute("BEGIN")
-        archive = SessionRepository(sqlite_utils.Database(connection), in_use=writing)
+        archive = SessionRepository(connection, in_use=writing)
         try:
             yield RecordSource(connection, archive, kinds, None if writing else Status.INTERRUPTED)
         except sqlite3.DatabaseError as error:
