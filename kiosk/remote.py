@@ -118,7 +118,7 @@ class StatusPublisher:
     def _disconnected(self, _client: Client, _data: object, _flags: object, reason: Any, _properties: object) -> None:
         self._gone.set()
         if not self._closing:
-            self._tell(str(reason))
+            self._tell(_lost(reason))
 
     def _tell(self, trouble: str) -> None:
         if trouble != self._trouble:
@@ -159,6 +159,11 @@ def dial(client: Client, settings: Remote) -> None:
     host, port, _ = read_broker(settings.mqtt)
     client.connect_async(host, port, keepalive=KEEPALIVE_S)
     client.loop_start()
+
+
+def _lost(reason: Any) -> str:
+    """Say in words why a connection ended; paho has none for one that broke."""
+    return "the connection was lost" if str(reason) == "Unspecified error" else str(reason)
 
 
 def _paho() -> ModuleType:
@@ -308,7 +313,7 @@ class BoothWatch:
             client.subscribe(f"{self._topic}/+", qos=1)
 
     def _disconnected(self, _client: Client, _data: object, _flags: object, reason: Any, _properties: object) -> None:
-        self._trouble = str(reason)
+        self._trouble = _lost(reason)
 
     def _heard(self, _client: Client, _data: object, message: MQTTMessage) -> None:
         self.take(message.topic.removeprefix(f"{self._topic}/"), bytes(message.payload))

@@ -189,6 +189,7 @@ def test_booth_and_watcher_come_back_after_the_network_was_lost(tmp_path: Path) 
     until(lambda: states(watch) == {"hall-2": "well"})
     broker.stop()
     until(lambda: publisher.trouble and watch.trouble)
+    assert "the connection was lost" in {publisher.trouble, watch.trouble}
     assert states(watch) == {"hall-2": "unknown"}
     publisher.publish(replace(STATUS, stage="result"))
     broker.start()
