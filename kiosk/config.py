@@ -12,7 +12,16 @@ from datetime import time
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from kiosk import UserInputError
 from kiosk.errors import (
@@ -920,6 +929,14 @@ class MarkersConfig(ConfigModel):
     ] = "Recollect"
 
 
+def _one_line(text: str) -> str:
+    if len(text.splitlines()) > 1:
+        raise ValueError(f"{text[:_SHOWN]!r} has more than one line")
+    return text
+
+
+_SHOWN = 40
+
 OwnText = Annotated[str, Field(max_length=MOST_IN_TEXT)]
 
 
@@ -929,7 +946,9 @@ class Settings(ConfigModel):
     file_kind = "study file"
 
     title: Annotated[
-        str, Field(min_length=1, max_length=MOST_CHARACTERS, description="What the study is called, in the data set.")
+        str,
+        Field(min_length=1, max_length=MOST_CHARACTERS, description="What the study is called, in the data set."),
+        AfterValidator(_one_line),
     ] = "A memory game with a helping robot"
     languages: Annotated[
         tuple[str, ...],

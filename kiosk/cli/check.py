@@ -17,9 +17,8 @@ from typing import Self
 
 import click
 import psutil
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from kiosk import UserInputError, __version__, program
 from kiosk.assistance.policy import load_action
@@ -34,6 +33,7 @@ from kiosk.cli.options import (
     site_option,
     study_option,
 )
+from kiosk.cli.terminal import console
 from kiosk.config import Settings
 from kiosk.experiment.booth_status import FILE, BoothStatus
 from kiosk.experiment.questionnaire import load_item
@@ -487,16 +487,15 @@ def booth_of(data: Path, site: str, file: Path | None, host: str | None, port: i
 
 def show(found: tuple[CheckResult, ...]) -> None:
     """Print what was found as a table, and whether a session can be held."""
-    console = Console()
-    console.width = max(console.width, LEAST_WIDTH)
+    drawn = console(least_width=LEAST_WIDTH)
     table = Table(box=None, show_header=False, pad_edge=False)
     for result in found:
         style = _STYLES[result.severity]
         words = result.message if result.is_ok else f"{result.message}\n-> {result.remedy}"
-        table.add_row(f"[{style}]{_MARKS[result.severity]}[/]", result.name, escape(words))
-    console.print(table)
+        table.add_row(Text(_MARKS[result.severity], style), result.name, words)
+    drawn.print(table)
     bad, warnings = (sum(result.severity is state for result in found) for state in (Severity.ERROR, Severity.WARNING))
-    console.print(_verdict(bad, warnings, ready=is_ready(found)))
+    drawn.print(_verdict(bad, warnings, ready=is_ready(found)))
 
 
 def _verdict(bad: int, warnings: int, *, ready: bool) -> str:

@@ -14,11 +14,11 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.table import Table
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
+from kiosk.cli.terminal import console
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
@@ -135,7 +135,7 @@ def verify_command(data: Path, *, as_json: bool) -> None:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
         click.echo(json.dumps({"data": str(data), "sound": not flaws, "results": rows}))
     else:
-        Console().print(_table(flaws))
+        console().print(_table(flaws))
     sys.exit(SOMETHING_WRONG if flaws else 0)
 
 

@@ -18,6 +18,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar, study_option
+from kiosk.cli.terminal import one_line
 from kiosk.config import VOICE_ENGINES, RobotConfig, Settings, is_path
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.page_stages import result_speech
@@ -92,7 +93,7 @@ def robot_command(
     for step in _tried(device, language, sentence):
         steps.append(step)
         if not as_json:
-            click.echo(f"{'OK' if step.worked else 'FAIL':5}{step.step:22}{step.ms:6} ms  {step.found}")
+            click.echo(f"{'OK' if step.worked else 'FAIL':5}{step.step:22}{step.ms:6} ms  {one_line(step.found)}")
     worked = all(step.worked for step in steps)
     if as_json:
         click.echo(

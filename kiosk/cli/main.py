@@ -17,6 +17,7 @@ from typing import Never
 import click
 
 from kiosk import DISK_FULL, StorageError, UserInputError, __version__, why
+from kiosk.cli.terminal import HarmlessStream, one_line
 
 DISK_FAILED, BAD_INPUT = 1, 2
 """Exit codes: the disk did not take something, so that the same command may succeed later; the input cannot be used."""
@@ -174,7 +175,7 @@ def main() -> Never:
 
 def _say(*sentences: str) -> None:
     for sentence in sentences:
-        click.echo(f"recollect: {sentence}", err=True)
+        click.echo(f"recollect: {one_line(sentence)}", err=True)
 
 
 def _drop_what_is_not_printed_yet() -> None:
@@ -185,11 +186,13 @@ def _drop_what_is_not_printed_yet() -> None:
 
 
 def _print_what_the_terminal_cannot() -> None:
-    """Print characters that the terminal's encoding lacks by their numbers, instead of ending with a traceback."""
-    for stream in (sys.stdout, sys.stderr):
+    """Print characters that the terminal's encoding lacks, or that would steer it, by their numbers."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
         # There may be none, or one that something else put in its place.
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+            setattr(sys, name, HarmlessStream(stream))
 
 
 def _end_at_once_while_opening(arguments: Sequence[str]) -> None:

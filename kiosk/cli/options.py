@@ -13,6 +13,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.composition import DATA
+from kiosk.cli.terminal import console
 from kiosk.store.database import has_database, has_sessions
 
 if TYPE_CHECKING:
@@ -77,7 +78,6 @@ class ProgressCallback(Protocol):
 @contextmanager
 def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterator[ProgressCallback]:
     """Provide a bar with rate and time left on the error stream; nothing without a terminal, or when ``hidden``."""
-    from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (
@@ -87,8 +87,8 @@ def progress_bar(what: str, total: int | None = None, *, hidden: bool) -> Iterat
         TextColumn("{task.fields[rate]}"),
         TimeRemainingColumn(),
     )
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, disable=hidden or not console.is_terminal, transient=True) as bar:
+    drawn = console(stderr=True)
+    with Progress(*columns, console=drawn, disable=hidden or not drawn.is_terminal, transient=True) as bar:
         task = bar.add_task(what, total=total, rate="")
 
         def tell(done: int, of: int | None = None, /) -> None:

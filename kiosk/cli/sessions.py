@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import click
-from rich.console import Console
 from rich.table import Table
 
 from kiosk import UserInputError
 from kiosk.cli.options import data_option, json_option, sessions_data_option
+from kiosk.cli.terminal import console, one_line
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
 from kiosk.experiment.events import Status
 from kiosk.experiment.session_config import SessionKind
@@ -95,13 +95,12 @@ def sessions_command(
             click.echo(json.dumps([_row(session, with_code=codes) for session in listed]))
             return
         totals, enrolled = stored.totals(which), stored.counts(kind=SessionKind.STUDY)
-    # Without a terminal, or in a narrow window, lines may be long, but no word is cut.
-    console = Console(width=max(Console().width, WIDTH), highlight=False)
+    drawn = console(least_width=WIDTH)
     click.echo("\n".join(_table(listed, codes=codes)))
     for line in _totals(totals, len(listed), skip):
-        console.print(line)
+        drawn.print(line)
     if any(cell.quota for cell in enrolled.cells.values()):
-        console.print(_targets(enrolled))
+        drawn.print(_targets(enrolled))
 
 
 def _table(listed: Sequence[StoredSession], *, codes: bool) -> Iterator[str]:
@@ -228,7 +227,7 @@ def _status_lines(status: BoothStatus, now: datetime, *, alive: bool) -> Iterato
         f"{today.ended_early} ended early"
     )
     for part in status.parts:
-        yield f"{'OK' if part.ok else 'WARN':6}{part.name:12}{_printable(part.message)}"
+        yield f"{'OK' if part.ok else 'WARN':6}{part.name:12}{one_line(part.message)}"
     yield f"{'OK' if status.supervised else 'WARN':6}supervisor  {'yes' if status.supervised else 'no'}"
     for ended in status.ended:
         yield f"      {_minutes(ended.at, now)} ago: {ended.status}{f' in {ended.stage}' if ended.stage else ''}"
@@ -238,7 +237,3 @@ def _minutes(iso: str, now: datetime) -> str:
     minutes = (now - datetime.fromisoformat(iso)) // timedelta(minutes=1)
     hours, rest = divmod(minutes, 60)
     return f"{hours} h {rest} min" if hours else f"{minutes} min"
-
-
-def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import click
-from rich.console import Console
 from rich.table import Table
 
 from kiosk import UserInputError, program
@@ -19,6 +18,7 @@ from kiosk.assistance.wording import CARD, Catalogue
 from kiosk.cli.guide import add_guide
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
+from kiosk.cli.terminal import console
 from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
@@ -125,7 +125,7 @@ def _print_summary(read: StudyConfig, summary: Mapping[str, Any]) -> None:
     for key, value in summary.items():
         if key not in {"cautions", "sources"}:
             table.add_row(key.replace("_", " "), _told(value))
-    Console().print(table)
+    console().print(table)
     for source in read.sources:
         click.echo(_came_from(source))
     for caution in summary["cautions"]:
@@ -262,7 +262,7 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
     table = Table("card", *read.languages, "size", box=None)
     for card, drawing in drawings.items():
         table.add_row(card, *called[card], f"{drawing.width} x {drawing.height}")
-    Console().print(table)
+    console().print(table)
     for warning in warnings:
         click.echo(f"caution: {warning}")
     if sheet is not None:

@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
+from kiosk.cli.terminal import console
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
 from kiosk.study.checks import expected_minutes
@@ -83,8 +82,8 @@ def _show(found: dict[str, Sequence[Unit]], *, list_them: bool, as_json: bool) -
     for code, units in found.items():
         for part in dict.fromkeys(unit.part for unit in units):
             counts = Counter(unit.state for unit in units if unit.part == part)
-            table.add_row(code, escape(part), *(str(counts[state] or "") for state in State))
-    Console().print(table)
+            table.add_row(code, part, *(str(counts[state] or "") for state in State))
+    console().print(table)
     if list_them:
         for unit in (unit for units in found.values() for unit in units if unit.state is not State.DONE):
             click.echo(f"{unit.state.value}: {unit.key}: {unit.source[:SHOWN]!r}")

@@ -8,7 +8,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
@@ -16,6 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar
+from kiosk.cli.terminal import console
 from kiosk.config import Settings, code_of
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.study.loader import read_study
@@ -235,7 +235,7 @@ def _show(draft: Draft, message: str, plan: SessionConfig) -> None:
         drafted.append(f" [{candidate.state}]" if candidate.state is not State.OPEN else "")
         drafted.append("".join(f"\n   - {fault}" for fault in candidate.faults) + "\n", style="dim")
     table.add_row(Text(plan.catalogue.written[message].text.partition("\n")[2]), drafted)
-    Console().print(table)
+    console().print(table)
 
 
 def _today() -> str:

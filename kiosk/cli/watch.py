@@ -11,13 +11,12 @@ from typing import Any
 
 import click
 from pydantic import ValidationError
-from rich.console import Console
 from rich.live import Live
 from rich.table import Table
-from rich.text import Text
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option
+from kiosk.cli.terminal import console
 from kiosk.config import Remote
 from kiosk.remote import ANYWHERE, BoothWatch, served
 
@@ -58,11 +57,9 @@ def watch_command(
     try:
         if web:
             _serve(watch, host, port)
-        elif once or as_json or not Console().is_terminal:
+        elif once or as_json or not console().is_terminal:
             rows = _listen(watch, broker)
-            click.echo(json.dumps(rows)) if as_json else Console(width=max(Console().width, WIDTH)).print(
-                _table(rows, "")
-            )
+            click.echo(json.dumps(rows)) if as_json else console(least_width=WIDTH).print(_table(rows, ""))
             context.exit(0 if rows and all(row["state"] in WELL for row in rows) else TROUBLE)
         else:
             _show(watch)
@@ -86,7 +83,7 @@ def _listen(watch: BoothWatch, broker: str) -> list[dict[str, Any]]:
 
 
 def _show(watch: BoothWatch) -> None:
-    with suppress(KeyboardInterrupt), Live(_table([], watch.trouble), auto_refresh=False) as live:
+    with suppress(KeyboardInterrupt), Live(_table([], watch.trouble), console=console(), auto_refresh=False) as live:
         while True:
             live.update(_table(watch.rows, watch.trouble), refresh=True)
             time.sleep(LOOK_S)
@@ -110,10 +107,5 @@ def _table(rows: Sequence[dict[str, Any]], trouble: str) -> Table:
         today = row["today"]
         counts = (str(today.get(key, "")) for key in ("begun", "completed", "last_hour", "ended_early"))
         cells = (row["booth"], _MARKS.get(row["state"], "? unknown"), row["stage"], str(row["minutes"]), *counts)
-        # What booths say comes over the network: no control character of it reaches the terminal.
-        table.add_row(*(Text(_printable(cell)) for cell in (*cells, "; ".join(row["trouble"]))))
+        table.add_row(*cells, "; ".join(row["trouble"]))
     return table
-
-
-def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)

@@ -531,6 +531,7 @@ STUDIES: dict[str, Bad] = {
         asked(("How?", "How? " * 2001)),
     ),
     "too long a path": Bad(f"about_you = '{'a/' * 300}b'", ("{study}: about_you must have at most 500 characters",)),
+    "title of two lines": Bad('title = "One\\nTwo"', ("{study}: title: 'One\\nTwo' has more than one line",)),
     "control characters": Bad(
         'title = \'a\'\nlanguages = [\'en\', "e\\u0000n"]\n[assistance]\nname = "\\u001b[31m"\n"\\u009b" = 1',
         (

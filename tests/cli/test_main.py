@@ -154,7 +154,12 @@ def test_the_help_loads_no_command_and_no_large_library() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     loaded = set(done.stdout.splitlines()[-1].split())
-    assert {name for name in loaded if name.startswith("kiosk")} == {"kiosk", "kiosk.cli", "kiosk.cli.main"}
+    assert {name for name in loaded if name.startswith("kiosk")} == {
+        "kiosk",
+        "kiosk.cli",
+        "kiosk.cli.main",
+        "kiosk.cli.terminal",
+    }
     assert not loaded & {"pydantic", "numpy", "PySide6", "rich", "cattrs"}
 
 

@@ -6,13 +6,16 @@ import json
 import os
 import subprocess
 import sys
-from io import BytesIO, TextIOWrapper
+from io import BytesIO, StringIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
+from rich.table import Table
+from rich.text import Text
 
 from kiosk import DISK_FULL, program
 from kiosk.cli.main import main
+from kiosk.cli.terminal import console, harmless, one_line
 from kiosk.experiment.events import SessionStarted
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.recorder import Provenance, Recorder
@@ -96,6 +99,49 @@ def test_output_that_finds_no_room_ends_in_a_sentence(name: str, data: Path, stu
         done = subprocess.run(command(name, data, study), stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 1
     assert done.stderr == f"recollect: {DISK_FULL}\n"
+
+
+STEERING = "\x1b[2J\x07\x9b31m\u202e\u2066\r\u2028"
+AS_NUMBERS = r"\x1b[2J\x07\x9b31m\u202e\u2066\r\u2028"
+
+
+def test_what_would_steer_a_terminal_is_printed_by_its_number_and_all_else_as_it_is() -> None:
+    assert harmless(f"a{STEERING}z") == f"a{AS_NUMBERS}z"
+    kept = "tabs\tand lines\n, no-break\N{NO-BREAK SPACE}space, \N{ZERO WIDTH JOINER}, \N{SOFT HYPHEN}, مرحبا, 👩‍👧"
+    assert harmless(kept) == kept
+    assert one_line("a\nb\u2028c\x85d\x1b") == r"a b c d\x1b"
+
+
+def test_a_text_in_a_table_is_no_markup_no_emoji_and_does_not_steer_the_terminal() -> None:
+    drawn = console(least_width=200)
+    table = Table(title=STEERING)
+    table.add_row(f"[/x] [bold]a[/bold] :smile: {STEERING}", Text(STEERING, "bold"))
+    drawn.file = out = StringIO()
+    drawn.print(table)
+    assert r"[/x] [bold]a[/bold] :smile: \x1b[2J" in out.getvalue()
+    assert not set(out.getvalue()) & {character for character in STEERING if not character.isprintable()}
+
+
+@pytest.mark.parametrize("beside", ["", "conditions = 1\n"])
+def test_nothing_that_a_command_prints_of_a_study_steers_the_terminal(
+    beside: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "[bold]\u202e.toml"
+    file.write_text(f'title = "[/x] \u202e\u2066"\n{beside}', encoding="utf-8")
+    out, err = (TextIOWrapper(BytesIO(), "utf-8") for _ in "oe")
+    monkeypatch.setattr(sys, "argv", ["recollect", "study", "check", str(file)])
+    monkeypatch.setattr(sys, "stdout", out)
+    monkeypatch.setattr(sys, "stderr", err)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert (ended.value.code or 0) == (2 if beside else 0)
+    said = ""
+    for stream in (out, err):
+        stream.flush()
+        assert isinstance(stream.buffer, BytesIO)
+        said += stream.buffer.getvalue().decode()
+    assert not set(said) & {"\u202e", "\u2066"}
+    assert (r"[bold]\u202e.toml" if beside else r"[/x] \u202e\u2066") in said
 
 
 def test_a_path_that_is_no_text_is_told_all_the_same(tmp_path: Path) -> None:
