@@ -16,9 +16,9 @@ from time import monotonic
 from typing import Any
 
 import psutil
-from PySide6.QtCore import QCoreApplication, QObject, QSize, Qt, QTimer
+from PySide6.QtCore import QCoreApplication, QEventLoop, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QPainter
-from PySide6.QtQuick import QQuickWindow
+from PySide6.QtQuick import QQuickItem, QQuickWindow
 
 from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable
 from kiosk.config import STAGES
@@ -140,6 +140,10 @@ class ContactSheet:
             raise unwritten(file)
 
 
+_LOADING_S = 2.0
+"""How long a picture that is still loaded is waited for."""
+
+
 class Screenshots:
     """Saves ``NN-moment.png`` in a folder, numbered in the order in which the moments came."""
 
@@ -185,9 +189,21 @@ class Screenshots:
 
     def _save(self, name: str) -> None:
         picture = self._window.grabWindow()
+        until = monotonic() + _LOADING_S
+        while _loads(self._window.contentItem()) and monotonic() < until:
+            QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
+            picture = self._window.grabWindow()
         self.sheet.add(Path(name).stem, picture)
         if self._folder is not None and not picture.save(str(self._folder / name)):
             raise unwritten(self._folder / name)
+
+
+def _loads(item: QQuickItem) -> bool:
+    """Whether a picture to be seen is still loaded, as one is that has a data address."""
+    if not item.isVisible():
+        return False
+    loading = item.inherits("QQuickImageBase") and item.property("source").isValid() and item.property("progress") < 1
+    return loading or any(_loads(child) for child in item.childItems())
 
 
 def unwritten(picture: Path) -> UserInputError | StorageError:
