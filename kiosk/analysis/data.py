@@ -58,6 +58,9 @@ OPTIONAL = {
 }
 """Columns that some data sets have."""
 
+DRAWN = ("participant_id", "flip", "move_card", "action", "action_probability", "randomised")
+"""The columns of the decisions that a study which explores is analysed by."""
+
 
 @dataclass(frozen=True)
 class ExportTable:
@@ -128,6 +131,8 @@ class ExportedStudy:
     tables: Mapping[str, ExportTable]
     sha256: str
     plans: tuple[FrozenRecord, ...] = ()
+    decisions: ExportTable | None = None
+    """The decisions of a study in which some were drawn at random."""
 
     @property
     def participants(self) -> ExportTable:
@@ -156,7 +161,16 @@ def load_study(folder: Path) -> ExportedStudy:
     for name, columns in COLUMNS.items():
         tables[name] = load_table(folder, name, columns, OPTIONAL.get(name, ()), digest)
     plans = _frozen_plans(folder, digest)
-    return ExportedStudy(folder, str(described.get("name", "")), tables, digest.hexdigest(), plans)
+    decisions = _drawn_decisions(folder, digest)
+    return ExportedStudy(folder, str(described.get("name", "")), tables, digest.hexdigest(), plans, decisions)
+
+
+def _drawn_decisions(folder: Path, digest: Any) -> ExportTable | None:
+    """Return the decisions, if chance had a part in some; simulated data sets have no such table."""
+    if not (folder / file_of("decisions")).exists():
+        return None
+    drawn = load_table(folder, "decisions", DRAWN).truths("randomised").any()
+    return load_table(folder, "decisions", DRAWN, digest=digest) if drawn else None
 
 
 def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:

@@ -31,6 +31,7 @@ from kiosk.analysis.plan import (
     bayes_factors,
     plan_sha256,
 )
+from kiosk.analysis.proximal import ProximalEffect, proximal_effects
 from kiosk.analysis.sample import Sample, choose_sample
 from kiosk.analysis.statistics import Estimate, NotEstimableError, fisher, hedges_g, sensitivity, student, wilson
 from kiosk.experiment.condition import Condition
@@ -156,6 +157,8 @@ class Report:
     models: tuple[ModelResult, ...]
     looks: tuple[LookResult, ...]
     detectable: float
+    proximal: tuple[ProximalEffect, ...] = ()
+    """The effect of each kind of hint on its own move; empty unless the study explores."""
 
     @property
     def pair(self) -> tuple[str, str]:
@@ -197,6 +200,7 @@ def make_report(
         tuple(_models(sample, plan.conditions)),
         reached_looks(sample, plan),
         sensitivity(*(int(sample.rows(name).sum()) for name in plan.conditions)),
+        _proximal(sample),
     )
 
 
@@ -444,6 +448,13 @@ def _fitted(name: str, about: str, trials: _Trials, terms: Sequence[tuple[str, F
         return ModelResult(name, about, None, str(reason))
 
 
+def _proximal(sample: Sample) -> tuple[ProximalEffect, ...]:
+    decisions = sample.study.decisions
+    if decisions is None:
+        return ()
+    return proximal_effects(decisions, sample.study.tables["flips"], sample.people.text("participant_id"))
+
+
 def _owners(sample: Sample, table: str) -> Floats:
     """Return the row of each trial's person among those who are analysed, NaN for others."""
     place = {name: float(row) for row, name in enumerate(sample.people.text("participant_id"))}
@@ -544,6 +555,7 @@ def report_json(report: Report) -> dict[str, Any]:
         "reliability": _plain(report.scales),
         "two_by_two": _plain(report.design),
         "models": _plain(report.models),
+        "proximal_effects": _plain(report.proximal),
         "looks": _plain(report.looks),
         "detectable_d": _number(report.detectable),
     }

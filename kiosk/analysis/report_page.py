@@ -74,6 +74,8 @@ def _sections(report: Report) -> Iterator[Section]:
         yield Section("design", _also(report, "The 2 x 2 design"), tuple(_design(report)))
     if report.others:
         yield Section("pairs", _also(report, "Other pairs of conditions"), tuple(_other_pairs(report)))
+    if report.proximal:
+        yield Section("proximal", _also(report, "What each kind of hint does"), tuple(_proximal(report)))
     yield Section("course", _also(report, "The course of the game"), tuple(_course(report)))
     yield Section("reliability", "Reliability of the scales", tuple(_reliability(report)))
 
@@ -373,6 +375,24 @@ def _other_pairs(report: Report) -> Iterator[Block]:
     yield _comparison_table(
         report, "pairs-table", "The measures of the hypotheses in all other pairs of conditions.", report.others
     )
+
+
+def _proximal(report: Report) -> Iterator[Block]:
+    rows = []
+    for each in report.proximal:
+        counts = (each.card, each.action, str(each.decisions), str(each.people))
+        if each.note:
+            rows.append((*counts, NOTHING, NOTHING, each.note))
+            continue
+        effect = f"{number(each.effect, 3)} {interval(each.low, each.high)}"
+        rows.append((*counts, number(each.matched, 3), number(each.unhelped, 3), effect))
+    head = ("card", "hint", "decisions", "people", "matched with it", "without help", "difference [95 %]")
+    note = (
+        "Decisions that chance had a part in, each weighed by one over the probability of its action. The interval "
+        "comes from leaving out one person at a time. The effect is on the move of the hint, not on the whole game."
+    )
+    caption = "How much more often a move matched with each kind of hint than without help."
+    yield ReportTable("proximal-table", caption, head, tuple(rows), note)
 
 
 def _comparison_table(
