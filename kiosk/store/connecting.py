@@ -74,7 +74,8 @@ def for_writing(path: Path) -> Connection:
         give_to_owner_of_folder(path)
     for file in (path, *(_beside(path, log) for log in LOGS)):
         make_private(file)
-    connection = sqlite3.connect(path, isolation_level=None, factory=Connection)
+    # With uri=True another database can be attached for reading only; a path that is absolute is never taken for a URI.
+    connection = sqlite3.connect(path.absolute(), uri=True, isolation_level=None, factory=Connection)
     connection.path = path.resolve()
     _writers.add(connection)
     return connection

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.connecting import atomic_directory, reason
-from kiosk.store.database import in_use, open_for_reading, open_for_writing
+from kiosk.store.database import FILE, in_use, open_for_reading, open_for_writing
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_site, participant_name
 from kiosk.store.recorder import insert
@@ -56,6 +56,7 @@ def merge(
         try:
             with atomic_directory(out) as unfinished, closing(open_for_writing(unfinished)) as target:
                 target.execute(f"PRAGMA cache_size = -{_CACHE_KIB}")
+                _attach(parts, target)
                 target.execute("BEGIN IMMEDIATE")
                 with _without_triggers(target):
                     sessions = _copy(parts, target, tell)
@@ -106,6 +107,8 @@ class _Part:
     site: str | None = None
     sessions: dict[int, int] = field(default_factory=dict)
     lists: dict[int, int] = field(default_factory=dict)
+    attached: str = ""
+    """What its database is called on the connection that writes the new one; "" if it is not there."""
 
     def rows(self, table: str, where: str = "", *values: int) -> Iterator[Row]:
         """Rows of a table by their columns' names."""
@@ -323,16 +326,32 @@ def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Pro
     return len(ordered)
 
 
+_MOST_ATTACHED = 8
+"""SQLite takes ten, unless it was built otherwise."""
+
+
+def _attach(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
+    """Have events copied within SQLite, which takes a third of the time; what is a copy in memory cannot be."""
+    for number, part in enumerate(parts[:_MOST_ATTACHED]):
+        (_, _, opened), *_ = part.connection.execute("PRAGMA database_list")
+        file = part.folder / FILE
+        if opened and _is_same(Path(opened), file):
+            target.execute(f"ATTACH ? AS part{number}", (f"{file.resolve().as_uri()}?mode=ro",))
+            part.attached = f"part{number}"
+
+
+_COPIED = "seq, at_ms, origin, type, payload, wall_ms, hash"
+"""The columns of an event but for its session."""
+
+
 def _copy_events(part: _Part, target: sqlite3.Connection, old: int, new: int) -> None:
     """Copy the events of a session under its new number, all at once, as they are nearly everything there is."""
-    cursor = part.connection.execute("SELECT * FROM event WHERE session = ?", (old,))
-    names = [name for name, *_ in cursor.description]
-    at = names.index("session")
-    marks = ", ".join("?" * len(names))
-    target.executemany(
-        f"INSERT INTO event ({', '.join(names)}) VALUES ({marks})",  # noqa: S608 - the names are ours
-        ((*row[:at], new, *row[at + 1 :]) for row in cursor),
-    )
+    into = f"INSERT INTO event (session, {_COPIED})"
+    if part.attached:
+        target.execute(f"{into} SELECT ?, {_COPIED} FROM {part.attached}.event WHERE session = ?", (new, old))  # noqa: S608 - ours
+    else:
+        rows = part.connection.execute(f"SELECT ?, {_COPIED} FROM event WHERE session = ?", (new, old))  # noqa: S608 - ours
+        target.executemany(f"{into} VALUES (?, ?, ?, ?, ?, ?, ?, ?)", rows)
 
 
 def _ordered(parts: Sequence[_Part], table: str, *keys: str) -> list[tuple[_Part, Row]]:
