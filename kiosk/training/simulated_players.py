@@ -306,7 +306,7 @@ def mark_line(game: Ints, action: int, target: int, ruled_out: int) -> int:
     """Mark the closed cards of the line whose recall is below ``ruled_out``; their number."""
     number = 0
     for place in range(CARDS):
-        hit = in_line(action, target, place) and closed(game, place) and game[RECALL + place] < ruled_out
+        hit = closed(game, place) and game[RECALL + place] < ruled_out and in_line(action, target, place)
         game[MARK + place] = 1 if hit else 0
         number += game[MARK + place]
     return number
@@ -338,11 +338,11 @@ def recalled(game: Ints, lead: int, target: int) -> int:
 
     It may also be one of a known pair; else it is NOWHERE.
     """
-    first = game[FIRST]
+    if game[FIRST] != NOWHERE:
+        mate = game[MATE + game[FIRST]]
+        return mate if game[RECALL + mate] == 1 and in_line(lead, target, mate) else NOWHERE
     for place in range(CARDS):
-        mate = game[MATE + place]
-        knows = game[RECALL + place] == 1 and (mate == first or (first == NOWHERE and game[RECALL + mate] == 1))
-        if knows and in_line(lead, target, place):
+        if game[RECALL + place] == 1 and game[RECALL + game[MATE + place]] == 1 and in_line(lead, target, place):
             return place
     return NOWHERE
 

@@ -34,6 +34,7 @@ from kiosk.training.vectorised_game import (
     TARGET,
     Floats,
     Ints,
+    aim,
     compiled_rule,
     deal,
     flip,
@@ -41,9 +42,7 @@ from kiosk.training.vectorised_game import (
     gate_plan,
     ints,
     is_open,
-    mark_candidates,
     new_game,
-    pick,
     state,
 )
 
@@ -115,7 +114,7 @@ def take(table: GameTable, action: int) -> int:
     game, tally = table.game, table.tally
     second = game[FIRST] != NOWHERE
     lead = table.plan[LEAD_OF + action]
-    target = pick(game, mark_candidates(game, table.plan[TARGET])) if lead != NO_HELP else NOWHERE
+    target = aim(game, table.plan[TARGET]) if lead != NO_HELP else NOWHERE
     place = choose(game, table.player, table.odds, lead, target)
     game[HELP], game[LEAD], game[POINTED] = action, lead, target
     tally[T_FLIPS] += 1
@@ -346,7 +345,7 @@ def record_games(
 def _batch(table: GameTable, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
     tallies = ints([0] * (games * TALLY))
     play_all(table, q, tallies)
-    numbers = [int(number) for number in tallies]
+    numbers: list[int] = getattr(tallies, "tolist", tallies.copy)()
     for row in range(0, len(numbers), TALLY):
         refuse_endless(numbers[row + T_FLIPS])
         yield tuple(numbers[row : row + TALLY])

@@ -54,9 +54,10 @@ _KEPT = COMPILED and _keeps_compiled()
 def compiled_rule(function: Rule) -> Rule:
     """Mark one of the rules: compiled on first use where numba is installed, and then kept compiled on disk.
 
-    No rule divides by 0, and not looking for that (numba's error model "numpy") makes training a third faster.
+    No rule divides by 0, and not looking for that (numba's error model "numpy") makes training a third faster. None
+    makes or keeps an array, so no references are counted (``_nrt``), which takes an eighth of the time.
     """
-    compiled: Rule = _numba.njit(function, cache=_KEPT, error_model="numpy") if COMPILED else function
+    compiled: Rule = _numba.njit(function, cache=_KEPT, error_model="numpy", _nrt=False) if COMPILED else function
     return compiled
 
 
@@ -232,6 +233,16 @@ def mark_candidates(game: Ints, target: int) -> int:
         game[MARK + place] = 1 if fits else 0
         number += game[MARK + place]
     return number
+
+
+@compiled_rule
+def aim(game: Ints, target: int) -> int:
+    """Return the place that a hint for the coming flip points at."""
+    if game[FIRST] != NOWHERE:
+        # There is one candidate; a number is drawn all the same, so that games are the same as ever.
+        below(game, 1)
+        return game[MATE + game[FIRST]]
+    return pick(game, mark_candidates(game, target))
 
 
 @compiled_rule

@@ -6,7 +6,9 @@ call; the number of games or episodes in a call is in the name, and the rate in 
 
 from __future__ import annotations
 
+import ctypes
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -23,8 +25,8 @@ from kiosk.config import POLICIES
 from kiosk.training.learning import RECIPES, Learner
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import MemoryPlayer
-from kiosk.training.simulation import simulate_games
-from kiosk.training.vectorised_game import COMPILED
+from kiosk.training.simulation import TALLY, lay, play_all, simulate_games
+from kiosk.training.vectorised_game import COMPILED, RANDOM, floats, gate_plan, ints
 from tests.training.reference import WithMemory, learn, play
 
 Benchmark = Any
@@ -65,6 +67,40 @@ def test_games_of_the_kernel(benchmark: Benchmark) -> None:
 @pytest.mark.benchmark(group="games")
 def test_games_of_the_reference(benchmark: Benchmark) -> None:
     measured(benchmark, reference_games, FEW)
+
+
+@pytest.mark.benchmark(group="games")
+@pytest.mark.skipif(not COMPILED or shutil.which("cc") is None, reason="there is no numba, or no C compiler")
+def test_games_in_c(benchmark: Benchmark, tmp_path: Path) -> None:
+    """The same games, number for number, in plain C with -O2."""
+    source, library = Path(__file__).with_name("games.c"), tmp_path / "games.so"
+    compiler = shutil.which("cc") or ""
+    subprocess.run([compiler, "-O2", "-shared", "-fPIC", "-o", str(library), str(source)], check=True)
+    policy, forgetting = QTable.named("default"), 0.2
+    plan = gate_plan(policy.gate, TargetRule.MOST_FLIPPED, policy.actions)
+    table = lay(MemoryPlayer((forgetting, forgetting)), plan, 1)
+    random = ctypes.c_uint64(int(table.game[RANDOM]))
+    q = floats([value for row in policy.values for value in row])
+    in_c, here = ints([0] * (MANY * TALLY)), ints([0] * (MANY * TALLY))
+
+    def at(array: Any) -> ctypes.c_void_p:
+        return ctypes.c_void_p(array.ctypes.data)
+
+    play = ctypes.CDLL(str(library)).play
+    arguments = (random, at(plan), at(q), ctypes.c_double(forgetting), ctypes.c_int64(MANY), at(in_c))
+    measured(benchmark, lambda: play(*arguments), MANY)
+    play_all(table, q, here)
+    assert list(in_c) == list(here)
+
+
+@pytest.mark.benchmark(group="games")
+@pytest.mark.skipif(not COMPILED, reason="there is no numba")
+def test_games_of_the_kernel_without_their_results(benchmark: Benchmark) -> None:
+    policy = QTable.named("default")
+    plan = gate_plan(policy.gate, TargetRule.MOST_FLIPPED, policy.actions)
+    table, tallies = lay(MemoryPlayer((0.2, 0.2)), plan, 1), ints([0] * (MANY * TALLY))
+    q = floats([value for row in policy.values for value in row])
+    measured(benchmark, lambda: play_all(table, q, tallies), MANY)
 
 
 @pytest.mark.benchmark(group="episodes")
