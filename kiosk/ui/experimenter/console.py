@@ -391,7 +391,7 @@ WORDS = (
     "console-embodiment",
     "console-language",
     "console-volume",
-    "console-now",
+    "console-actions",
     "console-repeat",
     "console-mute",
     "console-heard",

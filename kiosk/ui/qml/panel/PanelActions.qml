@@ -11,7 +11,7 @@ PanelSection {
     readonly property var words: panel.words
     readonly property var choices: panel.choices
 
-    title: words["console-now"]
+    title: words["console-actions"]
 
     Flow {
         width: parent.width

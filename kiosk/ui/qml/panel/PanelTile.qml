@@ -19,7 +19,7 @@ Rectangle {
 
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: 0.8 * Theme.gap }
+        anchors { left: parent.left; right: parent.right; top: parent.top; margins: 0.8 * Theme.gap; topMargin: 0.6 * Theme.gap }
         PlainText {
             width: parent.width
             text: tile.title

@@ -111,7 +111,9 @@ FocusScope {
         clip: true
         boundsBehavior: Flickable.StopAtBounds
         ScrollBar.vertical: ScrollBar {
-            anchors { top: parent?.top; bottom: parent?.bottom; right: parent?.right }
+            // In the margin beside the pane, so that all edges of the page are in line.
+            parent: view
+            anchors { top: pane.top; bottom: pane.bottom; left: pane.right; leftMargin: 5 * Theme.unit }
             policy: pane.contentHeight > pane.height ? ScrollBar.AlwaysOn : ScrollBar.AlwaysOff
             width: 8 * Theme.unit
             padding: 0
@@ -130,8 +132,7 @@ FocusScope {
 
         Item {
             id: content
-            // Beside the bar, not below it.
-            width: pane.width - 14 * Theme.unit
+            width: pane.width
             height: view.onToday ? today.height : next.height
 
             PanelToday {
