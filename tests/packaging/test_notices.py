@@ -6,12 +6,13 @@ import importlib
 import importlib.util
 import re
 from collections.abc import Iterator
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.metadata import Distribution, PackageNotFoundError, distribution, distributions
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+from packaging.specifiers import SpecifierSet
 from PySide6 import QtCore
 from Xlib import X
 
@@ -106,3 +107,12 @@ def test_a_package_of_a_version_before_the_release_is_older_than_the_release(
 ) -> None:
     monkeypatch.syspath_prepend(str(ROOT / "packaging"))
     assert importlib.import_module("debian").debian_version(version) == expected
+
+
+def test_every_locked_package_runs_on_the_python_of_debian_12() -> None:
+    """A newer Python resolves the lock; what is not installed here as it is locked is left out."""
+    lines = (ROOT / "packaging" / "constraints.txt").read_text("utf-8").splitlines()
+    locked = dict(line.split("==") for line in lines if not line.startswith("#"))
+    installed = (package for package in distributions() if locked.get(package.name) == package.version)
+    asked = {package.name: package.metadata["Requires-Python"] or "" for package in installed}
+    assert {name: asks for name, asks in asked.items() if "3.11.2" not in SpecifierSet(asks)} == {}
