@@ -26,8 +26,9 @@ SLOW = (
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
 LONGEST = (
-    *("packaging/test_builds.py", "ui/test_every_language_fits.py", "ui/test_faults.py", "cli/test_readme.py"),
-    *("ui/test_whole_session.py", "ui/test_resume.py", "ui/test_without_a_mouse.py", "ui/test_nothing_is_left.py"),
+    *("ui/test_every_language_fits.py", "packaging/test_builds.py", "cli/test_readme.py", "ui/test_faults.py"),
+    *("ui/test_accessibility.py", "ui/test_whole_session.py", "ui/test_resume.py", "ui/test_without_a_mouse.py"),
+    *("ui/test_nothing_is_left.py", "analysis/test_plan.py"),
 )
 """Files that take longest. They begin first, so that no process works on alone at the end."""
 

@@ -187,7 +187,8 @@ class Catalogue:
             group for group in FOR_EXPERIMENTERS if not any(name.startswith(group) for name in self.written)
         )
         optional = (f"{CARD}-", *left_out)
-        return tuple(sorted(name for name in needed if name not in self.messages and not name.startswith(optional)))
+        messages = self.messages
+        return tuple(sorted(name for name in needed if name not in messages and not name.startswith(optional)))
 
     def wordings_of(self, message: str) -> int:
         """Count the wordings of a message in this catalogue.
