@@ -153,16 +153,21 @@ def _table(flaws: list[Flaw]) -> Table:
 
 
 @click.command()
-@click.argument("code")
+@click.argument("code", required=False)
+@click.option("--session", type=click.IntRange(min=1), help="The number of their session, for a person without a code.")
 @sessions_data_option
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @json_option
-def withdraw_command(code: str, data: Path, *, yes: bool, as_json: bool) -> None:
+def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: bool, as_json: bool) -> None:
     """Delete all that is stored of the participant with this CODE.
 
-    Only a count stays. If a withdrawal was cut off, the same command finishes it.
+    Give the number of their session instead, as 'recollect sessions' lists it, if they have no code. Only a count
+    stays. If a withdrawal was cut off, the same command finishes it.
     """
-    going = withdrawing.find_withdrawal(data, code)
+    who = code if session is None else session
+    if who is None or (code is not None and session is not None):
+        raise click.UsageError("give the code of the participant, or --session with the number of their session")
+    going = withdrawing.find_withdrawal(data, who)
     if not yes and not going.cut_off:
         begun = (going.started_at or "")[:16].replace("T", " ")
         click.echo(
@@ -173,7 +178,7 @@ def withdraw_command(code: str, data: Path, *, yes: bool, as_json: bool) -> None
         )
         click.confirm("Delete them?", abort=True, err=True)
     with _disk_in_words():
-        gone = withdrawing.withdraw(data, code)
+        gone = withdrawing.withdraw(data, who)
     told = f"All of participant {gone.participant} is deleted."
     if gone.cut_off:
         told = f"The withdrawal of participant {gone.participant}, which had been cut off, is finished."

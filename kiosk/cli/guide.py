@@ -87,9 +87,7 @@ GUIDES = {
         "explanation/embodiments.md", ("robot --host 192.168.1.50", "robot --study study.toml", "robot --pretend")
     ),
     "status": Guide("how-to/booth.md", ("status", "status --json")),
-    "sessions": Guide(
-        "reference/data-set.md", ("sessions", "sessions --since 2026-05-01 --status abandoned", "sessions --codes")
-    ),
+    "sessions": Guide("reference/data-set.md", ("sessions", "sessions --since 2026-05-01 --status abandoned")),
     "watch": Guide(
         "how-to/remote.md",
         ("watch --broker mqtts://broker.lab.example", "watch --broker mqtts://broker.lab.example --web"),
@@ -106,7 +104,7 @@ GUIDES = {
     "backup": Guide("how-to/booth.md", ("backup", "backup --to stick")),
     "verify": Guide("how-to/booth.md", ("verify",)),
     "browse": Guide("how-to/booth.md", ("browse --open",), "It serves a page until Ctrl+C."),
-    "withdraw": Guide("how-to/withdraw.md", ("withdraw YY4MRXB",)),
+    "withdraw": Guide("how-to/withdraw.md", ("withdraw 7KQ2M-XR4T4", "withdraw --session 12")),
     "merge": Guide("how-to/booth.md", ("merge booth-1 booth-2 --out both",)),
     "export": Guide(
         "reference/data-set.md", ("export --out data-set", "export --out data-set --bids --with-rehearsals")

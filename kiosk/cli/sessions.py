@@ -52,7 +52,6 @@ _DAY = click.DateTime(["%Y-%m-%d"])
 @click.option("--until", type=_DAY, help="Only sessions of this day and earlier.")
 @click.option("--page", type=click.IntRange(min=1), help=f"{PER_PAGE} sessions; page 1 has the newest.")
 @click.option("--all", "everything", is_flag=True, help="All sessions, not only the newest page.")
-@click.option("--codes", is_flag=True, help="Show the participants' codes as well; they are the visitors' own.")
 @json_option
 def sessions_command(
     data: Path,
@@ -65,7 +64,6 @@ def sessions_command(
     page: int | None,
     *,
     everything: bool,
-    codes: bool,
     as_json: bool,
 ) -> None:
     """List the stored sessions and how they ended.
@@ -92,22 +90,21 @@ def sessions_command(
             )
         listed = stored.sessions(which, newest=-1 if whole else PER_PAGE, skip=skip)
         if as_json:
-            click.echo(json.dumps([_row(session, with_code=codes) for session in listed]))
+            click.echo(json.dumps([_row(session) for session in listed]))
             return
         totals, enrolled = stored.totals(which), stored.counts(kind=SessionKind.STUDY)
     drawn = console(least_width=WIDTH)
-    click.echo("\n".join(_table(listed, codes=codes)))
+    click.echo("\n".join(_table(listed)))
     for line in _totals(totals, len(listed), skip):
         drawn.print(line)
     if any(cell.quota for cell in enrolled.cells.values()):
         drawn.print(_targets(enrolled))
 
 
-def _table(listed: Sequence[StoredSession], *, codes: bool) -> Iterator[str]:
+def _table(listed: Sequence[StoredSession]) -> Iterator[str]:
     """Yield the lines of the list; thousands of them would take a table of rich minutes."""
-    own = ("participant", "code") if codes else ("participant",)
-    headings = ("session", *own, "started", "duration", *_WORDS, "visitor", *_COUNTS)
-    rows = [headings, *(_cells(session, own) for session in listed)]
+    headings = ("session", "participant", "started", "duration", *_WORDS, "visitor", *_COUNTS)
+    rows = [headings, *(_cells(session) for session in listed)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     right = [heading in {*_COUNTS, "duration"} for heading in headings]
     for row in rows:
@@ -115,16 +112,16 @@ def _table(listed: Sequence[StoredSession], *, codes: bool) -> Iterator[str]:
         yield "  ".join(cell.rjust(width) if number else cell.ljust(width) for cell, width, number in cells).rstrip()
 
 
-def _cells(session: StoredSession, own: Sequence[str]) -> tuple[str, ...]:
-    row = session.to_json() | {"code": session.code}
+def _cells(session: StoredSession) -> tuple[str, ...]:
+    row = session.to_json()
     times = (f"{session.began:%Y-%m-%d %H:%M}", as_minutes(session.duration_ms))
-    words = (row["session"], *(row[key] for key in own), *times, *(row[key] for key in _WORDS), _NAMES[session.kind])
+    words = (row["session"], row["participant"], *times, *(row[key] for key in _WORDS), _NAMES[session.kind])
     return (*map(_word, words), *(str(row[key]) for key in _COUNTS))
 
 
-def _row(session: StoredSession, *, with_code: bool) -> dict[str, Any]:
+def _row(session: StoredSession) -> dict[str, Any]:
     times = {"started_at": session.started_at, "started_local": session.began.isoformat(timespec="seconds")}
-    return session.to_json() | times | ({"code": session.code} if with_code else {})
+    return session.to_json() | times
 
 
 def _totals(totals: SessionTotals, shown: int, skip: int) -> Iterator[str]:

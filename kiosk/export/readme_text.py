@@ -13,8 +13,7 @@ from kiosk.export.records import StudyMaterials
 KEYWORDS = ("Concentration", "memory game", "human-robot interaction", "assistance", "Theory of Mind")
 
 _NOT_HERE = (
-    "The withdrawal codes of the participants, and the seeds of the sessions, from which those codes could be worked "
-    "out.",
+    "The codes with which participants withdraw, which are not stored themselves, and the seeds of the sessions.",
     "People who played without being stored: only how many there were, and why.",
     "People who withdrew: only how many there were.",
     "Voices, pictures, names: they were never recorded.",

@@ -132,9 +132,18 @@ _TABLES = (
         site TEXT NOT NULL,
         kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         number INTEGER NOT NULL,
-        code TEXT NOT NULL UNIQUE,
         UNIQUE (site, kind, number)
     ) STRICT
+    """,
+    # What codes are hashed with: made with the database. A merged one has the key of each part.
+    "CREATE TABLE code_key (key BLOB PRIMARY KEY CHECK (length(key) = 32)) STRICT, WITHOUT ROWID",
+    "INSERT INTO code_key VALUES (randomblob(32))",
+    # The codes themselves are only on the visitors' screens and paper. A session that is gone on with has several.
+    """
+    CREATE TABLE withdrawal_code (
+        hash BLOB PRIMARY KEY CHECK (length(hash) = 32),
+        session INTEGER NOT NULL REFERENCES session (id)
+    ) STRICT, WITHOUT ROWID
     """,
     # Visitors who are not stored are only counted: a time would tell them apart.
     """
@@ -170,14 +179,15 @@ _TABLES = (
         payload TEXT NOT NULL CHECK (json_valid(payload))
     ) STRICT
     """,
-    # A row comes with its tombstone and goes once no file of the folder holds the participant's data. Its hash checks a
-    # code that is entered again; the code itself is gone.
+    # The hashes stay, so that an older copy that still has the person can be found.
     """
-    CREATE TABLE unfinished_withdrawal (
-        session INTEGER PRIMARY KEY REFERENCES tombstone (session),
-        code_sha256 TEXT NOT NULL
-    ) STRICT
+    CREATE TABLE withdrawn_code (
+        hash BLOB PRIMARY KEY CHECK (length(hash) = 32),
+        session INTEGER NOT NULL REFERENCES tombstone (session)
+    ) STRICT, WITHOUT ROWID
     """,
+    # A row comes with its tombstone and goes once no file of the folder holds the participant's data.
+    "CREATE TABLE unfinished_withdrawal (session INTEGER PRIMARY KEY REFERENCES tombstone (session)) STRICT",
 )
 
 _NEVER_CHANGED = {
@@ -187,6 +197,9 @@ _NEVER_CHANGED = {
     "visit": ("update", "delete"),
     "tombstone": ("update", "delete"),
     "audit_event": ("update", "delete"),
+    "code_key": ("update",),
+    "withdrawn_code": ("update", "delete"),
+    "withdrawal_code": ("update",),
     "session": ("update",),
     "event": ("update",),
     "participant": ("update",),
@@ -201,13 +214,20 @@ _IN_ITS_WAY = {
     "allocation_list": "id = NEW.id",
     "visit": "id = NEW.id",
     "audit_event": "id = NEW.id",
-    "participant": "session = NEW.session OR code = NEW.code"
-    " OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
+    "withdrawal_code": "hash = NEW.hash",
+    "withdrawn_code": "hash = NEW.hash",
+    "participant": "session = NEW.session OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
     "tombstone": "session = NEW.session OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
 }
 """Which row a new one would replace: INSERT OR REPLACE deletes it without asking the triggers on delete."""
 
-_GONE_WHEN_WITHDRAWN = {"event": "session", "session": "id", "participant": "session", "head": "session"}
+_GONE_WHEN_WITHDRAWN = {
+    "event": "session",
+    "session": "id",
+    "participant": "session",
+    "withdrawal_code": "session",
+    "head": "session",
+}
 """Tables whose rows may be deleted once there is a tombstone of their session, which this column names."""
 
 _TRIGGERS = (
@@ -254,7 +274,7 @@ _TRIGGERS = (
     """,
 )
 
-MIGRATIONS: tuple[Migration, ...] = (Migration(3, "the tables of 0.2", (*_TABLES, *_TRIGGERS, *SUMMARIES)),)
+MIGRATIONS: tuple[Migration, ...] = (Migration(4, "the tables of 0.2", (*_TABLES, *_TRIGGERS, *SUMMARIES)),)
 """Every step so far, the first one creates the database; a step that was released never changes.
 
 Earlier steps were never released, and their databases are not read.

@@ -125,10 +125,14 @@ class _Part:
         query = " UNION ".join(f"SELECT site FROM {table}" for table in tables)  # noqa: S608 - the names are ours
         return {site for (site,) in self.connection.execute(query)}
 
-    def people(self) -> Iterator[tuple[_Who, str]]:
-        """Everybody who has a number here, with their code; it is empty for those who withdrew."""
+    def people(self) -> Iterator[_Who]:
+        """Everybody who has a number here, those who withdrew among them."""
         for row in (*self.rows("participant"), *self.rows("tombstone")):
-            yield (row["site"], row["kind"], row["number"]), row.get("code", "")
+            yield row["site"], row["kind"], row["number"]
+
+    def codes(self) -> Iterator[bytes]:
+        """Return the hashes of all codes that are valid here."""
+        return (row["hash"] for row in self.rows("withdrawal_code"))
 
 
 def _check_folders(folders: Sequence[Path], out: Path) -> None:
@@ -186,8 +190,8 @@ def _check_sites(parts: Sequence[_Part]) -> None:
 def _check_apart(parts: Sequence[_Part], out: Path) -> None:
     """Refuse two folders that hold one participant, or one code; say how kiosks without sites can be merged."""
     _check_no_older_copies(parts)
-    code = _first_shared(parts, lambda part: (code for _, code in part.people() if code))
-    person = _first_shared(parts, lambda part: (who for who, _ in part.people()))
+    code = _first_shared(parts, _Part.codes)
+    person = _first_shared(parts, _Part.people)
     copied = "Does one of them hold a copy of the other's data?"
     if person is not None:
         (site, _, number), one, other = person
@@ -196,9 +200,9 @@ def _check_apart(parts: Sequence[_Part], out: Path) -> None:
             f"merged. {_way_out(parts, out) if code is None else copied}"
         )
     if code is not None:
-        shared, one, other = code
+        _, one, other = code
         raise UserInputError(
-            f"the code {shared} stands in {one.folder} and in {other.folder}; nothing was merged. {copied}"
+            f"one participant's code is valid in {one.folder} and in {other.folder}; nothing was merged. {copied}"
         )
 
 
@@ -216,25 +220,17 @@ def _first_shared(
 
 
 def _check_no_older_copies(parts: Sequence[_Part]) -> None:
-    """Refuse a copy from before a withdrawal, which a site of its own would bring back as another person."""
+    """Refuse a copy from before a withdrawal, which would bring the person back."""
     for part, other in permutations(parts, 2):
-        gone, there = (
-            set(each.connection.execute(f"SELECT site, kind, number FROM {table}"))  # noqa: S608 - ours
-            for each, table in ((part, "tombstone"), (other, "participant"))
-        )
-        # All people of an older copy stand in the original too, unless they withdrew there.
-        if there and there <= gone and _is_copy(part, other):
-            site, _, number = min(there)
+        gone = {row["hash"] for row in part.rows("withdrawn_code")}
+        back = min((row["session"] for row in other.rows("withdrawal_code") if row["hash"] in gone), default=None)
+        if back is not None:
+            (row,) = other.rows("participant", "WHERE session = ?", back)
             raise UserInputError(
-                f"participant {participant_name(site, number)} withdrew in {part.folder}, but still stands in "
-                f"{other.folder}, which is an older copy of it; nothing was merged"
+                f"participant {participant_name(row['site'], row['number'])} withdrew in {part.folder}, but still "
+                f"stands in {other.folder}; nothing was merged. Delete them there as well: recollect withdraw "
+                f"--session {back} --data {other.folder}"
             )
-
-
-def _is_copy(part: _Part, other: _Part) -> bool:
-    """Whether one database was copied from the other: both were made in the same microsecond."""
-    made = "SELECT * FROM migration ORDER BY number LIMIT 1"
-    return bool(part.connection.execute(made).fetchone() == other.connection.execute(made).fetchone())
 
 
 def _way_out(parts: Sequence[_Part], out: Path) -> str:
@@ -250,7 +246,7 @@ def _way_out(parts: Sequence[_Part], out: Path) -> str:
 
 def _named_anew(parts: Sequence[_Part]) -> dict[Path, str] | None:
     """Sites for the folders that share a participant with another; None if those do not tell all people apart."""
-    people = {part.folder: {who for who, _ in part.people()} for part in parts}
+    people = {part.folder: set(part.people()) for part in parts}
     clashing = [
         part
         for part in parts
@@ -291,6 +287,11 @@ def _copy(parts: Sequence[_Part], target: sqlite3.Connection, tell: Progress) ->
     for part in parts:
         for row in part.rows("source"):
             target.execute("INSERT INTO source VALUES (?, ?) ON CONFLICT DO NOTHING", tuple(row.values()))
+    # Its own key came with the new database, and no code was hashed with it.
+    target.execute("DELETE FROM code_key")
+    for part in parts:
+        for row in part.rows("code_key"):
+            target.execute("INSERT INTO code_key VALUES (?) ON CONFLICT DO NOTHING", tuple(row.values()))
     _copy_lists(parts, target)
     _copy_tombstones(parts, target)
     for table, keys in (("visit", ("why", "kind")), ("audit_event", ("wall_ms", "type", "payload"))):
@@ -308,9 +309,12 @@ def _copy_tombstones(parts: Sequence[_Part], target: sqlite3.Connection) -> None
     """They stand before the sessions, so that no session that is yet to come takes their numbers."""
     ordered = _ordered(parts, "tombstone", "site", "kind", "number")
     for number, (part, row) in enumerate(ordered, 1):
+        old = row["session"]
         insert(
             target, "tombstone", row | {"session": number, "allocation_list": part.lists.get(row["allocation_list"])}
         )
+        for code in part.rows("withdrawn_code", "WHERE session = ?", old):
+            insert(target, "withdrawn_code", code | {"session": number})
     target.execute("INSERT INTO sqlite_sequence VALUES ('session', ?)", (len(ordered),))
 
 
@@ -321,8 +325,9 @@ def _copy_sessions(parts: Sequence[_Part], target: sqlite3.Connection, tell: Pro
         old = row.pop("id")
         new = insert(target, "session", row | {"allocation_list": part.lists.get(row["allocation_list"])})
         _copy_events(part, target, old, new)
-        for own in part.rows("participant", "WHERE session = ?", old):
-            insert(target, "participant", own | {"session": new})
+        for table in ("participant", "withdrawal_code"):
+            for own in part.rows(table, "WHERE session = ?", old):
+                insert(target, table, own | {"session": new})
     return len(ordered)
 
 

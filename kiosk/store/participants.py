@@ -1,4 +1,4 @@
-"""Participants, their numbers and codes, allocation lists, and the counts of each cell."""
+"""Participants and their numbers, allocation lists, and the counts of each cell."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import json
 import re
 import sqlite3
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
 from functools import lru_cache
 from itertools import groupby
-from random import Random, SystemRandom
+from random import SystemRandom
 
 from kiosk import UserInputError
 from kiosk.experiment.condition import (
@@ -27,14 +27,7 @@ from kiosk.experiment.condition import (
 from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.labels import read_as
 from kiosk.experiment.session_config import SessionKind
-
-ALPHABET = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
-"""Letters and digits without 0 and O, 1, I and L. 31 of them, a prime: so the check character tells every slip."""
-
-CHANCE_CHARACTERS = 6
-"""With the check character 7: short enough to be copied by hand. 31^6 is 887 million, so that among the thousand
-people of a large study a made-up code belongs to no participant (1 in a million), and two hardly ever fall together
-(1 in 2000 studies), which is seen and mended when it happens."""
+from kiosk.store.codes import issue_code
 
 _DIGITS_OF_A_YEAR = 4
 _SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)
@@ -48,6 +41,7 @@ class Participant:
     site: str
     number: int
     code: str
+    """What they can withdraw with. It is not stored, so it is known only while their session is under way."""
 
     @property
     def name(self) -> str:
@@ -79,53 +73,27 @@ def _is_long_number(site: str) -> bool:
     return site.isdigit() and len(site) > _DIGITS_OF_A_YEAR
 
 
-def checked_code(text: str) -> str:
-    """Return the code that was typed, in its own spelling; raises UserInputError if it was mistyped."""
-    code = "".join(text.split()).upper()
-    characters = code.rpartition("-")[2]
-    if len(characters) != CHANCE_CHARACTERS + 1 or set(characters) - set(ALPHABET):
-        raise UserInputError(
-            f"{text!r} is no participant's code: after the site it has {CHANCE_CHARACTERS + 1} letters and digits, "
-            "and never 0, O, 1, I or L"
-        )
-    if _check(characters[:-1]) != characters[-1]:
-        raise UserInputError(f"the code {text!r} is mistyped: its last character does not fit the others")
-    return code
-
-
 def enrol(connection: sqlite3.Connection, session: int) -> Participant:
     """Give a session's person the next number of the site, and a code, within the transaction that is open."""
-    site, kind, seed = connection.execute("SELECT site, kind, seed FROM session WHERE id = ?", (session,)).fetchone()
-    participant = Participant(session, site, _next_number(connection, site, kind), _code(connection, site, seed))
+    site, kind = connection.execute("SELECT site, kind FROM session WHERE id = ?", (session,)).fetchone()
+    number = _next_number(connection, site, kind)
     connection.execute(
-        "INSERT INTO participant (session, site, kind, number, code) VALUES (?, ?, ?, ?, ?)",
-        (session, site, kind, participant.number, participant.code),
+        "INSERT INTO participant (session, site, kind, number) VALUES (?, ?, ?, ?)", (session, site, kind, number)
     )
-    return participant
+    return Participant(session, site, number, issue_code(connection, session, site))
 
 
-def participant_of(connection: sqlite3.Connection, session: int) -> Participant | None:
-    """Return the person of a session; None if it was recorded before people were numbered, or is not there."""
-    row = connection.execute(
-        "SELECT session, site, number, code FROM participant WHERE session = ?", (session,)
-    ).fetchone()
-    return Participant(*row) if row else None
+def enrol_again(connection: sqlite3.Connection, session: int) -> Participant | None:
+    """Return the person of a session with a new code.
 
-
-def codes(site: str, seed: int) -> Iterator[str]:
-    """Yield the codes that a session's seed leads to, best first."""
-    chance = Random(f"{seed}/code")
-    while True:
-        characters = "".join(chance.choices(ALPHABET, k=CHANCE_CHARACTERS))
-        yield (f"{site}-" if site else "") + characters + _check(characters)
-
-
-def _code(connection: sqlite3.Connection, site: str, seed: int) -> str:
-    return next(code for code in codes(site, seed) if not _taken(connection, code))
-
-
-def _taken(connection: sqlite3.Connection, code: str) -> bool:
-    return connection.execute("SELECT 1 FROM participant WHERE code = ?", (code,)).fetchone() is not None
+    The earlier one was only on their screen and paper; both stay valid. Returns None if the session was recorded before
+    people were numbered, or is not there.
+    """
+    row = connection.execute("SELECT site, number FROM participant WHERE session = ?", (session,)).fetchone()
+    if row is None:
+        return None
+    site, number = row
+    return Participant(session, site, number, issue_code(connection, session, site))
 
 
 def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
@@ -139,15 +107,6 @@ def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
         (site, kind),
     ).fetchone()[0]
     return number
-
-
-def _check(characters: str) -> str:
-    """Return the character that makes one wrong character, or two in each other's place, come out wrong.
-
-    A weighted sum modulo the alphabet's size, as in ISBN-10.
-    """
-    total = sum(weight * ALPHABET.index(character) for weight, character in enumerate(characters, 1))
-    return ALPHABET[total % len(ALPHABET)]
 
 
 SEED_BITS = 63

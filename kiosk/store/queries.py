@@ -39,8 +39,8 @@ LARGEST = 2**63 - 1
 class StoredSession:
     """A stored session at a glance; ``status`` is None while it is under way.
 
-    ``participant`` and ``code`` are None in sessions from before people were numbered, ``allocation_source`` where no
-    allocation list was followed. ``stage`` is where it ended, or is; None if it got nowhere. ``flips``, ``pairs`` and
+    ``participant`` is None in sessions from before people were numbered, ``allocation_source`` where no allocation list
+    was followed. ``stage`` is where it ended, or is; None if it got nowhere. ``flips``, ``pairs`` and
     ``hints`` are those of the game. ``started_at`` is in UTC; ``duration_ms`` is from its first event to its last.
     """
 
@@ -55,7 +55,6 @@ class StoredSession:
     hints: int
     duration_ms: int
     participant: str | None
-    code: str | None
     stage: Stage | None
     allocation_source: AllocationSource | None
 
@@ -70,7 +69,7 @@ class StoredSession:
         return datetime.fromisoformat(self.started_at).astimezone()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the session as the command line prints it: without the code, which is the visitor's."""
+        """Return the session as the command line prints it."""
         return {
             "session": self.id,
             "participant": self.participant,
@@ -312,7 +311,6 @@ class SessionRepository:
             hints=row["hints"],
             duration_ms=row["duration_ms"] or 0,
             participant=None if row["number"] is None else participant_name(row["site"], row["number"]),
-            code=row["code"],
             stage=Stage(row["stage"]) if row["stage"] else None,
             allocation_source=AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
         )
@@ -320,7 +318,7 @@ class SessionRepository:
 
 _SESSIONS = """
     SELECT session.id, session.site, started_at, condition, embodiment, session.kind, allocation_source,
-        participant.number, participant.code, status, stage, flips, pairs, hints, duration_ms
+        participant.number, status, stage, flips, pairs, hints, duration_ms
     FROM session JOIN session_summary ON session_summary.session = session.id
     LEFT JOIN participant ON participant.session = session.id
 """

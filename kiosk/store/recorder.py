@@ -29,13 +29,13 @@ from kiosk.store.participants import (
     check_not_given_out_again,
     checked_site,
     enrol,
-    participant_of,
+    enrol_again,
 )
 from kiosk.store.summaries import go_on
 from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished
 
 
-def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | None]) -> int:
+def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | bytes | None]) -> int:
     """Write one row, told by its columns' names; returns its number."""
     marks = ", ".join("?" * len(row))
     columns = ", ".join(row)
@@ -263,7 +263,7 @@ class Recorder:
         with self._transaction():
             mark_interrupted(self._connection)
             seq = interrupted_at(self._connection, number)
-            participant = participant_of(self._connection, number)
+            participant = enrol_again(self._connection, number)
             if participant is None:
                 raise UserInputError(
                     f"session {number} is from before people were numbered, so it cannot be gone on with"
@@ -286,7 +286,7 @@ class Recorder:
         self._resumed = False
         self._written(rows)
 
-    def append_and_withdraw(self, events: Sequence[Event], code: str) -> None:
+    def append_and_withdraw(self, events: Sequence[Event]) -> None:
         """Write a session's last events and delete its rows, in one transaction; a tombstone stays.
 
         What is left of it in free pages and backups goes when the kiosk is opened next.
@@ -295,7 +295,7 @@ class Recorder:
         with self._transaction():
             self._connection.execute("PRAGMA secure_delete = ON")
             self._connection.executemany(_INSERT_EVENT, rows)
-            bury(self._connection, self._session, code)
+            bury(self._connection, self._session)
         self._written(rows)
 
     # Outside sessions

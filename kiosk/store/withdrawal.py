@@ -7,7 +7,6 @@ kiosk, or the same command again, finds the note and does the rest.
 
 from __future__ import annotations
 
-import hashlib
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
@@ -17,10 +16,11 @@ from pathlib import Path
 from typing import Any
 
 from kiosk import StorageError, UserInputError
+from kiosk.store.codes import session_with_code, session_withdrawn_with
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
-from kiosk.store.participants import checked_code, participant_name
+from kiosk.store.participants import participant_name
 
 READER_WAIT_MS = 1000
 
@@ -53,29 +53,32 @@ class Withdrawal:
         }
 
 
-def find_withdrawal(folder: Path, code: str) -> Withdrawal:
-    """Return what would go with this code; raises UserInputError if it is unknown, or a kiosk is writing there."""
+def find_withdrawal(folder: Path, who: str | int) -> Withdrawal:
+    """Return what would go with this code, or this number of a session.
+
+    Raises UserInputError if it is unknown, or a kiosk is writing there.
+    """
     with closing(open_for_reading(folder)) as connection:
         if in_use(folder):
             raise UserInputError(f"a kiosk is writing in {folder}: close it first, then withdraw")
-        return _found(connection, folder, code)
+        return _found(connection, folder, who)
 
 
-def withdraw(folder: Path, code: str) -> Withdrawal:
-    """Remove the participant with this code, and replace the database copies; returns what went.
+def withdraw(folder: Path, who: str | int) -> Withdrawal:
+    """Remove the participant with this code or session, and replace the database copies; returns what went.
 
-    A withdrawal that was cut off before is finished. Raises UserInputError if no participant has the code, or if
+    A withdrawal that was cut off before is finished. Raises UserInputError if there is no such participant, or if
     another program uses the data; nothing is deleted then. Raises StorageError if the disk did not do all of it; the
     message says how far it came.
     """
-    found = find_withdrawal(folder, code)
+    found = find_withdrawal(folder, who)
     held = lock_folder(folder)
     try:
         with closing(open_for_writing(folder)) as connection:
             _keep_to_oneself(connection)
             if not found.cut_off:
                 with _alone(connection, folder):
-                    bury(connection, found.session, code)
+                    bury(connection, found.session)
             _clean(connection, folder)
         _replace_backups(folder)
         _forget(folder)
@@ -101,30 +104,30 @@ def finish_cut_off(folder: Path) -> None:
     _forget(folder)
 
 
-def _found(connection: sqlite3.Connection, folder: Path, code: str) -> Withdrawal:
-    code, copies = checked_code(code), len(list_backups(folder / FOLDER))
+def _found(connection: sqlite3.Connection, folder: Path, who: str | int) -> Withdrawal:
+    copies = len(list_backups(folder / FOLDER))
     row = connection.execute(
         """
         SELECT session.id, session.site, number, started_at, (SELECT count(*) FROM event WHERE session = session.id)
-        FROM participant JOIN session ON session.id = participant.session WHERE code = ?
+        FROM participant JOIN session ON session.id = participant.session WHERE session.id = ?
         """,
-        (code,),
+        (who if isinstance(who, int) else session_with_code(connection, who),),
     ).fetchone()
     if row is not None:
         session, site, number, started_at, events = row
         return Withdrawal(session, participant_name(site, number), started_at, events, copies)
     row = connection.execute(
-        "SELECT session, site, number FROM unfinished_withdrawal JOIN tombstone USING (session) WHERE code_sha256 = ?",
-        (_sha256(code),),
+        "SELECT session, site, number FROM unfinished_withdrawal JOIN tombstone USING (session) WHERE session = ?",
+        (who if isinstance(who, int) else session_withdrawn_with(connection, who),),
     ).fetchone()
     if row is not None:
         session, site, number = row
         return Withdrawal(session, participant_name(site, number), None, 0, copies, cut_off=True)
-    raise UserInputError(f"no participant in {folder} has the code {code}")
-
-
-def _sha256(code: str) -> str:
-    return hashlib.sha256(code.encode()).hexdigest()
+    if isinstance(who, int):
+        raise UserInputError(f"no participant in {folder} has the session {who}")
+    if session_withdrawn_with(connection, who) is not None:
+        raise UserInputError(f"the participant with this code has been withdrawn from {folder}; nothing is left to do")
+    raise UserInputError(f"no participant in {folder} has this code")
 
 
 def _keep_to_oneself(connection: sqlite3.Connection) -> None:
@@ -152,7 +155,7 @@ def _alone(connection: sqlite3.Connection, folder: Path) -> Iterator[None]:
             connection.execute("ROLLBACK")
 
 
-def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
+def bury(connection: sqlite3.Connection, session: int) -> None:
     """Replace the rows of a session by a tombstone; the caller has a transaction open."""
     connection.execute(
         """
@@ -170,10 +173,10 @@ def bury(connection: sqlite3.Connection, session: int, code: str) -> None:
         """,
         {"session": session, "today": datetime.now(UTC).date().isoformat()},
     )
-    connection.execute("INSERT INTO unfinished_withdrawal VALUES (?, ?)", (session, _sha256(checked_code(code))))
-    connection.execute("DELETE FROM head WHERE session = ?", (session,))
-    connection.execute("DELETE FROM event WHERE session = ?", (session,))
-    connection.execute("DELETE FROM participant WHERE session = ?", (session,))
+    connection.execute("INSERT INTO unfinished_withdrawal VALUES (?)", (session,))
+    connection.execute("INSERT INTO withdrawn_code SELECT * FROM withdrawal_code WHERE session = ?", (session,))
+    for table in ("head", "event", "withdrawal_code", "participant"):
+        connection.execute(f"DELETE FROM {table} WHERE session = ?", (session,))  # noqa: S608 - ours
     connection.execute("DELETE FROM session WHERE id = ?", (session,))
 
 

@@ -164,7 +164,7 @@ class SessionRecording:
                 self._keeping = RecordingState.FORGOTTEN
                 self._held.clear()
             case None if self._keeping is RecordingState.KEPT and self._is_deleted_by(outcome):
-                self._recorder.append_and_withdraw(events, self.code)
+                self._recorder.append_and_withdraw(events)
                 self._keeping = RecordingState.FORGOTTEN
             case None if self._keeping is RecordingState.KEPT:
                 self._recorder.append(events)

@@ -13,7 +13,7 @@ from kiosk.experiment.condition import AllocationSource, Condition
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.chain import EventFields, first_hash, next_hash
 from kiosk.store.database import open_for_writing
-from kiosk.store.participants import AllocationLists, codes
+from kiosk.store.participants import AllocationLists
 from kiosk.store.recorder import Provenance, Recorder
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan
@@ -58,9 +58,8 @@ def fill(folder: Path, sessions: int) -> None:
                 (number, began, number, number, first),
             )
             connection.executemany(_INSERT_EVENT, _chained(number, games[first - 1], first_hash(connection, number)))
-            connection.execute(
-                "INSERT INTO participant VALUES (?, '', 0, ?, ?)", (number, number, next(codes("", number)))
-            )
+            connection.execute("INSERT INTO participant VALUES (?, '', 0, ?)", (number, number))
+            connection.execute("INSERT INTO withdrawal_code VALUES (randomblob(32), ?)", (number,))
         connection.execute("COMMIT")
 
 

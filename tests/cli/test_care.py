@@ -21,7 +21,7 @@ from kiosk.store.database import FILE
 from kiosk.store.maintenance import FOLDER, list_backups
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
-from tests.store.visitors import BEGUN, a_day, rows
+from tests.store.visitors import BEGUN, a_day, new_code, rows
 
 PEOPLE = Provenance(plan(), 1, "avatar", "abc123", kind=SessionKind.STUDY)
 
@@ -46,9 +46,9 @@ def day(tmp_path: Path) -> Path:
 
 
 def code_of(folder: Path, number: int) -> str:
-    """Return the code of a participant by number."""
-    ((code,),) = rows(folder, f"SELECT code FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
-    return str(code)
+    """Return a code of a participant by number."""
+    ((session,),) = rows(folder, f"SELECT session FROM participant WHERE number = {number} AND kind = 0")  # noqa: S608
+    return new_code(folder, session)
 
 
 # sessions
@@ -94,14 +94,6 @@ def test_times_are_those_of_the_machine(day: Path) -> None:
     began = datetime.fromisoformat(first["started_at"])
     assert datetime.fromisoformat(first["started_local"]) == began.replace(microsecond=0)
     assert f"{began.astimezone():%Y-%m-%d %H:%M}" in run("sessions", "--data", day).output
-
-
-def test_a_code_is_shown_only_when_it_is_asked_for(day: Path) -> None:
-    code = code_of(day, 1)
-    for words in (["sessions"], ["sessions", "--json"], ["events", "1"]):
-        assert code not in run(*words, "--data", day).output
-    for words in (["sessions", "--codes"], ["sessions", "--codes", "--json"]):
-        assert code in run(*words, "--data", day).output
 
 
 # backup

@@ -23,6 +23,8 @@ from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
 from tests.forked import PROGRAM, LoadedProgram
 from tests.samples import WITH_PIN, plan
+from tests.store.visitors import new_code
+from tests.store.visitors import rows as rows_of
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the commands are run in a Unix shell's way")
@@ -198,9 +200,8 @@ def filled_in(newcomer: Newcomer, arguments: Sequence[str]) -> list[str]:
     rehearsals = newcomer.home / "share" / "recollect" / "rehearsals"
     given = {"H": "127.0.0.1", "ALL": "all", "200": "2", "A": str(rehearsals), "B": str(newcomer.home / "other")}
     if "CODE" in arguments:
-        listed = newcomer.run(["sessions", "--codes"]).stdout
-        (code,) = re.findall(r"\b[2-9A-Z]{7}\b", listed)
-        given["CODE"] = code
+        ((session,),) = rows_of(rehearsals, "SELECT max(session) FROM participant")
+        given["CODE"] = new_code(rehearsals, session)
         # There is no one to ask here.
         arguments = [*arguments, "--yes"]
     if "B" in arguments:

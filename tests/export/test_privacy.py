@@ -76,10 +76,10 @@ def told(tmp_path: Path) -> Path:
 @pytest.mark.parametrize("layout", BOTH)
 def test_neither_code_nor_seed_nor_typed_text_nor_place_is_told(told: Path, layout: type[Layout]) -> None:
     with closing(sqlite3.connect(told / FILE)) as connection:
-        ((code,),) = connection.execute("SELECT code FROM participant").fetchall()
+        ((code,),) = connection.execute("SELECT hex(hash) FROM withdrawal_code").fetchall()
     out = told.parent / "out"
     export_dataset(told, out, layout)
-    secrets = (code, str(SEED), NAME_TYPED, REASON, "robot.at.home", "me@example.org")
+    secrets = (code, code.lower(), str(SEED), NAME_TYPED, REASON, "robot.at.home", "me@example.org")
     assert [(path, secret) for path, text in texts(out) for secret in secrets if secret in text] == []
 
 

@@ -230,9 +230,9 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
         "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, payload, 0, hash FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
-        "REPLACE INTO participant SELECT session, site, kind, number, 'forged' FROM participant",
-        "REPLACE INTO participant SELECT 9, site, kind, number, 'forged' FROM participant",
-        "REPLACE INTO participant SELECT 9, site, kind, 9, code FROM participant",
+        "REPLACE INTO participant SELECT session, site, kind, 9 FROM participant",
+        "REPLACE INTO participant SELECT 9, site, kind, number FROM participant",
+        "REPLACE INTO withdrawal_code SELECT hash, 9 FROM withdrawal_code",
         "REPLACE INTO allocation_list "
         "SELECT id, site, kind, 99, block_size, quotas, slots, fixed_at FROM allocation_list",
         "REPLACE INTO visit SELECT id, 'declined', kind FROM visit",
@@ -254,7 +254,7 @@ def test_what_is_recorded_is_not_replaced_either(folder: Path, provenance: Prove
         connection.execute(action)
 
 
-@pytest.mark.parametrize("table", ["event", "participant", "session"])
+@pytest.mark.parametrize("table", ["event", "participant", "session", "withdrawal_code"])
 def test_only_a_tombstone_lets_a_session_go(folder: Path, provenance: Provenance, table: str) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, [START])

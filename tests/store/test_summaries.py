@@ -108,9 +108,7 @@ def test_counts_follow_every_outcome_and_a_withdrawal(folder: Path, provenance: 
         Disposition.UNDER_WAY: 1,
         Disposition.BEYOND: 1,
     }
-    with closing(sqlite3.connect(folder / FILE)) as connection:
-        (code,) = connection.execute("SELECT code FROM participant WHERE session = 1").fetchone()
-    withdraw(folder, code)
+    withdraw(folder, 1)
     with open_repository(folder) as stored:
         after = stored.counts(kind=study).cells.values()
     assert sum(cell.fates[Disposition.CONSUMED] for cell in after) == 2

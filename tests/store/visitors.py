@@ -13,7 +13,8 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.events import Event, NotRecordedReason, Status
 from kiosk.experiment.session_config import SessionKind
-from kiosk.store.database import FILE
+from kiosk.store.codes import issue_code
+from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.participants import Participant
 from kiosk.store.recorder import Provenance, Recorder
 
@@ -28,6 +29,12 @@ def rows(folder: Path, query: str) -> list[tuple[Any, ...]]:
     """Return what stands in the database of a folder."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         return connection.execute(query).fetchall()
+
+
+def new_code(folder: Path, session: int = 1) -> str:
+    """Give the person of a session one more code: those that were given are stored nowhere."""
+    with closing(open_for_writing(folder)) as connection:
+        return issue_code(connection, session, "")
 
 
 def saying(words: str) -> tuple[Event, ...]:

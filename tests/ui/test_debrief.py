@@ -19,7 +19,7 @@ from tests.ui.conftest import Booth
 from tests.ui.looking import items, lies_in
 
 PAGE = Page(title="What we study", paragraphs=("There are two versions.",))
-MAIL, CODE = "study@university.test", "7K3M9QX"
+MAIL, CODE = "study@university.test", "ROME2345-7KQ2M-XR4T4"
 
 
 @pytest.fixture

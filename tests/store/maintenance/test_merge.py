@@ -29,7 +29,10 @@ from kiosk.store.verify import verify
 from kiosk.store.withdrawal import withdraw
 from tests.store.visitors import BEGUN, COMPLETED, a_day, rows
 
-TABLES = ("allocation_list", "audit_event", "event", "participant", "session", "source", "tombstone", "visit")
+TABLES = (
+    *("allocation_list", "audit_event", "code_key", "event", "participant", "session", "source", "tombstone", "visit"),
+    *("withdrawal_code", "withdrawn_code"),
+)
 
 
 @pytest.fixture
@@ -64,9 +67,9 @@ def people(folder: Path) -> list[tuple[Any, ...]]:
     return rows(
         folder,
         """
-        SELECT participant.site, participant.kind, number, code, started_at, seed, condition, allocation_slot,
+        SELECT participant.site, participant.kind, number, hex(hash), started_at, seed, condition, allocation_slot,
             (SELECT group_concat(seq || type || payload || at_ms || wall_ms) FROM event WHERE session = id)
-        FROM participant JOIN session ON id = session ORDER BY 1, 2, 3
+        FROM participant JOIN session ON id = session JOIN withdrawal_code USING (session) ORDER BY 1, 2, 3
         """,
     )
 
@@ -88,7 +91,7 @@ def test_every_session_is_measured_as_it_was(milan: Path, girona: Path, out: Pat
     for folder in (milan, girona, out):
         with open_repository(folder) as stored:
             told[folder] = {
-                session.code: (
+                session.participant: (
                     (session.flips, session.pairs, session.hints, session.duration_ms),
                     session.status,
                     session.stage,
@@ -143,8 +146,8 @@ def test_a_kiosk_goes_on_with_the_merged_folder(milan: Path, girona: Path, out: 
 
 def test_whoever_withdraws_is_found_in_the_merged_folder(milan: Path, girona: Path, out: Path) -> None:
     merge([milan, girona], out)
-    ((code,),) = rows(out, "SELECT code FROM participant WHERE site = 'GI' AND number = 2 AND kind = 0")
-    withdraw(out, code)
+    ((session,),) = rows(out, "SELECT session FROM participant WHERE site = 'GI' AND number = 2 AND kind = 0")
+    withdraw(out, session)
     assert len(rows(out, "SELECT 1 FROM tombstone")) == 2
     assert verify(out) == []
 
@@ -198,14 +201,17 @@ def test_a_participant_who_withdrew_in_one_of_them_is_refused_as_well(
         merge([tmp_path / "before", milan], out)
 
 
-def test_a_code_that_stands_in_two_folders_is_refused(out: Path, tmp_path: Path, provenance: Provenance) -> None:
-    codes = []
-    for name, kind in (("one", SessionKind.STUDY), ("two", SessionKind.SIMULATED)):
+def test_one_person_who_has_another_number_in_a_copy_is_told_by_the_code(
+    out: Path, tmp_path: Path, provenance: Provenance
+) -> None:
+    for name in ("one", "two"):
         with Recorder(tmp_path / name) as recorder:
-            codes.append(recorder.begin(replace(provenance, kind=kind), COMPLETED).code)
-    code, _ = codes
-    with pytest.raises(UserInputError, match=rf"the code {code} stands in .*one and in .*two; nothing was merged"):
-        merge([tmp_path / "one", tmp_path / "two"], out)
+            recorder.begin(replace(provenance, kind=SessionKind.STUDY), COMPLETED)
+    shutil.rmtree(tmp_path / "two")
+    shutil.copytree(tmp_path / "one", tmp_path / "two")
+    sites = [(tmp_path / "one", "ONE"), (tmp_path / "two", "TWO")]
+    with pytest.raises(UserInputError, match=r"code is valid in .*one and in .*two; nothing was merged"):
+        merge([tmp_path / "one", tmp_path / "two"], out, sites=sites)
     assert not out.exists()
 
 
@@ -362,7 +368,7 @@ def test_a_copy_from_before_a_withdrawal_does_not_bring_anybody_back(
     shutil.copytree(kiosk, copy)
     withdraw(kiosk, person.code)
     for sites in ([], [(copy, "COPY")]):
-        with pytest.raises(UserInputError, match=r"participant 1 withdrew in .*kiosk, but still stands in .*copy"):
+        with pytest.raises(UserInputError, match=r"participant .*1 withdrew in .*kiosk, but still stands in .*copy"):
             merge([copy, kiosk], out, sites=sites)
     assert not out.exists()
 

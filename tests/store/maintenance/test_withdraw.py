@@ -146,15 +146,24 @@ def test_everybody_may_withdraw(folder: Path, provenance: Provenance) -> None:
 
 def test_nobody_withdraws_twice(folder: Path, code: str) -> None:
     withdraw(folder, code)
-    with pytest.raises(UserInputError, match=f"no participant in .* has the code {code}"):
+    with pytest.raises(UserInputError, match="the participant with this code has been withdrawn from"):
         withdraw(folder, code)
+
+
+def test_a_person_without_a_code_is_withdrawn_by_the_number_of_their_session(folder: Path, code: str) -> None:
+    with pytest.raises(UserInputError, match=r"no participant in .* has the session 9"):
+        withdraw(folder, 9)
+    assert withdraw(folder, 2).session == 2
+    assert holding(folder, ANSWER) == []
+    with pytest.raises(UserInputError, match="the participant with this code has been withdrawn from"):
+        find_withdrawal(folder, code)
 
 
 @pytest.mark.parametrize(
     ("typed", "words"),
     [
-        ("2222222", "no participant in .* has the code 2222222"),
-        ("2222223", "is mistyped"),
+        ("7KQ2M-XR4T4", "no participant in .* has this code"),
+        ("7KQ2M-XR4T5", "is mistyped"),
         ("hello", "no participant's code"),
     ],
 )
@@ -194,7 +203,7 @@ def test_while_somebody_is_looking_nobody_is_taken_out(
 def test_where_there_are_no_data_none_are_made(folder: Path) -> None:
     for attempt in (find_withdrawal, withdraw):
         with pytest.raises(UserInputError, match="there is no database in"):
-            attempt(folder, "2222222")
+            attempt(folder, "7KQ2M-XR4T4")
     assert not folder.exists()
 
 

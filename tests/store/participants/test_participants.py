@@ -1,31 +1,22 @@
-"""A participant is a number and a code: no name, no two alike, and a slip of the pen is noticed."""
+"""A participant is a number with the site: no name, and no two alike."""
 
 from __future__ import annotations
 
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from kiosk import UserInputError
 from kiosk.experiment.events import SessionStarted
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
-from kiosk.store.participants import ALPHABET, Participant, checked_code, checked_site, codes
+from kiosk.store.participants import Participant, checked_site
 from kiosk.store.recorder import Provenance, Recorder
 
 START = SessionStarted(at_ms=0)
-SEEDS = st.integers(0, 2**63 - 1)
-
-
-def first_code(seed: int, site: str = "") -> str:
-    """Return the code that a seed leads to."""
-    return next(codes(site, seed))
 
 
 def entered(folder: Path, provenance: Provenance, *seeds: int, site: str = "") -> list[Participant]:
@@ -115,52 +106,3 @@ def test_a_site_that_tables_turn_into_something_else_is_refused(
     ):
         Recorder(folder, site)
     assert not folder.exists()
-
-
-def test_the_same_seed_gives_the_same_code(tmp_path: Path, provenance: Provenance) -> None:
-    once, again = (entered(tmp_path / name, provenance, 1, 2, 3) for name in ("once", "again"))
-    assert [person.code for person in once] == [person.code for person in again]
-
-
-def test_a_code_that_is_taken_gives_way_to_the_next(folder: Path, provenance: Provenance) -> None:
-    people = entered(folder, provenance, 5, 5, 5)
-    assert [person.code for person in people] == list(islice(codes("", 5), 3))
-    assert len({person.code for person in people}) == 3
-
-
-def test_a_code_has_no_look_alikes() -> None:
-    assert not set("01OIL") & set(ALPHABET)
-    assert len(set(ALPHABET)) == 31
-
-
-@given(SEEDS)
-def test_a_code_is_accepted_as_people_write_it(seed: int) -> None:
-    code = first_code(seed, "MI")
-    assert len(code) == len("MI-") + 7
-    assert set(code[3:]) <= set(ALPHABET)
-    for written in (code, code.lower(), f" {code[:5]} {code[5:]} "):
-        assert checked_code(written) == code
-
-
-@given(SEEDS, st.integers(0, 6), st.sampled_from(ALPHABET))
-def test_one_wrong_character_is_told(seed: int, at: int, wrong: str) -> None:
-    code = first_code(seed)
-    mistyped = code[:at] + wrong + code[at + 1 :]
-    if mistyped != code:
-        with pytest.raises(UserInputError, match=f"the code '{mistyped}' is mistyped"):
-            checked_code(mistyped)
-
-
-@given(SEEDS, st.integers(0, 6), st.integers(0, 6))
-def test_two_characters_in_each_other_s_place_are_told(seed: int, one: int, other: int) -> None:
-    characters = list(first_code(seed))
-    characters[one], characters[other] = characters[other], characters[one]
-    if (mistyped := "".join(characters)) != first_code(seed):
-        with pytest.raises(UserInputError, match="is mistyped"):
-            checked_code(mistyped)
-
-
-@pytest.mark.parametrize("text", ["", "AB", "ABCDEFG8", "ABCDE0G", "MI-", "ABC-", "ABCDEF\u00c9", "-"])
-def test_what_is_no_code_at_all_is_told(text: str) -> None:
-    with pytest.raises(UserInputError, match="is no participant's code: after the site it has 7 letters and digits"):
-        checked_code(text)
