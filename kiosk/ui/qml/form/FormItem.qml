@@ -16,12 +16,14 @@ Rectangle {
     required property bool tight        // whether there is little height for the page
     // Whether there is much height for it.
     property bool large: false
+    // Large texts need that height themselves.
+    readonly property bool airy: large && Theme.textSize <= 1.15
     signal entered(Item field)
 
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : large ? 26 : 13) * Theme.unit
+    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : airy ? 26 : 13) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -69,7 +71,7 @@ Rectangle {
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
-        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.large ? 18 : 8) * Theme.unit
+        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
 
         PlainText {
             width: parent.width
