@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import time
+from ipaddress import IPv6Address
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -631,6 +632,39 @@ NO_ROBOT = "none"
 """The kind of robot of a study in which the avatar helps alone."""
 
 
+_HOST = re.compile(r"[\w-]{1,63}(\.[\w-]{1,63})*\.?")
+_URL = re.compile(r"[a-z][a-z0-9+.-]*://(.*)", re.IGNORECASE | re.DOTALL)
+
+
+def host_fault(host: str) -> str | None:
+    """Say why this is no host, and what to write instead; return None if it is one."""
+    if not host.strip():
+        return "it is empty; write the robot's name or address, such as '192.168.0.20'"
+    url = _URL.fullmatch(host)
+    rest = (url[1] if url else host).partition("/")[0]
+    _, at, rest = rest.rpartition("@")
+    name, colon, port = rest.rpartition(":")
+    has_port = bool(colon and port.isdecimal() and (_HOST.fullmatch(name) or name.endswith("]")))
+    if not has_port:
+        name = rest
+    name = name.removeprefix("[").removesuffix("]")
+    if name == host and (_HOST.fullmatch(host) or _is_ipv6(host)):
+        return None
+    what = "a web address" if url else "a user and a host" if at else "a host and a port" if has_port else "no host"
+    if not (_HOST.fullmatch(name) or _is_ipv6(name)):
+        return f"{host[:_SHOWN]!r} is {what}; write the robot's name or address, such as '192.168.0.20'"
+    return f"{host[:_SHOWN]!r} is {what}; write {name!r}" + (f", and {port} as the port" if has_port else " alone")
+
+
+def _is_ipv6(text: str) -> bool:
+    address, _, _ = text.partition("%")
+    try:
+        IPv6Address(address)
+    except ValueError:
+        return False
+    return True
+
+
 class RobotConfig(ConfigModel):
     """The robot that speaks in the avatar's place, if there is one; all times in milliseconds, all lengths in metres.
 
@@ -1024,6 +1058,10 @@ class Settings(ConfigModel):
         if self.robot.kind not in kinds:
             offered = f"{', '.join(map(repr, kinds[:-1]))} or {kinds[-1]!r}"
             raise UserInputError(f"{self.name}: robot.kind must be {offered}, but it is {self.robot.kind!r}")
+        fault = host_fault(self.robot.host)
+        if fault:
+            line = self.line_of("robot", "host")
+            raise UserInputError(f"{self.name}: robot.host: {fault}" + (f" (line {line})" if line else ""))
         return self
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,8 @@ import pytest
 from pydantic import BaseModel, ValidationError
 
 from kiosk import UserInputError, config
-from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, policy_path
+from kiosk.cli.composition import read_settings
+from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, host_fault, policy_path
 from kiosk.errors import validation_messages
 
 
@@ -185,6 +187,36 @@ def test_every_number_has_bounds_and_a_sentence_that_names_them(place: tuple[str
 def test_opening_hours_that_are_none_are_refused_with_the_form_they_have(tmp_path: Path, hours: str) -> None:
     told = refusal(written(tmp_path, f'[experimenter]\nopening_hours = "{hours}"'))
     assert f"experimenter.opening_hours: '{hours}' is not of the form '10:00-18:00'" in told
+
+
+@pytest.mark.parametrize("host", ["localhost", "robot.local.", "192.168.0.20", "::1", "fe80::1%eth0", "röbot.example"])
+def test_a_robots_host_is_a_name_or_an_address(host: str) -> None:
+    assert host_fault(host) is None
+
+
+@pytest.mark.parametrize(
+    ("host", "advice"),
+    [
+        ("", "write the robot's name or address"),
+        (" ", "write the robot's name or address"),
+        ("http://robot:54321/x", "is a web address; write 'robot', and 54321 as the port"),
+        ("https://anna:secret@robot.local/", "is a web address; write 'robot.local' alone"),
+        ("ws://[fe80::1]:9000/v1", "is a web address; write 'fe80::1', and 9000 as the port"),
+        ("furhat@robot", "is a user and a host; write 'robot' alone"),
+        ("robot:54321", "is a host and a port; write 'robot', and 54321 as the port"),
+        ("[::1]", "is no host; write '::1' alone"),
+        ("a robot", "is no host; write the robot's name or address"),
+        ("x" * 64, "is no host; write the robot's name or address"),
+    ],
+)
+def test_what_is_no_host_of_a_robot_is_refused_with_what_to_write(host: str, advice: str, tmp_path: Path) -> None:
+    assert advice in (host_fault(host) or "")
+    with pytest.raises(UserInputError, match="the robot's host: "):
+        read_settings(None, host)
+    file = tmp_path / "study.toml"
+    file.write_text(f"[robot]\nhost = {json.dumps(host)}\n", "utf-8")
+    with pytest.raises(UserInputError, match=r"robot\.host"):
+        Settings.read(file)
 
 
 def test_opening_hours_may_have_spaces_and_may_be_left_out(tmp_path: Path) -> None:

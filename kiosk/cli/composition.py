@@ -41,13 +41,16 @@ def read_settings(study: Path | None, robot_host: str | None = None, robot_port:
     A robot's host or port goes before the file's.
     """
     # The voice's process and the splash read this module and no settings.
-    from kiosk.config import NO_ROBOT, Settings  # noqa: PLC0415
+    from kiosk.config import NO_ROBOT, Settings, host_fault  # noqa: PLC0415
     from kiosk.extensions import ExtensionGroup, registered_names  # noqa: PLC0415
     from kiosk.study.package import open_study  # noqa: PLC0415
 
     settings = open_study(study) if study else Settings()
     if robot_host is None and robot_port is None:
         return settings
+    fault = None if robot_host is None else host_fault(robot_host)
+    if fault:
+        raise UserInputError(f"the robot's host: {fault}")
     robot = settings.robot
     found = {"kind": registered_names(ExtensionGroup.ROBOTS)[0] if robot.kind == NO_ROBOT else robot.kind}
     given = {"host": robot_host or robot.host, "port": robot_port or robot.port}

@@ -83,7 +83,7 @@ def robot_command(
             raise UserInputError("--pretend goes with --port alone")
         _pretend(port)
         return
-    settings = read_settings(study, host or (None if study or kind else "localhost"), port)
+    settings = read_settings(study, "localhost" if host is None and not (study or kind) else host, port)
     language = language or settings.language_codes[0]
     asked = settings.robot.model_copy(update={"kind": kind} if kind else {})
     device = _robot(settings, asked, language)

@@ -160,11 +160,12 @@ class FurhatRealtime(RobotDriver):
 
     def _open(self) -> None:
         host, port = self._settings.host, self._settings.port or self.default_port
-        doing = f"opening ws://{host}:{port}{PATH}"
+        url = f"ws://{f'[{host}]' if ':' in host else host}:{port}{PATH}"
+        doing = f"opening {url}"
         opened = ExitStack()
         try:
             connecting = connect(
-                f"ws://{host}:{port}{PATH}",
+                url,
                 open_timeout=self._settings.connect_deadline_ms / MS_PER_SECOND,
                 close_timeout=_CLOSE_S,
                 ping_interval=None,
