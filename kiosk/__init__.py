@@ -6,11 +6,16 @@ other, then export, ui, training and analysis, and cli on top. ``tests/test_wall
 
 import errno
 import os
+import re
 import shutil
 import sys
 from pathlib import Path
 
 __version__ = "0.2.0"
+
+
+_LONG_WORD = re.compile(r"\S{600,}")
+"""Longer than any path that was meant; a value of thousands of characters would hide the sentence about it."""
 
 
 class UserInputError(Exception):
@@ -22,8 +27,8 @@ class UserInputError(Exception):
 
     def __init__(self, *sentences: str) -> None:
         """Say what is wrong."""
-        super().__init__(*sentences)
-        self.sentences = sentences
+        self.sentences = tuple(_LONG_WORD.sub(lambda word: f"{word[0][:40]}...", each) for each in sentences)
+        super().__init__(*self.sentences)
 
     def __str__(self) -> str:
         """Return the sentences, one per line."""
