@@ -266,10 +266,17 @@ def _of_session(number: str, flip: int | None, data: Path) -> list[Moment]:
     with open_repository(data) as stored:
         explainer = DecisionExplainer(stored, int(number))
         if flip is not None:
+            _name_broken(explainer)
             return [Moment(flip, explainer.game_before(flip), explainer.explain(flip))]
         if not explainer.flips:
             raise UserInputError(f"in session {number} nothing was decided: the game ended before its first flip")
+        _name_broken(explainer)
         return [_moment(explainer, each) for each in explainer.flips]
+
+
+def _name_broken(explainer: DecisionExplainer) -> None:
+    for broken in explainer.broken:
+        click.echo(f"caution: {broken}", err=True)
 
 
 def _moment(explainer: DecisionExplainer, flip: int) -> Moment:

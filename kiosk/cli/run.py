@@ -230,9 +230,7 @@ def replay_command(
         if frames is not None or window or headless:
             raise UserInputError("--film cannot be used with --window, --headless or --frames")
         check_film(film)
-    with open_repository(data) as stored:
-        events, plan = stored.story(session), stored.plan(session)
-        seed = stored.seed(session)
+    events, plan, seed = _read_story(data, session)
     plan = plan if study is None else plan.with_base_dir(read_settings(study))
     _check_pictures(plan)
     steps = replay_events(plan, seed, events)
@@ -252,6 +250,14 @@ def replay_command(
             said = ("", {"pictures": None})
             played.run()
     _tell(session, steps, events, said, as_json=as_json)
+
+
+def _read_story(data: Path, session: int) -> tuple[list[Event], SessionConfig, int]:
+    """Return the events of a session, up to one that cannot be read, its plan and its seed."""
+    with open_repository(data) as stored:
+        for broken in stored.broken_events(session):
+            click.echo(f"caution: {broken}", err=True)
+        return stored.readable_story(session), stored.plan(session), stored.seed(session)
 
 
 def _check_pictures(plan: SessionConfig) -> None:

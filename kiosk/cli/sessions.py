@@ -88,7 +88,7 @@ def sessions_command(
             raise UserInputError(
                 f"no session is in the condition {condition!r}; there are {', '.join(stored.conditions()) or 'none'}"
             )
-        listed = stored.sessions(which, newest=-1 if whole else PER_PAGE, skip=skip)
+        listed = stored.sessions(which, newest=-1 if whole else PER_PAGE, skip=skip, tell=_caution)
         if as_json:
             click.echo(json.dumps([_row(session) for session in listed]))
             return
@@ -99,6 +99,10 @@ def sessions_command(
         drawn.print(line)
     if any(cell.quota for cell in enrolled.cells.values()):
         drawn.print(_targets(enrolled))
+
+
+def _caution(what: str) -> None:
+    click.echo(f"caution: {what}", err=True)
 
 
 def _table(listed: Sequence[StoredSession]) -> Iterator[str]:
@@ -164,7 +168,9 @@ def _word(value: object) -> str:
 def events_command(session: int, data: Path, *, as_json: bool) -> None:
     """List what happened in a SESSION, in order."""
     with open_repository(data) as stored:
-        records = stored.records(session)
+        records, broken = stored.records(session), stored.broken_events(session)
+    for each in broken:
+        _caution(str(each))
     if as_json:
         click.echo(json.dumps(records))
         return

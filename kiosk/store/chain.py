@@ -75,12 +75,15 @@ def last_hash(connection: sqlite3.Connection, session: int) -> bytes:
     return bytes(row[0]) if row else first_hash(connection, session)
 
 
-def broken_links(connection: sqlite3.Connection) -> Iterator[tuple[int, int]]:
-    """Yield the session and the number of every event whose hash does not fit."""
+def broken_links(connection: sqlite3.Connection, only: int | None = None) -> Iterator[tuple[int, int]]:
+    """Yield the session and the number of every event, of all sessions or of one, whose hash does not fit."""
     session, before = None, b""
     sha256 = hashlib.sha256
+    which, values = ("", ()) if only is None else (" WHERE session = ?", (only,))
     for number, seq, at_ms, origin, kind, wall_ms, payload, written in connection.execute(
-        "SELECT session, seq, at_ms, origin, type, wall_ms, payload, hash FROM event ORDER BY session, seq"
+        "SELECT session, seq, at_ms, origin, type, wall_ms, payload, hash FROM event"  # noqa: S608 - the words are ours
+        f"{which} ORDER BY session, seq",
+        values,
     ):
         if number != session:
             session, before = number, first_hash(connection, number)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, date, datetime, time, timedelta
 from pathlib import Path
@@ -26,6 +26,7 @@ from kiosk.experiment.replay import DecisionContext, agrees_with_record
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.experiment.session_state import CARDS_IN_A_MOVE, SessionState, language_before_flip
 from kiosk.game import Concentration
+from kiosk.store.chain import broken_links
 from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_name
 from kiosk.store.summaries import numbers_so_far
@@ -57,6 +58,8 @@ class StoredSession:
     participant: str | None
     stage: Stage | None
     allocation_source: AllocationSource | None
+    record_sha256: str | None = None
+    """The end of the chain of hashes over its events; None if the database has lost it."""
 
     @property
     def moves(self) -> int:
@@ -85,6 +88,7 @@ class StoredSession:
             "duration_s": round(self.duration_ms / MS_PER_SECOND),
             "simulated": self.kind is SessionKind.SIMULATED,
             "trial": self.kind is SessionKind.TRIAL,
+            "record_sha256": self.record_sha256,
         }
 
 
@@ -92,11 +96,36 @@ StoredEvent = tuple[int, int, str, str, str]
 """An event's seq, at_ms, type, origin, and its own fields as JSON."""
 
 
-def decoded(rows: Iterable[StoredEvent]) -> list[dict[str, Any]]:
-    """Return the fields of events."""
-    # One array is read in a third of the time of as many objects.
-    fields: list[dict[str, Any]] = json.loads(f"[{','.join(row[-1] for row in rows)}]")
-    return fields
+def decoded(rows: Iterable[StoredEvent]) -> list[dict[str, Any] | None]:
+    """Return the fields of events; None for each that cannot be read."""
+    payloads = [row[-1] for row in rows]
+    try:
+        # One array is read in a third of the time of as many objects.
+        fields: list[Any] = json.loads(f"[{','.join(payloads)}]")
+    except ValueError:
+        fields = []
+    if len(fields) == len(payloads) and set(map(type, fields)) <= {dict}:
+        return fields
+    return list(map(_fields, payloads))
+
+
+_KINDS = "SELECT seq, type FROM event WHERE session = ? ORDER BY seq"
+
+
+def _is_text(content: bytes) -> bool:
+    try:
+        content.decode()
+    except ValueError:
+        return False
+    return True
+
+
+def _fields(payload: str) -> dict[str, Any] | None:
+    try:
+        fields = json.loads(payload)
+    except ValueError:
+        return None
+    return fields if isinstance(fields, dict) else None
 
 
 RUNNING = "running"
@@ -156,6 +185,24 @@ class SessionTotals:
         return sum(self.by_status.values())
 
 
+@dataclass(frozen=True)
+class BrokenEvent:
+    """An event that is not what was recorded, and what is wrong with it."""
+
+    session: int
+    seq: int
+    kind: str
+    what: str
+
+    def __str__(self) -> str:
+        """Name it in a sentence."""
+        return f"event {self.seq} of session {self.session} ({self.kind!r}) {self.what}"
+
+
+UNREADABLE = "cannot be read"
+CHANGED = "is not what was recorded: it does not match its hash"
+
+
 class SessionRepository:
     """The sessions of one data folder."""
 
@@ -165,16 +212,29 @@ class SessionRepository:
         self._unended = None if in_use else Status.INTERRUPTED
 
     def sessions(
-        self, which: SessionFilter = SessionFilter(), *, newest: int = -1, skip: int = 0
+        self,
+        which: SessionFilter = SessionFilter(),
+        *,
+        newest: int = -1,
+        skip: int = 0,
+        tell: Callable[[str], None] | None = None,
     ) -> list[StoredSession]:
         """Return sessions in the order in which they began.
 
-        Of those that ``which`` means it returns the ``newest``, or all if that is -1, without the last ``skip``.
+        Of those that ``which`` means it returns the ``newest``, or all if that is -1, without the last ``skip``. One
+        that cannot be read raises UserInputError; if ``tell`` is given, it hears of it, and the session is left out.
         """
         where, values = self._where(which)
         query = f"{_SESSIONS} WHERE {where} ORDER BY session.id DESC LIMIT :newest OFFSET :skip"
-        rows = self._rows(query, values | {"newest": newest, "skip": skip})
-        return [self._session(row) for row in rows][::-1]
+        found: list[StoredSession] = []
+        for row in self._rows(query, values | {"newest": newest, "skip": skip}):
+            try:
+                found.append(self._session(row))
+            except UserInputError as error:
+                if tell is None:
+                    raise
+                tell(str(error))
+        return found[::-1]
 
     def totals(self, which: SessionFilter = SessionFilter()) -> SessionTotals:
         """Count sessions by status."""
@@ -202,14 +262,17 @@ class SessionRepository:
         return count_enrolment(self._connection, kind=kind, in_use=self._unended is None)
 
     def records(self, number: int) -> list[dict[str, Any]]:
-        """Every event of a session as JSON values: seq, at_ms, type, origin, and its own fields."""
+        """Return every event of a session as JSON values: seq, at_ms, type, origin, and the fields that can be read."""
         return [
-            {"seq": seq, "at_ms": at_ms, "type": kind, "origin": origin} | fields
+            {"seq": seq, "at_ms": at_ms, "type": kind, "origin": origin} | (fields or {})
             for seq, at_ms, kind, origin, fields in self.event_fields(number)
         ]
 
-    def event_fields(self, number: int) -> Iterator[tuple[int, int, str, str, dict[str, Any]]]:
-        """Yield every event of a session: seq, at_ms, type, origin, and its own fields as JSON values."""
+    def event_fields(self, number: int) -> Iterator[tuple[int, int, str, str, dict[str, Any] | None]]:
+        """Yield every event of a session: seq, at_ms, type, origin, and its own fields as JSON values.
+
+        The fields are None where they cannot be read.
+        """
         rows = self.stored_events(number)
         for (seq, at_ms, kind, origin, _), fields in zip(rows, decoded(rows), strict=True):
             yield seq, at_ms, kind, origin, fields
@@ -218,20 +281,74 @@ class SessionRepository:
         """Return every event of a session: seq, at_ms, type, origin, and its own fields as JSON."""
         self._row(number)
         query = "SELECT seq, at_ms, type, origin, payload FROM event WHERE session = ? ORDER BY seq"
-        rows: list[StoredEvent] = self._connection.execute(query, (number,)).fetchall()
+        try:
+            rows: list[StoredEvent] = self._connection.execute(query, (number,)).fetchall()
+        except sqlite3.OperationalError:
+            # Where damaged bytes are no text, Python gives none of the rows.
+            cursor = self._connection.execute(query.replace("payload", "CAST(payload AS BLOB)"), (number,))
+            rows = [(*row, payload.decode(errors="replace")) for *row, payload in cursor]
         return rows
 
+    def broken_events(self, number: int) -> list[BrokenEvent]:
+        """Return every event of a session that cannot be read, or that does not match its hash."""
+        broken = {each.seq: each for each in self.changed_events(number)}
+        for seq, at_ms, kind, _, fields in self.event_fields(number):
+            try:
+                _event(at_ms, kind, fields)
+            except ValueError as error:
+                broken[seq] = BrokenEvent(number, seq, kind, f"{UNREADABLE}: {error}")
+        return [broken[seq] for seq in sorted(broken)]
+
+    def changed_events(self, number: int) -> list[BrokenEvent]:
+        """Return every event of a session that does not match its hash."""
+        connection = self._connection
+        try:
+            changed = {seq: CHANGED for _, seq in broken_links(connection, number)}
+        except sqlite3.OperationalError:
+            # Damaged bytes are no text, and where there are some, Python reads none of the rows.
+            payloads = "SELECT seq, CAST(payload AS BLOB) FROM event WHERE session = ?"
+            changed = {
+                seq: UNREADABLE for seq, payload in connection.execute(payloads, (number,)) if not _is_text(payload)
+            }
+        return [
+            BrokenEvent(number, seq, kind, changed[seq])
+            for seq, kind in (connection.execute(_KINDS, (number,)) if changed else ())
+            if seq in changed
+        ]
+
     def events(self, number: int) -> list[Event]:
-        """Every event of a session."""
-        return [from_fields(kind, at_ms, fields) for _, at_ms, kind, _, fields in self.event_fields(number)]
+        """Every event of a session; raises UserInputError if one cannot be read."""
+        return [event for event, _ in self._events(number)]
+
+    def readable_events(self, number: int) -> list[Event]:
+        """Return every event of a session but those that cannot be read."""
+        events: list[Event] = []
+        for _, at_ms, kind, _, fields in self.event_fields(number):
+            with suppress(ValueError):
+                events.append(_event(at_ms, kind, fields))
+        return events
 
     def story(self, number: int) -> list[Event]:
-        """Return every event of a session, without the ends that were added after a crash."""
-        return [
-            from_fields(kind, at_ms, fields)
-            for _, at_ms, kind, origin, fields in self.event_fields(number)
-            if origin != "recovery"
-        ]
+        """Return every event of a session, without the ends that were added after a crash.
+
+        Raises UserInputError if an event cannot be read.
+        """
+        return [event for event, origin in self._events(number) if origin != "recovery"]
+
+    def readable_story(self, number: int) -> list[Event]:
+        """Return the same up to the first event that cannot be read."""
+        events: list[Event] = []
+        with suppress(UserInputError):
+            events += (event for event, origin in self._events(number) if origin != "recovery")
+        return events
+
+    def _events(self, number: int) -> Iterator[tuple[Event, str]]:
+        """Yield every event with its origin; raises UserInputError at the first one that cannot be read."""
+        for seq, at_ms, kind, origin, fields in self.event_fields(number):
+            try:
+                yield _event(at_ms, kind, fields), origin
+            except ValueError as error:
+                raise UserInputError(str(BrokenEvent(number, seq, kind, f"{UNREADABLE}: {error}"))) from error
 
     def plan(self, number: int) -> SessionConfig:
         """Return what a session followed, from its stored sources; raise UserInputError if they cannot be read."""
@@ -296,6 +413,14 @@ class SessionRepository:
         return which.where(in_use=self._unended is None)
 
     def _session(self, row: dict[str, Any]) -> StoredSession:
+        try:
+            return self._read_session(row)
+        except (ValueError, TypeError, sqlite3.OperationalError) as error:
+            raise UserInputError(
+                f"session {row['id']} cannot be read: {error}; 'recollect verify' says what is wrong"
+            ) from error
+
+    def _read_session(self, row: dict[str, Any]) -> StoredSession:
         status = Status(row["status"]) if row["status"] else self._unended
         if row["status"] is None:
             row = row | numbers_so_far(self._connection, row["id"])
@@ -313,13 +438,16 @@ class SessionRepository:
             participant=None if row["number"] is None else participant_name(row["site"], row["number"]),
             stage=Stage(row["stage"]) if row["stage"] else None,
             allocation_source=AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
+            record_sha256=row["record_sha256"].lower() or None,
         )
 
 
 _SESSIONS = """
     SELECT session.id, session.site, started_at, condition, embodiment, session.kind, allocation_source,
-        participant.number, status, stage, flips, pairs, hints, duration_ms
+        participant.number, status, stage, flips, pairs, hints, duration_ms,
+        hex(head.hash) AS record_sha256
     FROM session JOIN session_summary ON session_summary.session = session.id
+    LEFT JOIN head ON head.session = session.id
     LEFT JOIN participant ON participant.session = session.id
 """
 
@@ -337,13 +465,24 @@ def open_repository(folder: Path) -> Iterator[SessionRepository]:
             raise unreadable(error, folder) from error
 
 
+def _event(at_ms: int, kind: str, fields: dict[str, Any] | None) -> Event:
+    if fields is None:
+        raise ValueError("its fields are no JSON object")
+    return from_fields(kind, at_ms, fields)
+
+
 class DecisionExplainer:
     """Lays open the decisions of one stored session, which is read once."""
 
     def __init__(self, archive: SessionRepository, number: int) -> None:
-        """Read the session of this number; raises UserInputError if no game was dealt in it."""
+        """Read the session of this number; raises UserInputError if no game was dealt in it.
+
+        Events that cannot be read are passed over.
+        """
         self._number = number
-        self._events = archive.events(number)
+        self._events = archive.readable_events(number)
+        self.broken = archive.broken_events(number)
+        """What is not as it was recorded, so that decisions may come out otherwise."""
         game = SessionState.from_events(self._events).game
         if game is None:
             raise UserInputError(f"in session {number} no game was dealt, so there is nothing to explain")

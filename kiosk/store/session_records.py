@@ -26,7 +26,7 @@ from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.files import replace_file
 from kiosk.store.database import in_use, open_for_reading, unreadable
-from kiosk.store.queries import SessionRepository, StoredEvent, decoded
+from kiosk.store.queries import BrokenEvent, SessionRepository, StoredEvent, decoded
 
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
@@ -197,6 +197,11 @@ class RecordSource:
         """Every session in the order in which they began, or of shuffled names; one in memory at a time."""
         yield from map(self._record, self._in_order())
 
+    def broken_events(self) -> Iterator[BrokenEvent]:
+        """Yield every event of these sessions that is not what was recorded."""
+        for number in self._in_order():
+            yield from self.archive.changed_events(number)
+
     def begun_between(self, since: datetime, until: datetime) -> Iterator[SessionRecord]:
         """Every session that began at or after one moment and before the other, in the order in which they began."""
         rows = self.connection.execute(f"SELECT id, started_at FROM session WHERE {self._wanted} ORDER BY id")  # noqa: S608 - numbers
@@ -281,8 +286,9 @@ class RecordSource:
 
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
-            "SELECT session.*, participant.number, list.block_size, list.slots FROM session LEFT JOIN participant"  # noqa: S608 - the names are ours
-            " ON participant.session = session.id"
+            "SELECT session.*, participant.number, list.block_size, list.slots, hex(head.hash) AS record_sha256"  # noqa: S608 - the names are ours
+            " FROM session LEFT JOIN participant ON participant.session = session.id"
+            " LEFT JOIN head ON head.session = session.id"
             " LEFT JOIN allocation_list AS list ON list.id = session.allocation_list"
             f" WHERE {self._wanted} {which}"
         )
@@ -306,9 +312,8 @@ class RecordSource:
 
     def _status(self, records: tuple[EventRecord, ...]) -> Status | None:
         """How a session ended, which only its very last event says."""
-        if not records or records[-1].type != SessionEnded.__name__:
-            return self._unended
-        return Status(records[-1].fields["status"])
+        ended = records[-1].event if records else None
+        return ended.status if isinstance(ended, SessionEnded) else self._unended
 
 
 _FOLLOWED = (
@@ -346,10 +351,13 @@ def _told(rows: Sequence[StoredEvent]) -> Iterator[EventRecord]:
     events = (_event(at_ms, kind, fields) for (_, at_ms, kind, _, _), fields in zip(rows, written, strict=True))
     for row, fields, (stage, event) in zip(rows, written, with_stages(events), strict=True):
         seq, at_ms, kind, origin, payload = row
-        yield EventRecord(seq, at_ms, origin, kind, payload, fields, stage, event)
+        told = ("{}", {}) if fields is None else (payload, fields)
+        yield EventRecord(seq, at_ms, origin, kind, *told, stage, event)
 
 
-def _event(at_ms: int, kind: str, fields: Mapping[str, Any]) -> Event | None:
+def _event(at_ms: int, kind: str, fields: Mapping[str, Any] | None) -> Event | None:
+    if fields is None:
+        return None
     try:
         return from_fields(kind, at_ms, fields)
     except ValueError:

@@ -15,6 +15,7 @@ from kiosk.experiment.events import Status
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
+from kiosk.store.chain import read_heads
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
@@ -50,6 +51,7 @@ def test_a_session_at_a_glance(folder: Path, provenance: Provenance, played: Dri
         "duration_s": round(played.events[-1].at_ms / 1000),
         "simulated": True,
         "trial": False,
+        "record_sha256": read_heads(folder)[0].hash.hex(),
     }
 
 
