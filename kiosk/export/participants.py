@@ -897,6 +897,15 @@ def _what_it_followed(study: StudyMaterials) -> tuple[Column[Person], ...]:
             lambda row: row.kept.row["study_sha256"] or None,
         ),
         (
+            Variable(
+                "record_sha256",
+                "The end of the chain of SHA-256 hashes over all events of the session, as the data folder holds it. "
+                "With the folder, or a copy of it, you can compare: `recollect sessions --json` prints it.",
+                empty="the data folder has lost it, which `recollect verify` says",
+            ),
+            lambda row: row.kept.row["record_sha256"].lower() or None,
+        ),
+        (
             Variable("policy_sha256", "The hash of the table that chose how much to help."),
             lambda row: row.kept.row["policy_sha256"],
         ),

@@ -109,6 +109,9 @@ def test_a_session_that_cannot_be_read_is_named_and_the_others_are_listed(
     assert json.loads(listed.stdout) == []
 
 
-def test_the_list_carries_the_head_of_every_session(pristine: Path) -> None:
+def test_an_export_and_the_list_carry_the_head_of_every_session(pristine: Path, tmp_path: Path) -> None:
     (head,) = read_heads(pristine)
     assert json.loads(run("sessions", "--data", pristine, "--json").stdout)[0]["record_sha256"] == head.hash.hex()
+    assert run("export", "--data", pristine, "--out", tmp_path / "out", "--json").exit_code == 0
+    (participants,) = (tmp_path / "out" / "data").glob("*participants*.csv")
+    assert head.hash.hex() in participants.read_text("utf-8")
