@@ -27,6 +27,7 @@ from kiosk.store import maintenance as copies
 from kiosk.store import merge as merging
 from kiosk.store import verify as checking
 from kiosk.store import withdrawal as withdrawing
+from kiosk.store.copies import CopyKind, known_copies, note_copy
 from kiosk.store.database import FILE as DATABASE
 from kiosk.store.database import in_use
 from kiosk.store.verify import Flaw, Verification
@@ -84,6 +85,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
     into = drives.destination(to)
     with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
         carried = drives.carry(data, into, keep, readers, tell)
+    note_copy(data, CopyKind.BACKUP, carried.file)
     if as_json:
         told = {"backup": str(carried.file), "bytes": carried.bytes, "kept": carried.kept}
         click.echo(json.dumps(told | {"sha256": carried.sha256, "encrypted": carried.encrypted}))
@@ -127,10 +129,22 @@ def browse_command(data: Path, port: int, *, opens: bool) -> None:
 def verify_command(data: Path, *, as_json: bool) -> None:
     """Check the database row by row.
 
-    The exit code is 1 if anything is wrong. The database is never changed.
+    The exit code is 1 if anything is wrong. A withdrawal that was cut off is finished, and people who withdrew are
+    deleted again where an older copy was put back; otherwise nothing is changed.
     """
     with progress_bar("checking", hidden=as_json) as tell:
         flaws = checking.verify(data, tell)
+    # A database that is wrong in another way is left as it was found.
+    if flaws and {flaw.check for flaw in flaws} <= {Verification.FINISHED, Verification.COPIES} and not in_use(data):
+        try:
+            withdrawing.finish_at_rest(data)
+        except (StorageError, UserInputError) as failure:
+            click.echo(f"What was withdrawn could not be deleted: {failure}", err=True)
+        else:
+            click.echo("What was left of people who withdrew is deleted now:", err=True)
+            for flaw in flaws:
+                click.echo(f"  {flaw.where}: {flaw.what}", err=True)
+            flaws = checking.verify(data)
     if as_json:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
         click.echo(json.dumps({"data": str(data), "sound": not flaws, "results": rows}))
@@ -182,7 +196,16 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
     told = f"All of participant {gone.participant} is deleted."
     if gone.cut_off:
         told = f"The withdrawal of participant {gone.participant}, which had been cut off, is finished."
-    click.echo(json.dumps(gone.to_json()) if as_json else told)
+    others = known_copies(data)
+    if as_json:
+        rows = [{"kind": each.kind.value, "place": str(each.place), "made_at": each.made_at} for each in others]
+        click.echo(json.dumps(gone.to_json() | {"copies_elsewhere": rows}))
+        return
+    click.echo(told)
+    if others:
+        click.echo("These were made of this folder and may still hold them; see to each of them:", err=True)
+    for each in others:
+        click.echo(f"  {each.kind.value} of {each.made_at[:10]}: {each.place}", err=True)
 
 
 class FolderAndSite(click.ParamType[tuple[Path, str]]):
@@ -220,6 +243,8 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
     """
     with _disk_in_words(), progress_bar("merging", hidden=as_json) as tell:
         sessions = merging.merge(folders, out, tell, sites)
+    for folder in folders:
+        note_copy(folder, CopyKind.MERGE, out)
     studies = merging.studies_in(folders)
     if as_json:
         named = [asdict(each) | {"folder": str(each.folder)} for each in studies]
@@ -250,12 +275,14 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
 
     It has every table, as Psych-DS asks for.
     """
+    withdrawing.check_none_is_back(data)
     extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
     with progress_bar("sessions", hidden=as_json) as bar:
         # A kiosk that is open on the folder has the other processors to itself.
         processes = 1 if in_use(data) else min(os.cpu_count() or 1, MOST_PROCESSES)
         layout = Bids if bids else PsychDs
         exported = write(data, out, layout, extras, bar, shuffled_ids=shuffled_ids, processes=processes)
+    note_copy(data, CopyKind.EXPORT, out)
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return

@@ -77,7 +77,7 @@ def database_check(folder: Path, *, busy: bool) -> Iterator[CheckResult]:
         with closing(open_as_it_is(folder)) as connection:
             schema = connection.execute("PRAGMA user_version").fetchone()[0]
             answer = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
-            unfinished = schema == SCHEMA and is_unfinished(connection)
+            unfinished = schema == SCHEMA and is_unfinished(connection, folder)
     except UserInputError as refusal:
         yield CheckResult.error(DATABASE, str(refusal), _remedy(refusal, folder))
         return

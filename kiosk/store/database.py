@@ -425,6 +425,11 @@ def open_as_it_is(folder: Path) -> Connection:
     return connection
 
 
+def open_copy(path: Path) -> Connection:
+    """Open a copy of a database for reading; raises UserInputError, sqlite3.Error or OSError if it cannot be read."""
+    return _ours(path)
+
+
 def unreadable(error: OSError | sqlite3.Error, folder: Path) -> UserInputError:
     """Return what to raise when the database of a folder cannot be read."""
     return UserInputError(f"the database {folder / FILE} cannot be read: {reason(error, folder)}")

@@ -18,7 +18,8 @@ import psutil
 from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import reason
 from kiosk.store.database import open_as_it_is
-from kiosk.store.maintenance import STEP_PAGES, UNFINISHED, Progress, alone, copy_name, sync_folder
+from kiosk.store.maintenance import STEP_PAGES, UNFINISHED, Progress, alone, copy_name
+from kiosk.store.tombstones import add_tombstones, sync_folder, withdrawn_hashes
 
 ANY = "stick"
 """Names the one stick that is plugged in."""
@@ -131,7 +132,7 @@ def carry(
     it is whole. Raises UserInputError if there is nothing to copy or no room, StorageError if the copy cannot be
     written or reads back as something else; older copies are then as they were.
     """
-    content = _content(folder, tell)
+    content, gone = _content(folder, tell)
     if keys:
         import pyrage  # noqa: PLC0415 - an extra
 
@@ -145,6 +146,7 @@ def carry(
         try:
             sha256 = _write(unfinished, content)
             unfinished.replace(file)
+            add_tombstones(into, gone)
             sync_folder(into)
             older = [each for each in carried(into) if each != file]
             for each in older[: max(0, len(older) + 1 - keep)]:
@@ -161,8 +163,8 @@ def carried(into: Path) -> list[Path]:
     return sorted([*into.glob("recollect-*.db"), *into.glob(f"recollect-*.db{ENCRYPTED}")])
 
 
-def _content(folder: Path, tell: Progress) -> bytes:
-    """Return the database as one file, whole and checked, as it is at this moment."""
+def _content(folder: Path, tell: Progress) -> tuple[bytes, frozenset[bytes]]:
+    """Return the database as one file, whole and checked, and the hashes of people who withdrew."""
     with closing(open_as_it_is(folder)) as source, closing(sqlite3.connect(":memory:")) as copy:
         source.execute("BEGIN")
         source.execute("SELECT count(*) FROM sqlite_master").fetchone()
@@ -172,8 +174,9 @@ def _content(folder: Path, tell: Progress) -> bytes:
         if answers != ["ok"]:
             raise StorageError(f"the copy is not whole: {answers[0]}")
         content = bytearray(copy.serialize())
+        gone = withdrawn_hashes(copy, folder)
     content[_FORMAT_VERSIONS] = b"\x01\x01"
-    return bytes(content)
+    return bytes(content), gone
 
 
 def _write(file: Path, content: bytes) -> str:

@@ -18,6 +18,7 @@ from filelock import FileLock, Timeout
 from kiosk import StorageError, UserInputError
 from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import BACKUPS, FILE, open_as_it_is
+from kiosk.store.tombstones import add_tombstones, sync_folder, withdrawn_hashes
 from kiosk.units import MIB
 
 WARN_MIB = 512
@@ -104,6 +105,7 @@ def back_up(
         try:
             _copy(source, unfinished, tell, amend)
             copy = unfinished.replace(unfinished.with_suffix(""))
+            add_tombstones(into, withdrawn_hashes(source, folder))
             sync_folder(into)
             _remove_older(into, copy, keep)
         except (OSError, sqlite3.Error) as error:
@@ -172,14 +174,3 @@ def _copy(source: sqlite3.Connection, path: Path, tell: Progress, amend: Callabl
         raise StorageError(f"the copy of {path.name} is not whole: {answers[0]}")
     with path.open("r+b") as file:
         os.fsync(file.fileno())
-
-
-def sync_folder(folder: Path) -> None:
-    """Have the new name on the disk as well, where folders can be told so."""
-    if os.name != "posix":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -9,7 +9,7 @@ import subprocess
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
-from itertools import count, permutations
+from itertools import count, product
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -21,6 +21,7 @@ from kiosk.store.maintenance import Progress
 from kiosk.store.participants import checked_site, participant_name
 from kiosk.store.recorder import insert
 from kiosk.store.summaries import fill_summaries
+from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes
 
 Row = dict[str, Any]
 
@@ -61,6 +62,8 @@ def merge(
                 with _without_triggers(target):
                     sessions = _copy(parts, target, tell)
                 target.execute("COMMIT")
+                for part in parts:
+                    add_tombstones(unfinished, withdrawn_hashes(part.connection, part.folder))
         except (OSError, sqlite3.Error) as error:
             raise StorageError(f"{out} could not be written: {reason(error, out.parent)}") from error
     return sessions
@@ -221,10 +224,8 @@ def _first_shared(
 
 def _check_no_older_copies(parts: Sequence[_Part]) -> None:
     """Refuse a copy from before a withdrawal, which would bring the person back."""
-    for part, other in permutations(parts, 2):
-        gone = {row["hash"] for row in part.rows("withdrawn_code")}
-        back = min((row["session"] for row in other.rows("withdrawal_code") if row["hash"] in gone), default=None)
-        if back is not None:
+    for part, other in product(parts, repeat=2):
+        for back in sessions_of(other.connection, withdrawn_hashes(part.connection, part.folder)):
             (row,) = other.rows("participant", "WHERE session = ?", back)
             raise UserInputError(
                 f"participant {participant_name(row['site'], row['number'])} withdrew in {part.folder}, but still "

@@ -32,7 +32,7 @@ from kiosk.store.participants import (
     enrol_again,
 )
 from kiosk.store.summaries import go_on
-from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished
+from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished, note_intention
 
 
 def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, str | int | bytes | None]) -> int:
@@ -293,6 +293,7 @@ class Recorder:
         """
         rows = event_rows(self._session, self._next_seq, events, self._head)
         with self._transaction():
+            note_intention(self._connection, self.folder, self._session)
             self._connection.execute("PRAGMA secure_delete = ON")
             self._connection.executemany(_INSERT_EVENT, rows)
             bury(self._connection, self._session)
@@ -320,12 +321,14 @@ class Recorder:
 
     def _open(self) -> sqlite3.Connection:
         connection = open_for_writing(self.folder)
-        if not is_unfinished(connection):
+        if not is_unfinished(connection, self.folder):
             return connection
         connection.close()
         try:
-            finish_cut_off(self.folder)
-        except StorageError as failed:
+            back = finish_cut_off(self.folder)
+            if back:
+                _log.warning("people who had withdrawn still stood in the database and were deleted: %s", back)
+        except (StorageError, UserInputError) as failed:
             # Visitors can come all the same; it is tried again at the next start, and ``verify`` tells of it.
             _log.error("%s", failed)
         return open_for_writing(self.folder)

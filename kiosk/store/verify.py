@@ -21,6 +21,7 @@ from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import quotas_from_json, slots_from_json
 from kiosk.store.summaries import wrong_summaries, wrong_tally
+from kiosk.store.tombstones import copies_with, sessions_of, withdrawn_hashes
 
 
 class Verification(Enum):
@@ -40,6 +41,7 @@ class Verification(Enum):
     ALLOCATION = "lists meet their quotas, and sessions their slots"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
+    COPIES = "no copy in the folder holds anybody who withdrew"
     SUMMARIES = "summaries and counts say what the events say"
     VOICE = "one voice speaks each language of a study"
 
@@ -61,7 +63,11 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
     flaws: list[Flaw] = []
     with rare_collections(), closing(open_as_it_is(folder)) as connection:
         connection.execute("BEGIN")
-        looks = _LOOKS | {Verification.HEADS: partial(_heads, folder=folder)}
+        looks = _LOOKS | {
+            Verification.HEADS: partial(_heads, folder=folder),
+            Verification.FINISHED: partial(_finished, folder=folder),
+            Verification.COPIES: partial(_copies, folder=folder),
+        }
         for done, (check, look) in enumerate(looks.items()):
             tell(done, len(looks))
             try:
@@ -243,13 +249,21 @@ def _withdrawn(connection: sqlite3.Connection) -> _Found:
             yield f"session {session}", f"was withdrawn, and {rows} rows of it are left in {table}"
 
 
-def _finished(connection: sqlite3.Connection) -> _Found:
+def _finished(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
+    back = sessions_of(connection, withdrawn_hashes(connection, folder)) if folder is not None else []
+    for session in back:
+        yield f"session {session}", "was withdrawn, and is still there: the withdrawal was cut off, or a copy put back"
     for (session,) in connection.execute("SELECT session FROM unfinished_withdrawal ORDER BY session"):
         yield (
             f"session {session}",
             "was withdrawn, and bytes of it or copies with it may be left: run 'recollect withdraw' again with the "
             "same code, or open the kiosk",
         )
+
+
+def _copies(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
+    for copy, sessions in copies_with(folder, withdrawn_hashes(connection, folder)) if folder is not None else ():
+        yield copy.name, f"it holds session {', '.join(map(str, sessions))} of people who withdrew"
 
 
 def _summaries(connection: sqlite3.Connection) -> _Found:
@@ -304,6 +318,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.ALLOCATION: _places,
     Verification.WITHDRAWN: _withdrawn,
     Verification.FINISHED: _finished,
+    Verification.COPIES: _copies,
     Verification.SUMMARIES: _summaries,
     Verification.VOICE: _voice,
 }

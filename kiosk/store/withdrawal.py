@@ -1,8 +1,9 @@
 """Taking out one participant: every row goes, and every byte, and a tombstone stays so that counts still add up.
 
-The rows go in one transaction, which also notes that bytes of them are still to be cleared away: from the log, from
-free pages and from the copies. The note goes last. Where the program is cut off in between, the next start of the
-kiosk, or the same command again, finds the note and does the rest.
+The hash of the code is put down first, in the list beside the database. The rows go in one transaction, which also
+notes that bytes of them are still to be cleared away: from the log, from free pages and from the copies. The note goes
+last. Where the program is cut off in between, the next start of the kiosk, or the same command again, finds the list
+or the note and does the rest.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
 from kiosk.store.participants import participant_name
+from kiosk.store.tombstones import add_tombstones, copies_with, sessions_of, withdrawn_hashes
 
 READER_WAIT_MS = 1000
 
@@ -77,6 +79,7 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
         with closing(open_for_writing(folder)) as connection:
             _keep_to_oneself(connection)
             if not found.cut_off:
+                note_intention(connection, folder, found.session)
                 with _alone(connection, folder):
                     bury(connection, found.session)
             _clean(connection, folder)
@@ -87,21 +90,66 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
     return found
 
 
-def is_unfinished(connection: sqlite3.Connection) -> bool:
-    """Return whether a withdrawal was cut off, so that bytes of a participant or copies with them may be left."""
-    return bool(connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0])
+def note_intention(connection: sqlite3.Connection, folder: Path, session: int) -> None:
+    """Put down that a session is withdrawn, before anything of it is deleted; raises StorageError."""
+    codes = connection.execute("SELECT hash FROM withdrawal_code WHERE session = ?", (session,)).fetchall()
+    try:
+        add_tombstones(folder, (code for (code,) in codes))
+    except OSError as error:
+        raise StorageError(f"nothing was withdrawn: {reason(error, folder)}") from error
 
 
-def finish_cut_off(folder: Path) -> None:
-    """Finish the withdrawals of a data folder that were cut off; the caller holds its lock.
+def is_unfinished(connection: sqlite3.Connection, folder: Path) -> bool:
+    """Return whether a data folder may hold bytes of people who withdrew.
 
-    Raises StorageError if it cannot be done now.
+    That is so after a withdrawal that was cut off, and where an older copy was put back.
+    """
+    if connection.execute("SELECT EXISTS (SELECT 1 FROM unfinished_withdrawal)").fetchone()[0]:
+        return True
+    gone = withdrawn_hashes(connection, folder)
+    return bool(sessions_of(connection, gone)) or any(copies_with(folder, gone))
+
+
+def finish_cut_off(folder: Path) -> int:
+    """Delete all that a data folder still holds of people who withdrew; the caller holds its lock.
+
+    Returns how many of them still stood in the database. Raises StorageError or UserInputError if it cannot be done
+    now.
     """
     with closing(open_for_writing(folder)) as connection:
         _keep_to_oneself(connection)
+        back = sessions_of(connection, withdrawn_hashes(connection, folder))
+        if back:
+            with _alone(connection, folder):
+                for session in back:
+                    bury(connection, session)
         _clean(connection, folder)
     _replace_backups(folder)
     _forget(folder)
+    return len(back)
+
+
+def finish_at_rest(folder: Path) -> int:
+    """Do the same in a folder that no kiosk writes in, if there is anything to do."""
+    held = lock_folder(folder)
+    try:
+        with closing(open_for_reading(folder)) as connection:
+            unfinished = is_unfinished(connection, folder)
+        return finish_cut_off(folder) if unfinished else 0
+    finally:
+        held.release()
+
+
+def check_none_is_back(folder: Path) -> None:
+    """Raise UserInputError if a database holds people who withdrew, as after an older copy was put back."""
+    with closing(open_for_reading(folder)) as connection:
+        back = sessions_of(connection, withdrawn_hashes(connection, folder))
+    if back:
+        sessions = ", ".join(map(str, back))
+        raise UserInputError(
+            f"{folder} still holds people who withdrew (session {sessions}): 'recollect verify --data {folder}' "
+            "deletes them, and so does the next start of the kiosk"
+        )
 
 
 def _found(connection: sqlite3.Connection, folder: Path, who: str | int) -> Withdrawal:
@@ -174,7 +222,11 @@ def bury(connection: sqlite3.Connection, session: int) -> None:
         {"session": session, "today": datetime.now(UTC).date().isoformat()},
     )
     connection.execute("INSERT INTO unfinished_withdrawal VALUES (?)", (session,))
-    connection.execute("INSERT INTO withdrawn_code SELECT * FROM withdrawal_code WHERE session = ?", (session,))
+    connection.execute(
+        "INSERT INTO withdrawn_code SELECT * FROM withdrawal_code WHERE session = ?"
+        " AND hash NOT IN (SELECT hash FROM withdrawn_code)",
+        (session,),
+    )
     for table in ("head", "event", "withdrawal_code", "participant"):
         connection.execute(f"DELETE FROM {table} WHERE session = ?", (session,))  # noqa: S608 - ours
     connection.execute("DELETE FROM session WHERE id = ?", (session,))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sqlite3
 from contextlib import closing
 from datetime import datetime
@@ -17,6 +18,7 @@ from kiosk.cli import sessions as listing
 from kiosk.cli.main import recollect
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store import withdrawal as withdrawing
+from kiosk.store.copies import FILE as COPIES
 from kiosk.store.database import FILE
 from kiosk.store.maintenance import FOLDER, list_backups
 from kiosk.store.recorder import Provenance, Recorder
@@ -189,12 +191,38 @@ def test_the_same_command_finishes_a_withdrawal_that_was_cut_off(day: Path, monk
     with monkeypatch.context() as patched:
         patched.setattr(withdrawing, "back_up", failing)
         assert run("withdraw", code, "--data", day, "--yes").exit_code == 1
-    result = run("verify", "--data", day)
-    assert result.exit_code == 1
-    assert "recollect withdraw" in " ".join(result.output.split())
+        result = run("verify", "--data", day)
+        assert result.exit_code == 1
+        assert "recollect withdraw" in " ".join(result.output.split())
+        assert "could not be deleted: the participant was withdrawn, but" in result.stderr
     result = run("withdraw", code, "--data", day)
     assert result.output == "The withdrawal of participant MI-1, which had been cut off, is finished.\n"
     assert run("verify", "--data", day).exit_code == 0
+
+
+def test_verify_finishes_what_was_cut_off_and_export_refuses_who_is_back(day: Path, tmp_path: Path) -> None:
+    before = (day / FILE).read_bytes()
+    assert run("withdraw", "--session", 1, "--data", day, "--yes").exit_code == 0
+    (day / FILE).write_bytes(before)
+    refused = run("export", "--data", day, "--out", tmp_path / "out").exception
+    assert "still holds people who withdrew (session 1)" in str(refused)
+    result = run("verify", "--data", day)
+    assert "session 1: was withdrawn, and is still there" in result.stderr
+    assert result.exit_code == 0
+    assert rows(day, "SELECT session FROM tombstone") == [(1,)]
+    assert run("export", "--data", day, "--out", tmp_path / "out").exit_code == 0
+
+
+def test_a_withdrawal_names_the_copies_that_are_elsewhere(day: Path, tmp_path: Path) -> None:
+    stick, whole, out = tmp_path / "stick", tmp_path / "all", tmp_path / "out"
+    copy = said("backup", "--data", day, "--to", stick)["backup"]
+    for words in (("merge", day, "--out", whole), ("export", "--data", day, "--out", out)):
+        assert run(*words).exit_code == 0
+    shutil.rmtree(out)
+    told = said("withdraw", "--session", 1, "--data", day, "--yes")["copies_elsewhere"]
+    assert [(each["kind"], each["place"]) for each in told] == [("backup", copy), ("merged folder", str(whole))]
+    assert str(whole) in run("withdraw", "--session", 2, "--data", day, "--yes").stderr
+    assert (day / COPIES).stat().st_mode & 0o777 == 0o600
 
 
 # merge

@@ -23,11 +23,15 @@ from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.chain import FILE as HEADS
 from kiosk.store.checks import database_check
 from kiosk.store.codes import session_with_code
-from kiosk.store.database import FILE, open_for_reading
+from kiosk.store.database import FILE, open_for_reading, open_for_writing
+from kiosk.store.drives import carry
 from kiosk.store.maintenance import FOLDER, back_up, list_backups
+from kiosk.store.merge import merge
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.tombstones import FILE as TOMBSTONES
+from kiosk.store.tombstones import add_tombstones, read_tombstones
 from kiosk.store.verify import Verification, verify
-from kiosk.store.withdrawal import find_withdrawal, withdraw
+from kiosk.store.withdrawal import check_none_is_back, find_withdrawal, finish_at_rest, withdraw
 from tests.samples import plan
 from tests.store.visitors import COMPLETED, rows, saying
 
@@ -118,6 +122,7 @@ def is_there(folder: Path, code: str) -> bool:
 def check_finished(folder: Path, code: str) -> None:
     """Hold that nothing is left of the participant, and everything of the others."""
     assert verify(folder) == []
+    assert len(read_tombstones(folder)) == len(read_tombstones(folder / FOLDER)) == 1
     assert holding(folder, ANSWER, code) == []
     assert [path.name for path in folder.rglob("*.unfinished*")] == []
     assert rows(folder, "SELECT session FROM tombstone") == [(2,)]
@@ -133,7 +138,7 @@ def check_finished(folder: Path, code: str) -> None:
 
 def go_on(folder: Path, code: str, number: int) -> None:
     """Finish it: by the next start of the kiosk or, every other time, by the same command."""
-    if number % 2 or is_there(folder, code):
+    if number % 2 or not unfinished(folder):
         assert withdraw(folder, code).session == 2
     else:
         Recorder(folder).__exit__(None, None, None)
@@ -143,7 +148,7 @@ def check_cut_off(folder: Path, code: str, number: int) -> bool:
     """Hold a folder after a cut to what may be, finish it, and say whether it was found unfinished."""
     found = unfinished(folder)
     if is_there(folder, code):
-        assert verify(folder) == []
+        assert {flaw.check for flaw in verify(folder)} <= {Verification.FINISHED, Verification.COPIES}
         assert find_withdrawal(folder, code).events == 5
     elif not found:
         assert holding(folder, ANSWER, code) == []
@@ -178,7 +183,7 @@ def test_a_withdrawal_is_finished_that_was_cut_off_in_the_middle_of_a_checkpoint
 
 
 def test_a_withdrawal_that_is_cut_off_twice_is_finished(data: Path, code: str, cut: Cut) -> None:
-    step = next(step for step in count(1, 3) if cut(data, code, step=step) == KILLED and unfinished(data))
+    step = next(step for step in count(1, 3) if cut(data, code, step=step) == KILLED and not is_there(data, code))
     assert cut(data, code, step=step) == KILLED
     assert unfinished(data)
     assert withdraw(data, code).cut_off
@@ -200,8 +205,9 @@ def cut_off(data: Path, code: str, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_an_unfinished_withdrawal_is_told_by_verify_and_by_check(cut_off: Path) -> None:
-    (flaw,) = verify(cut_off)
+    flaw, *copies = verify(cut_off)
     assert (flaw.check, flaw.where) == (Verification.FINISHED, "session 2")
+    assert [copy.check for copy in copies] == [Verification.COPIES] * 2
     (found,) = database_check(cut_off, busy=False)
     assert (found.severity, "a withdrawal was cut off" in found.message) == (Severity.WARNING, True)
 
@@ -246,6 +252,71 @@ def test_two_withdrawals_that_were_cut_off_are_finished_together(cut_off: Path, 
     withdraw(cut_off, 3)
     assert verify(cut_off) == []
     assert holding(cut_off, ANSWER, code) == []
+
+
+# Copies that are put back
+
+
+def put_back(data: Path, code: str) -> Path:
+    """Return the folder after a withdrawal and the return of an older database in its place."""
+    older = (data.parent / "older.db", data.parent / "older.heads")
+    with closing(open_for_writing(data)) as connection:
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    shutil.copy(data / FILE, older[0])
+    withdraw(data, code)
+    shutil.copy(older[0], data / FILE)
+    shutil.copy(older[0], data / FOLDER / "recollect-20200101T000000.000000Z.db")
+    return data
+
+
+def test_an_older_copy_that_is_put_back_is_told_and_not_exported(data: Path, code: str) -> None:
+    put_back(data, code)
+    told = {(flaw.check, flaw.where) for flaw in verify(data)}
+    copy = (Verification.COPIES, "recollect-20200101T000000.000000Z.db")
+    assert told == {(Verification.FINISHED, "session 2"), copy}
+    with pytest.raises(UserInputError, match=r"still holds people who withdrew \(session 2\)"):
+        check_none_is_back(data)
+
+
+@pytest.mark.parametrize("by", ["the kiosk", "verify", "withdraw"])
+def test_an_older_copy_that_is_put_back_brings_nobody_back(data: Path, code: str, by: str) -> None:
+    put_back(data, code)
+    match by:
+        case "the kiosk":
+            Recorder(data).__exit__(None, None, None)
+        case "verify":
+            assert finish_at_rest(data) == 1
+            assert finish_at_rest(data) == 0
+        case _:
+            withdraw(data, code)
+    check_finished(data, code)
+    check_none_is_back(data)
+
+
+def test_a_merge_refuses_a_folder_that_somebody_is_back_in(data: Path, code: str, tmp_path: Path) -> None:
+    put_back(data, code)
+    with pytest.raises(UserInputError, match=r"participant 2 withdrew in .*data, but still stands in .*data"):
+        merge([data], tmp_path / "all")
+
+
+def test_the_list_goes_with_merged_folders_and_carried_copies(data: Path, code: str, tmp_path: Path) -> None:
+    withdraw(data, code)
+    merge([data], tmp_path / "all")
+    carry(data, tmp_path / "stick", 1)
+    back_up(data, tmp_path / "elsewhere")
+    (gone,) = read_tombstones(data)
+    for place in ("all", "stick", "elsewhere"):
+        assert read_tombstones(tmp_path / place) == {gone}
+        assert (tmp_path / place / TOMBSTONES).stat().st_mode & 0o777 == 0o600
+
+
+def test_a_line_that_is_damaged_hides_no_other(tmp_path: Path) -> None:
+    one, other = b"1" * 32, b"2" * 32
+    add_tombstones(tmp_path, [one])
+    with (tmp_path / TOMBSTONES).open("a", encoding="ascii") as file:
+        file.write("31" * 32 + " 00000000\n" + "31" * 20)
+    add_tombstones(tmp_path, [other])
+    assert read_tombstones(tmp_path) == {one, other}
 
 
 # Modes

@@ -1,0 +1,76 @@
+"""Where copies, merged folders and data sets of a data folder went, so that a withdrawal can name them."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from enum import Enum
+from pathlib import Path
+
+from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
+
+FILE = "recollect.copies"
+
+_log = logging.getLogger(__name__)
+
+
+class CopyKind(Enum):
+    """What was made of a data folder."""
+
+    BACKUP = "backup"
+    MERGE = "merged folder"
+    EXPORT = "data set"
+
+
+@dataclass(frozen=True)
+class KnownCopy:
+    """Something that may hold people of a data folder, where it was made, and when (UTC)."""
+
+    kind: CopyKind
+    place: Path
+    made_at: str
+
+
+def note_copy(folder: Path, kind: CopyKind, place: Path) -> None:
+    """Add a line to the list beside a database; where it cannot be written, that is logged and nothing else."""
+    line = {"made_at": datetime.now(UTC).isoformat(timespec="seconds"), "kind": kind.value}
+    text = json.dumps(line | {"place": str(place.absolute())}) + "\n"
+    file = folder / FILE
+    try:
+        # One write at the end: two programs may note something at once, and a torn line is passed over.
+        descriptor = os.open(file, os.O_WRONLY | os.O_APPEND | os.O_CREAT, PRIVATE)
+        try:
+            os.write(descriptor, text.encode())
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+        make_private(file)
+        give_to_owner_of_folder(file)
+    except OSError as error:
+        _log.warning("%s could not be noted in %s: %s", place, file, error)
+
+
+def known_copies(folder: Path) -> list[KnownCopy]:
+    """Return what was noted and may still be there, each place once, oldest first.
+
+    A place on a drive that is not plugged in counts as there.
+    """
+    found = {copy.place: copy for copy in _read(folder / FILE)}
+    return [copy for copy in found.values() if copy.place.exists() or not copy.place.parent.exists()]
+
+
+def _read(file: Path) -> Iterator[KnownCopy]:
+    try:
+        lines = file.read_text("utf-8", "replace").splitlines()
+    except OSError:
+        return
+    for line in lines:
+        try:
+            told = json.loads(line)
+            yield KnownCopy(CopyKind(told["kind"]), Path(told["place"]), str(told["made_at"]))
+        except (ValueError, KeyError, TypeError):
+            continue

@@ -1,0 +1,99 @@
+"""The list of people who withdrew, as keyed hashes of their codes.
+
+It lies beside a database and beside its copies. A hash is put down before the first row is deleted, so a withdrawal
+that is cut off is known, and so is an older copy that still holds the person.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sqlite3
+from collections.abc import Iterable, Iterator
+from contextlib import closing
+from pathlib import Path
+
+from kiosk import UserInputError
+from kiosk.files import replace_file
+from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
+from kiosk.store.database import BACKUPS, SCHEMA, open_copy
+
+FILE = "recollect.withdrawn"
+_DIGITS, _CHECK_DIGITS = 64, 8
+
+
+def read_tombstones(folder: Path) -> frozenset[bytes]:
+    """Return the hashes that lie beside a database and beside the copies in its folder.
+
+    A line that is damaged is passed over.
+    """
+    return frozenset(found for place in (folder, folder / BACKUPS) for found in _read(place / FILE))
+
+
+def add_tombstones(folder: Path, hashes: Iterable[bytes]) -> None:
+    """Have hashes on the disk, beside the others; raises OSError and leaves the list as it was."""
+    file = folder / FILE
+    before = frozenset(_read(file))
+    after = before | frozenset(hashes)
+    if after == before:
+        return
+    replace_file(file, "".join(f"{each.hex()} {_check(each)}\n" for each in sorted(after)), PRIVATE)
+    make_private(file)
+    give_to_owner_of_folder(file)
+    sync_folder(folder)
+
+
+def withdrawn_hashes(connection: sqlite3.Connection, folder: Path) -> frozenset[bytes]:
+    """Return the hashes of all who withdrew, by a database and the lists of its folder."""
+    there = (found for (found,) in connection.execute("SELECT hash FROM withdrawn_code"))
+    return read_tombstones(folder).union(there)
+
+
+def sessions_of(connection: sqlite3.Connection, hashes: frozenset[bytes]) -> list[int]:
+    """Return the sessions that a database still holds of people who withdrew."""
+    if not hashes:
+        return []
+    codes = connection.execute("SELECT session, hash FROM withdrawal_code")
+    return sorted({session for session, code in codes if code in hashes})
+
+
+def copies_with(folder: Path, hashes: frozenset[bytes]) -> Iterator[tuple[Path, list[int]]]:
+    """Yield the copies in a data folder that hold people who withdrew, and their sessions there."""
+    for copy in sorted((folder / BACKUPS).glob("recollect-*.db")) if hashes else ():
+        try:
+            with closing(open_copy(copy)) as connection:
+                # Earlier schemas were never released, and have no codes.
+                known = connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA
+                sessions = sessions_of(connection, hashes) if known else []
+        except (OSError, sqlite3.Error, UserInputError):
+            continue
+        if sessions:
+            yield copy, sessions
+
+
+def sync_folder(folder: Path) -> None:
+    """Have the new name on the disk as well, where folders can be told so."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _read(file: Path) -> Iterator[bytes]:
+    try:
+        lines = file.read_text("ascii", "replace").splitlines()
+    except OSError:
+        return
+    for line in lines:
+        digits, _, check = line.partition(" ")
+        if len(digits) == _DIGITS and not set(digits) - set("0123456789abcdef"):
+            found = bytes.fromhex(digits)
+            if check == _check(found):
+                yield found
+
+
+def _check(found: bytes) -> str:
+    return hashlib.sha256(found).hexdigest()[:_CHECK_DIGITS]
