@@ -409,7 +409,7 @@ class AssistanceConfig(ConfigModel):
             description="With timing 'model': a first card gets help if the chance that a pair is recalled is below "
             "this.",
         ),
-    ] = 0.2
+    ] = 0.0
     threshold_second: Annotated[
         float,
         Field(
@@ -418,7 +418,16 @@ class AssistanceConfig(ConfigModel):
             description="With timing 'model': a second card gets help if the chance that its mate is recalled is below "
             "this.",
         ),
-    ] = 0.4
+    ] = 0.15
+    threshold_card: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="With timing 'model': the mate of an open card is pointed to itself if it was seen, and the "
+            "chance that it is recalled is below this; 0 never.",
+        ),
+    ] = 0.02
     explore: Annotated[
         float,
         Field(

@@ -97,7 +97,8 @@ class DecisionRules:
     @classmethod
     def of(cls, config: AssistanceConfig) -> DecisionRules:
         """Return the rules that a study file declares."""
-        timing = MemoryTiming(config.threshold_first, config.threshold_second) if config.timing == "model" else None
+        thresholds = (config.threshold_first, config.threshold_second, config.threshold_card)
+        timing = MemoryTiming(*thresholds) if config.timing == "model" else None
         return cls(timing, config.explore, config.models_memory)
 
     def probability(self, action: ActionSpec, greedy: ActionSpec, actions: tuple[ActionSpec, ...]) -> float:

@@ -61,22 +61,33 @@ class MemoryTiming:
     """Help by what the player remembers: where a match is recalled with a lower chance than a threshold.
 
     ``first`` is the threshold for a recalled pair before a first card, ``second`` that for the mate of the open card.
+    Below ``card``, a mate that was seen is pointed to itself; 0 never does so.
     """
 
     first: float
     second: float
+    card: float = 0.0
 
     def threshold(self, memory: MemoryEstimate) -> float:
         """Return the threshold for the coming card, which is a second one if a flip can complete a pair."""
         return self.first if memory.completes is None else self.second
 
     def action(self, memory: MemoryEstimate) -> ActionSpec:
-        """Return the help with the coming flip: a column below the threshold, else none."""
+        """Return the help with the coming flip: a column below the threshold, or the card itself, else none."""
+        if self._names(memory):
+            return ActionSpec.SUG_CARD
         return ActionSpec.SUG_COL if memory.match_recalled < self.threshold(memory) else ActionSpec.NO_HELP
+
+    def _names(self, memory: MemoryEstimate) -> bool:
+        """Whether the mate of the open card was seen, and is as good as forgotten."""
+        return memory.completes is not None and 0 < memory.match_recalled < self.card
 
     def told(self, memory: MemoryEstimate) -> str:
         """Say what the decision follows from."""
         what = "a pair is" if memory.completes is None else "the mate of the open card is"
+        if self._names(memory):
+            chance = f"{memory.match_recalled:.4f}, below {self.card:g}"
+            return f"the mate of the open card was seen, and is recalled with the chance {chance}"
         threshold = self.threshold(memory)
         side = "below" if memory.match_recalled < threshold else "not below"
         return f"{what} recalled with the chance {memory.match_recalled:.4f}, {side} {threshold:g}"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import shlex
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, astuple, fields, replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from kiosk.files import check_writable, write_file
 from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
 from kiosk.training.memory_timing import (
+    CARD_THRESHOLDS,
     THRESHOLDS,
     best_timing,
     checked_timing,
@@ -174,18 +176,20 @@ def ctrl_c() -> Iterator[Callable[[], bool]]:
 )
 @click.option("--games", type=int, help="With --timing model: games for each pair of thresholds (300).")
 @click.option("--assistance", type=float, help="With --timing model: the most assistance per flip (.175).")
+@click.option("--spread", type=float, help="With --timing model: the most SD of the flips a game (none).")
 @as_json
 def train_command(out: Path, name: str | None, reward: str, json_: bool, **options: Any) -> None:  # noqa: FBT001 - click's flag
     """Learn a table and freeze it.
 
     What no option gives follows from the reward.
     """
-    timing, games, assistance = (options.pop(name) for name in ("timing", "games", "assistance"))
+    timing, games, assistance, spread = (options.pop(name) for name in ("timing", "games", "assistance", "spread"))
     if timing == "model":
-        _tune_thresholds(out, games, assistance, json_=json_, **options)
+        limits = MOST_ASSISTANCE if assistance is None else assistance, math.inf if spread is None else spread
+        _tune_thresholds(out, games, limits, json_=json_, **options)
         return
-    if (games, assistance) != (None, None):
-        raise UserInputError("--games and --assistance are for --timing model only")
+    if (games, assistance, spread) != (None, None, None):
+        raise UserInputError("--games, --assistance and --spread are for --timing model only")
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
     check_writable(out)
@@ -207,8 +211,8 @@ GAMES_TO_TUNE, MOST_ASSISTANCE = 300, 0.175
 _TUNES = {"seed", "target", "gate", *_PLAYER_OPTIONS}
 
 
-def _tune_thresholds(out: Path, games: int | None, assistance: float | None, *, json_: bool, **options: Any) -> None:
-    """Try pairs of thresholds, and write the best as the part of a study file that declares them."""
+def _tune_thresholds(out: Path, games: int | None, limits: tuple[float, float], *, json_: bool, **options: Any) -> None:
+    """Try thresholds, and write the best within ``limits`` as the part of a study file that declares them."""
     foreign = sorted(name for name, value in options.items() if value not in (None, ()) and name not in _TUNES)
     if foreign:
         raise UserInputError(f"--{foreign[0]} is for a table; --timing model learns thresholds")
@@ -216,19 +220,20 @@ def _tune_thresholds(out: Path, games: int | None, assistance: float | None, *, 
     gate, target = GATES[options["gate"] or "on"], TargetRule(options["target"] or TargetRule.MOST_FLIPPED.value)
     games = GAMES_TO_TUNE if games is None else games
     check_writable(out)
-    total = len(THRESHOLDS) ** 2 * games
+    total = len(THRESHOLDS) ** 2 * len(CARD_THRESHOLDS) * games
     with progress_bar("tuning", total, hidden=json_) as progress:
-        tried = list(tune_timing(gate, player, target, games, options["seed"], THRESHOLDS, progress))
-    best = best_timing(tried, MOST_ASSISTANCE if assistance is None else assistance)
-    first, second = best.timing.first, best.timing.second
-    text = f'[assistance]\ntiming = "model"\nthreshold_first = {first:g}\nthreshold_second = {second:g}\n'
-    write_file(out, text)
+        tried = list(tune_timing(gate, player, target, games, options["seed"], THRESHOLDS, CARD_THRESHOLDS, progress))
+    best = best_timing(tried, *limits)
+    best_at = dict(zip(_THRESHOLDS, astuple(best.timing), strict=True))
+    lines = "".join(f"{name} = {value:g}\n" for name, value in best_at.items())
+    write_file(out, f'[assistance]\ntiming = "model"\n{lines}')
     measures = best.results.measures()
-    told = {"file": str(out), "threshold_first": first, "threshold_second": second, **measures}
+    told = {"file": str(out), **best_at, **measures}
     flips, given = best.results.flips, best.results.assistance.mean
     _say(
         told,
-        f"{out}: help below {first:g} and {second:g}; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
+        f"{out}: help below {best.timing.first:g} and {best.timing.second:g}, a seen card is named below "
+        f"{best.timing.card:g}; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
         f"assistance {given:.3f} a flip",
         json_=json_,
     )
@@ -333,8 +338,9 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
     show_default=True,
     help="What decides when to help, as in a study file.",
 )
-@click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (.2).")
-@click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.4).")
+@click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (0).")
+@click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.15).")
+@click.option("--threshold-card", type=float, help="With --timing model: name a seen second card below this (.02).")
 @as_json
 def simulate_command(
     name: str,
@@ -351,7 +357,7 @@ def simulate_command(
     """
     where = target_rule(Condition(condition).known, TargetRule.MOST_FLIPPED)
     table = QTable.named(name) if where else QTable.blank()
-    timing = _timing(*(options.pop(name) for name in ("timing", "threshold_first", "threshold_second")))
+    timing = _timing(*(options.pop(name) for name in ("timing", *_THRESHOLDS)))
     player = player_from_options(ChancePlayer(), **options)
     rule = TargetRule(target) if target else where or TargetRule.RANDOM
     with progress_bar("playing", games, hidden=json_) as progress:
@@ -364,15 +370,18 @@ def simulate_command(
     _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
 
 
-def _timing(timing: str, first: float | None, second: float | None) -> MemoryTiming | None:
+_THRESHOLDS = ("threshold_first", "threshold_second", "threshold_card")
+
+
+def _timing(timing: str, *given: float | None) -> MemoryTiming | None:
     """Return the timing by memory that the options ask for; None for that by a table."""
     if timing == "table":
-        if (first, second) != (None, None):
-            raise UserInputError("--threshold-first and --threshold-second are for --timing model only")
+        if any(each is not None for each in given):
+            raise UserInputError("--threshold-first, -second and -card are for --timing model only")
         return None
     usual = AssistanceConfig()
-    first = usual.threshold_first if first is None else first
-    return checked_timing(first, usual.threshold_second if second is None else second)
+    thresholds = zip(_THRESHOLDS, given, strict=True)
+    return checked_timing(*(getattr(usual, name) if each is None else each for name, each in thresholds))
 
 
 def _told(measures: dict[str, Any]) -> str:

@@ -6,6 +6,7 @@ help is put to kiosk.assistance.memory_model. That takes half a millisecond a fl
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -30,15 +31,18 @@ from kiosk.training.simulation import (
 )
 from kiosk.training.vectorised_game import CARDS, FIRST, FLIPS, LAST, MATE, NO_HELP, NOWHERE, gate_plan, is_open
 
-THRESHOLDS = (0.1, 0.2, 0.3, 0.4, 0.5)
+THRESHOLDS = (0.0, 0.1, 0.15, 0.2, 0.4)
 """What is tried for each of the two cards."""
+CARD_THRESHOLDS = (0.0, 0.02)
+"""What is tried for naming a card that was seen."""
 
 
-def checked_timing(first: float, second: float) -> MemoryTiming:
+def checked_timing(first: float, second: float, card: float = 0.0) -> MemoryTiming:
     """Return the timing with these thresholds; raises UserInputError for what is not a chance."""
     check_between("the threshold of first cards", first, 0, 1)
     check_between("the threshold of second cards", second, 0, 1)
-    return MemoryTiming(first, second)
+    check_between("the threshold of named cards", card, 0, 1)
+    return MemoryTiming(first, second, card)
 
 
 def simulate_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
@@ -104,18 +108,28 @@ def tune_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
     games: int,
     seed: int,
     thresholds: Sequence[float],
+    cards: Sequence[float] = (0.0,),
     progress: Progress = lambda _: None,
 ) -> Iterator[TunedTiming]:
-    """Play games with every pair of thresholds, the same boards for each; yield what came of them."""
-    for number, (first, second) in enumerate(product(thresholds, repeat=2)):
-        timing = checked_timing(first, second)
+    """Play games with all thresholds, the same boards for each; yield what came of them.
+
+    ``cards`` are tried below which a card that was seen is named.
+    """
+    for number, tried in enumerate(product(thresholds, thresholds, cards)):
+        timing = checked_timing(*tried)
         told = lambda played, before=number * games: progress(before + played)  # noqa: E731 - binds the number
         yield TunedTiming(timing, simulate_timing(timing, gate, player, target, games, seed, told))
 
 
-def best_timing(tried: Sequence[TunedTiming], assistance: float) -> TunedTiming:
-    """Return the fewest flips at no more than this assistance per flip; the least assistance if all give more."""
+def best_timing(tried: Sequence[TunedTiming], assistance: float, spread: float = math.inf) -> TunedTiming:
+    """Return the fewest flips within an assistance per flip and an SD of the flips.
+
+    It is the least spread if all spread more, and the least assistance if all give more.
+    """
     allowed = [each for each in tried if each.results.assistance.mean <= assistance]
     if not allowed:
         return min(tried, key=lambda each: each.results.assistance.mean)
-    return min(allowed, key=lambda each: each.results.flips.mean)
+    even = [each for each in allowed if each.results.flips.sd <= spread]
+    if not even:
+        return min(allowed, key=lambda each: each.results.flips.sd)
+    return min(even, key=lambda each: each.results.flips.mean)

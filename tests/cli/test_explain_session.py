@@ -94,7 +94,7 @@ def test_what_a_table_came_to_is_recorded_and_the_table_it_began_as_is_unchanged
 
 
 MODELLED = {"memory_model": True}
-BY_MODEL = {"timing": "model", "threshold_first": 0.3, "threshold_second": 0.6}
+BY_MODEL = {"timing": "model", "threshold_first": 0.3, "threshold_second": 0.6, "threshold_card": 0.0}
 EXPLORING = {"explore": 0.5, "step": 0.05}
 
 
@@ -133,7 +133,7 @@ def test_help_by_the_model_comes_below_the_threshold_and_the_explanation_says_so
     with open_repository(tmp_path) as sessions:
         told = explain_stored_decision(sessions, 1, helped.flip).to_json()
     assert told["q"] == {}
-    assert told["timing"] == {"first": 0.3, "second": 0.6, "action": "sug_col"}
+    assert told["timing"] == {"first": 0.3, "second": 0.6, "card": 0.0, "action": "sug_col"}
     assert told["memory"]["match_recalled"] < 0.6
 
 

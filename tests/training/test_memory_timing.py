@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from kiosk import UserInputError
-from kiosk.assistance.memory_model import MemoryTiming
+from kiosk.assistance.memory_model import MemoryEstimate, MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.policy import Gate, QTable
+from kiosk.assistance.policy import ActionSpec, Gate, QTable
 from kiosk.config import AssistanceConfig
 from kiosk.training.memory_timing import TunedTiming, best_timing, simulate_timing, tune_timing
 from kiosk.training.simulated_players import MemoryPlayer
@@ -64,10 +65,30 @@ def test_where_all_help_too_much_the_one_that_helps_least_is_taken() -> None:
     assert best_timing(tried, 0.0) is tried[1]
 
 
+def test_a_lower_spread_can_be_asked_for() -> None:
+    tried = list(tune_timing(Gate(), PLAYER, TARGET, GAMES, SEED, (0.0, 0.5), (0.0, 0.1)))
+    spreads = sorted(each.results.flips.sd for each in tried)
+    assert best_timing(tried, 9, spreads[0]).results.flips.sd == spreads[0]
+    assert best_timing(tried, 9, 0).results.flips.sd == spreads[0]
+    assert best_timing(tried, 9).results.flips.mean == min(each.results.flips.mean for each in tried)
+
+
+def test_a_card_that_was_seen_and_is_forgotten_is_named() -> None:
+    timing = MemoryTiming(0.2, 0.4, 0.1)
+    before = MemoryEstimate(0.2, 0.05, None, None, ())
+    column, none = ActionSpec.SUG_COL, ActionSpec.NO_HELP
+    cases = ((0.0, column), (0.05, ActionSpec.SUG_CARD), (0.1, column), (0.4, none))
+    for recalled, action in cases:
+        assert timing.action(replace(before, completes=0.1, match_recalled=recalled)) is action
+    assert timing.action(before) is ActionSpec.SUG_COL
+    assert "was seen" in timing.told(replace(before, completes=0.1))
+
+
 @pytest.fixture
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the command try four pairs of thresholds."""
     monkeypatch.setattr("kiosk.cli.learning.THRESHOLDS", (0.1, 0.4))
+    monkeypatch.setattr("kiosk.cli.learning.CARD_THRESHOLDS", (0.05,))
 
 
 @pytest.mark.usefixtures("few")
@@ -76,22 +97,23 @@ def test_train_writes_thresholds_that_a_study_file_can_take(tmp_path: Path) -> N
     document = told("train", "--timing", "model", "--games", "3", "--out", str(out))
     read = AssistanceConfig(**tomllib.loads(out.read_text("utf-8"))["assistance"])
     assert read.timing == "model"
+    assert read.threshold_card == document["threshold_card"] == 0.05
     assert (read.threshold_first, read.threshold_second) == (document["threshold_first"], document["threshold_second"])
 
 
 def test_simulate_plays_by_the_model() -> None:
     words = ("simulate", "--player", "memory", "--games", "3", "--timing", "model", "--threshold-second", ".7")
     document = told(*words)
-    assert document["timing"] == {"first": 0.2, "second": 0.7}
+    assert document["timing"] == {"first": 0.0, "second": 0.7, "card": 0.02}
     assert document["assistance_per_flip"] > 0
 
 
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ("simulate --threshold-first .3", "--threshold-first and --threshold-second are for --timing model only"),
+        ("simulate --threshold-first .3", "--threshold-first, -second and -card are for --timing model only"),
         ("simulate --timing model --threshold-first 3", "the threshold of first cards must be a number from 0 to 1"),
-        ("train --out x.toml --games 5", "--games and --assistance are for --timing model only"),
+        ("train --out x.toml --games 5", "--games, --assistance and --spread are for --timing model only"),
         ("train --out x.toml --timing model --gamma .5", "--gamma is for a table; --timing model learns thresholds"),
         ("train --out x.toml --timing model --games 1", "there must be at least 2 games, not 1"),
     ],
