@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from socket import create_server, socket
 from typing import Any
 
 import pytest
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
-from PySide6.QtCore import Qt
-from PySide6.QtQml import QQmlExpression, qmlContext
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtQml import QQmlComponent, QQmlExpression, qmlContext
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -201,6 +203,48 @@ def test_no_text_on_any_screen_is_drawn_as_markup(window: Window, study: StudyCo
         found = seen(window)
         assert any(MARKUP in text for text in found), moment
         assert [text for text, plain in found.items() if not plain] == [], moment
+
+
+def test_a_picture_in_a_text_is_asked_for_by_no_screen(window: Window, study: StudyConfig, qtbot: QtBot) -> None:
+    with create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(0)
+        picture = f'<img src="http://127.0.0.1:{server.getsockname()[1]}/{{}}.png">'
+        words = {"en": picture.format("question")}
+        options = [{"id": name, "text": {"en": picture.format(name)}} for name in ("one", "two")]
+        item = Single.model_validate({"kind": "single", "id": "which", "text": words, "options": options})
+        sheet = study.plans[0].information
+        window.screens.about.show(sheet.about.model_copy(update={"title": picture.format("title")}))
+        window.screens.avatar.say(picture.format("sentence"))
+        window.screens.form.show((item,), 1, 1)
+        for screen in ("about", "form"):
+            window.screens.kiosk.show(screen)
+            lay_out(window.shown)
+            window.shown.grabWindow()
+        # A text that is not plain asks at once, which shows that the others would have been heard before it.
+        source = f"import QtQuick\nText {{ textFormat: Text.StyledText; text: '{picture.format('styled')}' }}"
+        component = QQmlComponent(window.engine)
+        component.setData(source.encode(), QUrl())
+        styled = component.create()
+        assert isinstance(styled, QQuickItem), component.errorString()
+        styled.setParentItem(window.shown.contentItem())
+        heard: dict[socket, str] = {}
+
+        def hears_the_styled_one() -> bool:
+            with suppress(BlockingIOError):
+                while True:
+                    connection, _ = server.accept()
+                    connection.settimeout(0)
+                    heard[connection] = ""
+            for connection in heard:
+                with suppress(BlockingIOError):
+                    heard[connection] += connection.recv(1000).decode()
+            return any("/styled.png" in request for request in heard.values())
+
+        qtbot.waitUntil(hears_the_styled_one, timeout=30_000)
+        assert [request.split()[1] for request in heard.values()] == ["/styled.png"]
+        for connection in heard:
+            connection.close()
+        styled.deleteLater()
 
 
 def test_questions_options_ends_and_hints_stand_there_as_they_were_written(window: Window, study: StudyConfig) -> None:
