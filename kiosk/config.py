@@ -126,12 +126,15 @@ def _toml(name: str, text: str) -> dict[str, Any]:
     if max(dots) > _MOST_DOTS or sum(count**2 for count in dots) > _MOST_DOTS_SQUARED:
         raise UserInputError(f"{name} has too many dots to be read: line {dots.index(max(dots)) + 1} has {max(dots)}")
     try:
-        return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        try:
+            return tomllib.loads(text)
+        except tomllib.TOMLDecodeError:
+            raise
+        except ValueError:
+            # Cut short, the number is still too large wherever it stands, so the key that has it gets its sentence.
+            return tomllib.loads(_LONG_NUMBER.sub(shortened, text))
+    except (ValueError, RecursionError) as error:
         raise UserInputError(f"{name} is not TOML: {toml_error_message(error)}") from error
-    except ValueError:
-        # Cut short, the number is still too large wherever it stands, so the key that has it gets its sentence.
-        return tomllib.loads(_LONG_NUMBER.sub(shortened, text))
 
 
 Milliseconds = Annotated[int, Field(ge=1, le=MS_PER_HOUR), Unit("ms")]

@@ -143,6 +143,10 @@ STUDIES: dict[str, Bad] = {
         f"[timing]\nmood_ms = {'9' * 5000}",
         ("{study}: timing.mood_ms must be from 1 to 3600000 ms, but it is 999999999999...",),
     ),
+    "number of very many digits and a fault after it": Bad(
+        f"[timing]\nmood_ms = {'9' * 5000}\nmood_ms = 1",
+        ("{study} is not TOML: a key is there twice (at end of document)",),
+    ),
     "very long number in hexadecimal": Bad(
         f"[game]\nrows = 0x{'f' * 5000}",
         ("{study}: game.rows must be from 1 to 12, but it is 0xffffffffff...",),
