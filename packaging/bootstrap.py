@@ -12,6 +12,7 @@ import importlib.util
 import json
 import os
 import platform
+import re
 import shutil
 import socket
 import subprocess
@@ -64,6 +65,11 @@ PARALLEL = (
     *("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "--benchmark-disable",
 )
+
+MEMORY = Path("/dev/shm")  # noqa: S108 - a folder of random name is made in it
+"""Where Linux keeps files in memory."""
+ENOUGH = 6 * 2**30
+"""So much memory must be free for the files of tests."""
 
 TEST_PACKAGES = (QT, WINDOW, VOICE, VIRTUAL_SCREEN, VIRTUAL_SOUND, BUILD)
 
@@ -167,7 +173,7 @@ def development() -> Iterator[dict[str, str]]:
     # The natural voice is large, and no test needs it.
     install_python_packages(extras=set(project()["optional-dependencies"]) - {"natural"})
     headless = {"QT_QPA_PLATFORM": "offscreen"} | os.environ | {"QT_QUICK_BACKEND": "software"}
-    with runtime_folder(headless) as environment:
+    with runtime_folder(headless) as private, files_in_memory(private) as environment:
         yield environment
 
 
@@ -291,6 +297,29 @@ def runtime_folder(environment: Mapping[str, str]) -> Iterator[dict[str, str]]:
     """Yield the environment with the private folder that Qt wants, for as long as it is needed."""
     with tempfile.TemporaryDirectory() as folder:  # made with mode 0700, as Qt demands
         yield {"XDG_RUNTIME_DIR": folder} | dict(environment)
+
+
+@contextmanager
+def files_in_memory(environment: Mapping[str, str]) -> Iterator[dict[str, str]]:
+    """Yield the environment with a folder in memory for the files of tests, if there is room for one.
+
+    The kiosk waits for the disk after every event, and the tests record many thousands. The folder goes with the run.
+    """
+    if not has_room(MEMORY):
+        yield dict(environment)
+        return
+    with tempfile.TemporaryDirectory(prefix="recollect-tests-", dir=MEMORY) as folder:
+        yield {"PYTEST_DEBUG_TEMPROOT": folder} | dict(environment)
+
+
+def has_room(folder: Path) -> bool:
+    """Whether a folder in memory can take the files of a whole run, one gigabyte, and lets programs run there."""
+    if not folder.is_dir():
+        return False
+    there = os.statvfs(folder)
+    memory = re.search(r"^MemAvailable: *(\d+) kB$", Path("/proc/meminfo").read_text("utf-8"), flags=re.M)
+    available = int(memory[1]) * 1024 if memory else 0
+    return not there.f_flag & os.ST_NOEXEC and min(there.f_bavail * there.f_frsize, available) >= ENOUGH
 
 
 def project() -> dict[str, Any]:
