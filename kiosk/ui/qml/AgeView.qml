@@ -20,7 +20,7 @@ PageFrame {
         PlainText {
             width: parent.width
             text: view.words["age-line"]
-            font.pixelSize: Theme.size(36)
+            font.pixelSize: Theme.size(view.width < view.height ? 42 : 36)
             lineHeight: 1.08
             wrapMode: Text.Wrap
             color: Theme.faintInk
@@ -37,7 +37,7 @@ PageFrame {
                 id: yes
                 objectName: "age-yes"
                 width: answers.wish
-                height: Math.max(implicitHeight, (answers.abreast ? 320 : 200) * Theme.unit)
+                height: Math.max(implicitHeight, (!answers.abreast ? 200 : view.width < view.height ? 520 : 320) * Theme.unit)
                 words: view.words["age-yes"]
                 font.pixelSize: Theme.pageTitle
                 focus: true

@@ -68,7 +68,9 @@ PageFrame {
                 id: points
                 visible: view.short
                 width: pane.width
-                spacing: 0.6 * Theme.gap
+                // Larger on an upright screen, but where large texts need the room themselves.
+                readonly property bool airy: view.width < view.height && Theme.textSize <= 1.15
+                spacing: (airy ? 1.2 : 0.6) * Theme.gap
                 Repeater {
                     model: view.short ? view.consent.points : []
                     SignedLine {
@@ -77,6 +79,7 @@ PageFrame {
                         text: modelData.text
                         sign: modelData.sign
                         strong: true
+                        size: points.airy ? Theme.size(38) : Theme.body
                     }
                 }
             }
