@@ -10,6 +10,7 @@ import shutil
 import sqlite3
 from contextlib import closing
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -96,9 +97,10 @@ def test_merging(benchmark: Any, stored: Path, tmp_path: Path) -> None:
     benchmark.pedantic(merge, setup=again, rounds=2)
 
 
-def test_exporting(benchmark: Any, stored: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("processes", [1, 2], ids=["one process", "two processes"])
+def test_exporting(benchmark: Any, stored: Path, tmp_path: Path, processes: int) -> None:
     def again() -> tuple[tuple[Path, Path, Any, frozenset[Any]], dict[str, str]]:
         shutil.rmtree(tmp_path / "set", ignore_errors=True)
         return (stored, tmp_path / "set", PsychDs, frozenset()), {}
 
-    benchmark.pedantic(export_dataset, setup=again, rounds=1)
+    benchmark.pedantic(partial(export_dataset, processes=processes), setup=again, rounds=1)

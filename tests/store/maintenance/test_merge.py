@@ -109,6 +109,15 @@ def test_the_order_of_the_folders_does_not_matter(milan: Path, girona: Path, out
     assert contents(out) == contents(tmp_path / "other")
 
 
+def test_folders_that_sqlite_cannot_attach_are_copied_alike(
+    milan: Path, girona: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    merge([milan, girona], out)
+    monkeypatch.setattr(merge_module, "_MOST_ATTACHED", 1)
+    merge([milan, girona], tmp_path / "other")
+    assert contents(out) == contents(tmp_path / "other")
+
+
 def test_a_session_keeps_its_list(milan: Path, girona: Path, out: Path) -> None:
     merge([girona, milan], out)
     mixed = """

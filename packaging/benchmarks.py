@@ -1,0 +1,135 @@
+"""Run benchmarks of tests/bench and write what they measured into the documentation.
+
+``python packaging/benchmarks.py`` takes about five minutes on a quiet machine with two processors; ``--sessions
+5000,20000`` measures growth with other numbers of stored sessions. A time is the shortest of its rounds.
+"""
+
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "reference" / "benchmarks.md"
+SESSIONS = "100,1000"
+BENCHES = ("tests/bench/test_growth.py", "tests/bench/test_training.py")
+SHOWN = "not reference and not episodes and not numba"
+
+HEAD = """# Benchmarks
+
+This page is written by `python packaging/benchmarks.py`, which runs benchmarks and takes the shortest round of each.
+Compare numbers of one run only: other programs on the machine make all of them longer.
+
+"""
+GROWTH = """
+## With many stored sessions
+
+The sessions are copies of four games that were played by a program; each has about 390 events. The factor is the time
+for the larger study by that for the smaller one: 1 does not grow, and {linear:g} grows in step with the sessions.
+
+"""
+GAMES = """
+## Simulated games
+
+The memory player plays under the default table, in one process. The same 20,000 games in plain C, number for number,
+are the measure. Times are those of the processor, which other programs lengthen less.
+
+"""
+TABLE = """
+## From nothing to the default table
+
+`recollect train --name default` in a process of its own, with the start of Python.
+
+"""
+
+
+def measured(sessions: str) -> dict[str, Any]:
+    """Run the benchmarks and return what pytest-benchmark says; raises SystemExit if one fails."""
+    environment = os.environ | {"RECOLLECT_BENCH_SESSIONS": sessions, "QT_QPA_PLATFORM": "offscreen"}
+    with tempfile.TemporaryDirectory() as folder:
+        told = Path(folder) / "told.json"
+        options = ("-q", "--benchmark-only", "-k", SHOWN, "-p", "no:cacheprovider", f"--benchmark-json={told}")
+        command = [sys.executable, "-m", "pytest", *options, *BENCHES]
+        load, *_ = psutil.getloadavg()
+        if subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode:
+            raise SystemExit("a benchmark failed, so nothing was written")
+        return {**json.loads(told.read_text("utf-8")), "load": load}
+
+
+def page(told: dict[str, Any]) -> str:
+    """Return the page."""
+    machine = told["machine_info"]
+    processor = machine["cpu"].get("brand_raw", machine["machine"])
+    run = f"Measured on {told['datetime'][:10]}: {processor}, {os.cpu_count()} processors, "
+    run += f"{platform.system()}, Python {machine['python_version']}. Load before the run: {told['load']:.1f}.\n"
+    shortest = {bench["name"].removeprefix("test_"): bench["stats"]["min"] for bench in told["benchmarks"]}
+    return HEAD + run + _growth(shortest) + _games(shortest) + _table(shortest)
+
+
+def _growth(shortest: dict[str, float]) -> str:
+    times: dict[str, dict[int, float]] = {}
+    for name, seconds in shortest.items():
+        what, _, case = name.rstrip("]").partition("[")
+        size, _, how = case.partition(" sessions")
+        if size.isdigit():
+            words = what.replace("_", " ") + (f" ({how.lstrip('-')})" if how else "")
+            times.setdefault(words, {})[int(size)] = seconds
+    sizes = sorted({size for row in times.values() for size in row})
+    head = ["what", *(f"{size:,} sessions" for size in sizes), "factor"]
+    rows = [
+        [what, *(in_words(row[size]) for size in sizes), f"{row[sizes[-1]] / row[sizes[0]]:.1f}"]
+        for what, row in times.items()
+    ]
+    return GROWTH.format(linear=sizes[-1] / sizes[0]) + table(head, rows)
+
+
+def _games(shortest: dict[str, float]) -> str:
+    games, in_c = 20_000, shortest.get("games_in_c")
+    named = {
+        "plain C, -O2": in_c,
+        "the kernel": shortest.get("games_of_the_kernel_without_their_results"),
+        "the kernel, with results as Python has them": shortest.get("games_of_the_kernel"),
+    }
+    rows = [
+        [what, f"{games / seconds:,.0f}", f"{in_c / seconds:.2f}" if in_c else "no C compiler"]
+        for what, seconds in named.items()
+        if seconds
+    ]
+    return GAMES + table(["what plays", "games a second", "of C"], rows)
+
+
+def _table(shortest: dict[str, float]) -> str:
+    before = "from_nothing_to_the_default_table["
+    rows = [
+        [name.removeprefix(before).rstrip("]"), in_words(seconds)]
+        for name, seconds in shortest.items()
+        if name.startswith(before)
+    ]
+    return TABLE + table(["how", "time"], rows)
+
+
+def in_words(seconds: float) -> str:
+    """Return a time in the unit that suits it."""
+    return f"{seconds:.1f} s" if seconds >= 1 else f"{seconds * 1000:.3g} ms"
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    """Return a table in Markdown; all columns but the first are numbers."""
+    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def main() -> None:
+    """Measure, and write the page."""
+    sessions = sys.argv[2] if sys.argv[1:2] == ["--sessions"] else SESSIONS
+    PAGE.write_text(page(measured(sessions)), "utf-8")
+
+
+if __name__ == "__main__":
+    main()
