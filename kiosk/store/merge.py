@@ -22,6 +22,7 @@ from kiosk.store.participants import checked_site, participant_name
 from kiosk.store.recorder import insert
 from kiosk.store.summaries import fill_summaries
 from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes
+from kiosk.store.verify import check_foreign
 
 Row = dict[str, Any]
 
@@ -45,6 +46,8 @@ def merge(
     """
     asked, out = out, out.resolve()
     _check_folders(folders, out)
+    for folder in folders:
+        check_foreign(folder)
     given = _given_sites(folders, sites)
     with ExitStack() as opened:
         parts = [

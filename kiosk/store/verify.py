@@ -13,6 +13,7 @@ from enum import Enum
 from functools import partial
 from pathlib import Path
 
+from kiosk import UserInputError
 from kiosk.experiment.events import from_fields
 from kiosk.garbage import rare_collections
 from kiosk.store.chain import broken_links, lost_ends, missing_since_written
@@ -76,6 +77,32 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
                 words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
                 flaws.append(Flaw(check, "the database", f"cannot be looked at: {words}"))
     return flaws
+
+
+LONGEST_BYTES = 64 * 1024 * 1024
+"""No text of a session comes near it; a file from elsewhere may have one that fills the memory."""
+
+
+def check_foreign(folder: Path) -> None:
+    """Refuse a data folder in which anything is wrong, before it is merged; raises UserInputError.
+
+    The schema comes first: a view in the place of a table could be read without end.
+    """
+    with closing(open_as_it_is(folder)) as connection:
+        connection.execute("PRAGMA trusted_schema = OFF")
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LONGEST_BYTES)
+        try:
+            wrong = list(_schema(connection))
+            for query in () if wrong else ("SELECT content FROM source", "SELECT payload FROM event"):
+                for _ in connection.execute(query):
+                    pass
+        except sqlite3.Error as error:
+            raise UserInputError(f"the database of {folder} cannot be read: {reason(error, folder)}") from error
+    found = wrong or [(each.where, each.what) for each in verify(folder) if each.check not in _HARMLESS]
+    if found:
+        where, what = found[0]
+        more = f", and {len(found) - 1} more" if len(found) > 1 else ""
+        raise UserInputError(f"{folder} is not as it was written: {where}: {what}{more}; see 'recollect verify'")
 
 
 _Found = Iterator[tuple[str, str]]
@@ -302,6 +329,9 @@ def _voice(connection: sqlite3.Connection) -> _Found:
 
 _SHORT = 12
 """So many digits of a hash tell two packs apart."""
+
+_HARMLESS = {Verification.VOICE, Verification.FINISHED}
+"""What is no sign that anything was changed; a merge refuses people who withdrew by itself, and names them."""
 
 _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.FILE: _file,
