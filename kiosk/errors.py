@@ -167,7 +167,8 @@ def _note(found: dict[Steps, int], steps: Steps, line: int) -> None:
 
 
 def _note_all(found: dict[Steps, int], here: Steps, value: Any, line: int) -> None:
-    found.setdefault(here, line)
+    if here:
+        found.setdefault(here, line)
     if isinstance(value, dict | list):
         inside = value.items() if isinstance(value, dict) else enumerate(value)
         for step, each in inside:
