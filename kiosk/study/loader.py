@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from kiosk import UserInputError
-from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable
+from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable, find_action
 from kiosk.assistance.wording import CARD, REPLACING, Catalogue, sources_in
 from kiosk.config import (
     ASSETS,
@@ -176,6 +176,7 @@ def read_study(settings: Settings) -> StudyConfig:
     look.read_tables()
     policy = look.policy()
     policies = look.policies(policy)
+    look.check_hints(filter(None, (policy, *policies.values())))
     actions = (action for table in (policy, *policies.values()) if table for action in table.actions)
     catalogues = look.catalogues(tuple(dict.fromkeys(actions)))
     sheets = look.sheets()
@@ -512,6 +513,19 @@ class _Look:
             return {}
         own = {name: self._table(f"conditions.{name}.policy", table) for name, table in named.items()}
         return {name: own.get(name) or policy for name in self._settings.all_conditions}
+
+    def check_hints(self, tables: Iterable[QTable]) -> None:
+        """See that the tables have the actions that are taken without asking them, as states name the last one."""
+        assistance = self._settings.assistance
+        needed = {
+            "timing": (ActionSpec.SUG_COL, ActionSpec.SUG_CARD) if assistance.timing == "model" else (),
+            "hesitation_action": (find_action(assistance.hesitation_action),) if assistance.hesitation_max else (),
+        }
+        for table in tables:
+            for key, actions in needed.items():
+                lacking = ", ".join(action.label for action in actions if action not in table.actions)
+                if lacking:
+                    self._blame(f"assistance.{key}", f"a table that the study names has no action {lacking}")
 
     def condition(self, key: str, name: str) -> Condition | None:
         """Return the condition of a name, if there is one."""

@@ -5,6 +5,10 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import pytest
+
+from kiosk import UserInputError
+from kiosk.assistance.policy import ACTIONS, Gate, QTable, states_with
 from kiosk.config import POLICIES, ExperimenterConfig, Keys, Settings
 from kiosk.preflight import Severity
 from kiosk.study import checks
@@ -68,3 +72,19 @@ def test_an_experimenter_who_could_not_get_out_is_told() -> None:
     (locked,) = checks.shortcuts_check(Keys(quit=""))
     assert (told.severity, Keys().quit in told.message) == (Severity.OK, True)
     assert (locked.severity, "quit" in locked.message) == (Severity.WARNING, True)
+
+
+@pytest.mark.parametrize(
+    ("lines", "lacking"),
+    [('timing = "model"', "sug_card"), ('hesitation_max = 1\nhesitation_action = "sug_card"', "sug_card")],
+)
+def test_a_table_lacks_no_action_that_is_taken_without_asking_it(lines: str, lacking: str, tmp_path: Path) -> None:
+    actions = tuple(action for action in ACTIONS if action.label != lacking)
+    table = QTable.freeze("few", Gate(), [[0.0] * len(actions) for _ in states_with(actions)], {}, actions)
+    (tmp_path / "few.json").write_text(table.to_json(), "utf-8")
+    file = tmp_path / "study.toml"
+    file.write_text(f'[assistance]\npolicy = "few.json"\n{lines}\n', "utf-8")
+    with pytest.raises(UserInputError, match=f"a table that the study names has no action {lacking}"):
+        read_study(Settings.read(file))
+    file.write_text('[assistance]\npolicy = "few.json"\n', "utf-8")
+    assert read_study(Settings.read(file)).plans[0].policy.actions == actions
