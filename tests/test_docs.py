@@ -171,6 +171,16 @@ def pages(section: dict[str, list[dict[str, str]]]) -> list[str]:
     return [file for entries in section.values() for entry in entries for file in entry.values()]
 
 
+def test_every_test_that_holds_a_promise_exists() -> None:
+    page = (ROOT / "docs" / "explanation" / "promises.md").read_text("utf-8")
+    named = re.findall(r"(tests/[\w/]+\.py)::(\w+)", page)
+    rows = re.findall(r"^\| (?!promise|who|---|\[).+\|$", page, flags=re.M)
+    assert [row for row in rows if "::test_" not in row] == []
+    assert named
+    gone = [(file, name) for file, name in named if f"\ndef {name}(" not in (ROOT / file).read_text("utf-8")]
+    assert gone == []
+
+
 def test_a_link_that_leaves_the_pages_is_only_text_in_the_site() -> None:
     written = "[a](../../kiosk/game.py#x) [b](../reference/b.md#c) [d](#e) ![f](../f.png) [g](https://example.org)"
     assert SITE.inside_only(written, "how-to/page.md") == written.replace("[a](../../kiosk/game.py#x)", "a")
