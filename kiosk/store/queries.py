@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, date, datetime, time, timedelta
+from functools import cached_property
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import Explanation, game_after
@@ -31,6 +32,9 @@ from kiosk.store.database import in_use, open_for_reading, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_name
 from kiosk.store.summaries import numbers_so_far
 from kiosk.units import MS_PER_SECOND
+
+if TYPE_CHECKING:
+    import sqlite_utils
 
 LARGEST = 2**63 - 1
 """The largest whole number that SQLite knows."""
@@ -371,8 +375,8 @@ class SessionRepository:
             raise UserInputError(f"what session {number} followed cannot be read: {error}") from error
 
     def _changed_language(self, number: int) -> bool:
-        query = "SELECT 1 FROM event WHERE session = ? AND type = ? LIMIT 1"
-        return self._connection.execute(query, (number, LanguageSelected.__name__)).fetchone() is not None
+        where = "session = ? AND type = ?"
+        return self._tables["event"].count_where(where, [number, LanguageSelected.__name__]) > 0
 
     def _translations(self, row: dict[str, Any]) -> tuple[Translation, ...]:
         """All languages that the visitor could go on in."""
@@ -390,17 +394,22 @@ class SessionRepository:
 
     def source(self, sha256: str) -> str:
         """Return what is kept under a hash; raises UserInputError if nothing is."""
-        kept = self._connection.execute("SELECT content FROM source WHERE sha256 = ?", (sha256,)).fetchone()
-        if kept is None:
-            raise UserInputError(f"nothing is kept under the hash {sha256}")
-        return str(kept[0])
+        for row in self._tables["source"].rows_where("sha256 = ?", [sha256]):
+            return str(row["content"])
+        raise UserInputError(f"nothing is kept under the hash {sha256}")
 
     def _row(self, number: int) -> dict[str, Any]:
-        query = "SELECT * FROM session WHERE id = :number"
-        row = next(self._rows(query, {"number": number}), None) if abs(number) <= LARGEST else None
-        if row is None:
-            raise UserInputError(f"there is no session {number}")
-        return row
+        rows = self._tables["session"].rows_where("id = ?", [number]) if abs(number) <= LARGEST else ()
+        for row in rows:
+            return row
+        raise UserInputError(f"there is no session {number}")
+
+    @cached_property
+    def _tables(self) -> sqlite_utils.Database:
+        """The tables, by name."""
+        import sqlite_utils  # noqa: PLC0415 - it loads numpy, which the list of sessions has no use for
+
+        return sqlite_utils.Database(self._connection)
 
     def _rows(self, query: str, values: dict[str, str | int]) -> Iterator[dict[str, Any]]:
         """Yield each row by the names of its columns."""
