@@ -114,6 +114,7 @@ def health_lines(state: HealthInputs, catalogue: Catalogue) -> tuple[HealthLine,
         HealthLine(
             translate("console-supervisor"),
             translate("console-supervisor-there" if state.supervised else "console-supervisor-none"),
+            state.supervised,
         ),
     )
 

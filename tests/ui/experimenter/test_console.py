@@ -16,6 +16,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import Action
+from kiosk.sd_notify import BEAT_WITHIN
 from kiosk.store.maintenance import FreeSpace
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
@@ -277,7 +278,8 @@ def test_while_somebody_plays_no_condition_is_told_of_anybody(make_assigner: Mak
     assert any(noted["words"] == "next condition: hidden" for noted in records(assigner)["deviations"])
 
 
-def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk) -> None:
+def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(BEAT_WITHIN, "30000000")
     assigner.app.experimenter.upkeep.free_space = FreeSpace(4000)
     assigner.open_panel()
     assert assigner.panel.property("health")["summary"] == "All is well"

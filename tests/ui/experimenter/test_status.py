@@ -48,6 +48,7 @@ WELL = HealthInputs(
     has_pin=True,
     screen="1920 x 1080",
     screen_well=True,
+    supervised=True,
 )
 
 
@@ -115,6 +116,7 @@ def test_every_deviation_has_a_line_in_every_language(noted: AuditEvent, languag
             "PIN",
             "none is set: every session is a trial, and anybody who knows the keys can do everything",
         ),
+        (replace(WELL, supervised=False), "Supervisor", "none; if the kiosk fails, it stays off"),
         (replace(WELL, screen="the desktop gets some keys", screen_well=False), "Screen", "the desktop gets some keys"),
     ],
 )
