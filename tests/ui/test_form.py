@@ -396,6 +396,18 @@ def test_the_keys_on_the_screen_come_for_a_touch_and_not_for_a_mouse(booth: Boot
     assert item_centre(booth.item("number-alone")) == place
 
 
+def test_the_helper_makes_room_for_the_keys_of_a_number_on_an_upright_screen(booth: Booth, qtbot: QtBot) -> None:
+    window = booth.app.window
+    window.resize(1080, 1920)
+    qtbot.waitUntil(lambda: window.contentItem().width() == 1080)
+    ask(booth, ITEMS["integer"])
+    assert booth.sees("face")
+    booth.click("number-alone")
+    assert not booth.sees("face")
+    booth.click("key-done")
+    assert booth.sees("face")
+
+
 def test_one_press_of_a_digit_answers_each_scale_in_turn(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["likert"], ITEMS["differential"], ITEMS["pictures"])
     press(booth, Qt.Key.Key_3, Qt.Key.Key_1, Qt.Key.Key_5, RETURN)

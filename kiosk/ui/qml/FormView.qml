@@ -15,6 +15,9 @@ PageFrame {
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
+    // Whether the keys of a number stand below this page, where the helper is on an upright screen.
+    readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
+
     title: words["form-title"]
     quiet: form.skips
     label: words[form.skips ? "form-skip" : "form-next"]

@@ -160,6 +160,7 @@ Window {
         }
         // Keys of a number stand beside this page, where a page that is made later is not touched.
         FormView {
+            id: formView
             anchors.fill: parent
             visible: root.kiosk.screen === "form"
             focus: visible && root.kiosk.bare
@@ -261,6 +262,7 @@ Window {
         avatar: root.avatar
         speaks: root.wide || root.speaks
         thinks: boardView.visible && root.board.speaking
+        yields: formView.visible && formView.keysBelow && !root.kiosk.paused
         rests: root.kiosk.paused
         // Large sentences need the room.
         share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.76 : 0.72) : 0.64
