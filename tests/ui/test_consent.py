@@ -81,7 +81,8 @@ def test_a_double_click_is_one_tick(booth: Booth, done: Done) -> None:
 def test_the_way_to_agree_stands_back_until_the_required_boxes_are_ticked_and_can_be_tapped(
     booth: Booth, done: Done
 ) -> None:
-    assert booth.item("agree").property("quiet")
+    assert (booth.item("agree").property("quiet"), booth.item("agree").property("waits")) == (True, True)
+    assert not booth.item("decline").property("waits")
     booth.click("agree")
     assert done == ["agreed"]
     booth.app.screens.consent.show_ticks(REQUIRED)

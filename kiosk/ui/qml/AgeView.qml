@@ -39,7 +39,7 @@ PageFrame {
                 width: answers.wish
                 height: Math.max(implicitHeight, (!answers.abreast ? 200 : view.width < view.height ? 520 : 320) * Theme.unit)
                 words: view.words["age-yes"]
-                font.pixelSize: Theme.pageTitle
+                font.pixelSize: Theme.size(96)
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -49,7 +49,7 @@ PageFrame {
                 width: answers.wish
                 height: yes.height
                 words: view.words["age-no"]
-                font.pixelSize: Theme.pageTitle
+                font.pixelSize: Theme.size(96)
                 onClicked: view.age.answer(false)
             }
         }

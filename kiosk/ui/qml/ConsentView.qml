@@ -18,6 +18,7 @@ PageFrame {
     quiet: !consent.complete
     other: words["consent-decline"]
     way.name: "agree"
+    way.waits: !consent.complete
     way.otherName: "decline"
     onWent: consent.agree()
     onTurnedDown: consent.decline()

@@ -12,6 +12,7 @@ FocusScope {
     // What the way on says; with no words there is none but the page's own buttons.
     property string label: ""
     property bool quiet: false
+    property bool waits: false
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
     property string name: "continue"
@@ -45,6 +46,7 @@ FocusScope {
         most: ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
+        waits: ways.waits
         words: ways.label
         focus: true
         onClicked: ways.went()
