@@ -41,21 +41,28 @@ class PulseServer:
 
     def start(self) -> None:
         """Start it, and wait until it answers."""
+        self._server = self._launched()
+        deadline = time.monotonic() + PATIENCE_S
+        while self.control("info").returncode != 0:
+            assert time.monotonic() < deadline, "the sound server does not answer"
+            # It ends if it finds somebody at its socket, as a player that looks for the device may be.
+            if self._server.poll() is not None:
+                self._server = self._launched()
+
+    def _launched(self) -> subprocess.Popen[bytes]:
+        self._socket.unlink(missing_ok=True)
         # Without norewinds it may take two seconds of sound ahead, and then none for as long.
         modules = (
             "module-null-sink sink_name=booth rate=48000 norewinds=1",
             f"module-native-protocol-unix socket={self._socket}",
         )
         command = [_program("pulseaudio"), "-n", "--exit-idle-time=-1", "--daemonize=no", "--use-pid-file=no"]
-        self._server = subprocess.Popen(
+        return subprocess.Popen(
             [*command, *(part for module in modules for part in ("-L", module))],
             env=self.environment,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        deadline = time.monotonic() + PATIENCE_S
-        while self.control("info").returncode != 0:
-            assert time.monotonic() < deadline, "the sound server does not answer"
 
     def stop(self) -> None:
         """End it, as when a loudspeaker is pulled out."""
