@@ -271,7 +271,8 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     panel.list_shortcuts({"title": MARKUP, "rows": [{"keys": BOLD, "words": MARKUP}]})
     panel.show_records(
         {
-            "cells": [{"name": MARKUP, "done": BOLD, "share": 0.5, "counts": ["1", "2", "3", "4"]}],
+            "listed": True,
+            "cells": [{"name": MARKUP, "listed": True, "done": BOLD, "share": 0.5, "counts": ["1", "2", "3", "4"]}],
             "visits": MARKUP,
             "sessions": [
                 dict.fromkeys(("participant", "when", "condition", "stage", "status", "reason", "robot"), BOLD)

@@ -116,8 +116,10 @@ console-screen = Screen
 
 ## Counts
 
-console-counts = Completed games
+console-counts = Completed games in all
+console-counts-unlisted = Sessions begun in all
 console-counts-done = of quota
+console-counts-begun = begun
 console-counts-dropped = left early
 console-counts-overridden = chosen
 console-counts-beyond = beyond
@@ -206,6 +208,7 @@ console-quit = Leave the kiosk
 
 console-alarms = Alarms
 console-alarms-none = None
+console-alarms-none-but-notice = None. The line at the top is a notice: nothing rings for it.
 console-alarm-until = {" "}(over at { $time })
 console-alarm-robot-lost = The robot is lost; the avatar helps
 console-alarm-voice-lost = No sentence is heard: look at the loudspeaker and the sound settings

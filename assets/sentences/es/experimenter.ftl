@@ -116,8 +116,10 @@ console-screen = Pantalla
 
 ## Counts
 
-console-counts = Partidas completadas
+console-counts = Completadas en total
+console-counts-unlisted = Sesiones iniciadas en total
 console-counts-done = de cuota
+console-counts-begun = iniciadas
 console-counts-dropped = dejadas
 console-counts-overridden = elegidas
 console-counts-beyond = de más
@@ -206,6 +208,7 @@ console-quit = Salir del quiosco
 
 console-alarms = Alarmas
 console-alarms-none = Ninguna
+console-alarms-none-but-notice = Ninguna. La línea de arriba es un aviso: no suena nada.
 console-alarm-until = {" "}(terminó a las { $time })
 console-alarm-robot-lost = El robot no responde; ayuda el avatar
 console-alarm-voice-lost = Las frases no se oyen: revise el altavoz y los ajustes de sonido

@@ -116,8 +116,10 @@ console-screen = Schermo
 
 ## Counts
 
-console-counts = Partite completate
+console-counts = Partite completate in tutto
+console-counts-unlisted = Sessioni iniziate in tutto
 console-counts-done = su quota
+console-counts-begun = iniziate
 console-counts-dropped = lasciate
 console-counts-overridden = scelte
 console-counts-beyond = oltre
@@ -206,6 +208,7 @@ console-quit = Esci dal chiosco
 
 console-alarms = Allarmi
 console-alarms-none = Nessuno
+console-alarms-none-but-notice = Nessuno. La riga in alto è un avviso: non suona nulla.
 console-alarm-until = {" "}(finito alle { $time })
 console-alarm-robot-lost = Il robot non risponde più; aiuta l’avatar
 console-alarm-voice-lost = Le frasi non si sentono: guardare l’altoparlante e le impostazioni dell’audio

@@ -257,6 +257,7 @@ def session_rows(seen: DashboardSnapshot, catalogue: Catalogue, name: NameCondit
     visits = {why.value: number for why, number in seen.counts.visits.items()}
     told = (lambda _: translate("console-hidden")) if played else name
     return {
+        "listed": any(cell.quota for cell in seen.counts.cells.values()),
         "cells": [_cell(name(condition), cell) for condition, cell in seen.counts.cells.items()],
         "visits": translate("console-visits", **visits),
         "sessions": [_session(session, translate, told) for session in seen.sessions],
@@ -279,7 +280,7 @@ def today_rows(
         ("completed", str(day.completed), translate("console-today-hour", done=day.last_hour)),
         (
             "target",
-            f"{done} / {target}" if target else str(done),
+            f"{done} / {target}" if target else str(done or "-"),
             _forecast(day, max(0, target - done), now, catalogue),
         ),
         (
@@ -380,6 +381,7 @@ def _cell(name: str, cell: CountCell) -> Row:
     return {
         "name": name,
         "done": f"{done} / {quota}" if quota else str(cell.fates[Disposition.UNLISTED] or ""),
+        "listed": quota > 0,
         "share": min(1.0, done / quota) if quota else 0.0,
         "counts": [
             str(number or "")

@@ -186,7 +186,15 @@ class PanelScreen(QObject):
         self._health: Row = {"well": True, "summary": "", "lines": [], "more": []}
         self._today: Row = {"clock": "", "tiles": []}
         self._shortcuts: Row = {"title": "", "rows": []}
-        self._records: Row = {"cells": [], "visits": "", "sessions": [], "deviations": [], "more": "", "resumable": []}
+        self._records: Row = {
+            "listed": False,
+            "cells": [],
+            "visits": "",
+            "sessions": [],
+            "deviations": [],
+            "more": "",
+            "resumable": [],
+        }
         self._choices: Row = {}
         self._alarms: list[Row] = []
 
@@ -218,7 +226,7 @@ class PanelScreen(QObject):
             self.today_changed.emit()
 
     def show_records(self, records: Row) -> None:
-        """Show what is stored: ``cells``, ``visits``, ``sessions``, ``deviations`` and ``resumable``."""
+        """Show what is stored: ``cells`` and whether they are ``listed``, ``visits``, ``sessions`` and so on."""
         if records != self._records:
             self._records = records
             self.records_changed.emit()

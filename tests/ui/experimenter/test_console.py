@@ -33,6 +33,16 @@ from tests.ui.experimenter.conftest import Desk, MakeDesk, Witness
 LISTED = {"randomisation": {"target_n": {"tom": 2, "notom": 2}, "block_size": 4}}
 
 
+NO_ALARM = "None. The line at the top is a notice: nothing rings for it."
+
+
+def shows(item: QQuickItem, words: str) -> bool:
+    """Whether these words are to be seen in an item."""
+    if not item.isVisible():
+        return False
+    return item.property("text") == words or any(shows(child, words) for child in item.childItems())
+
+
 def records(assigner: Desk) -> dict[str, Any]:
     """Return what the panel tells of the records."""
     shown: dict[str, Any] = assigner.panel.property("records")
@@ -252,6 +262,17 @@ def test_counts_stand_against_the_quotas_and_the_last_sessions_tell_how_they_end
     assert sorted(cell["done"] for cell in records(assigner)["cells"]) == ["0 / 2", "1 / 2"]
     assert sum(int(cell["counts"][0] or 0) for cell in records(assigner)["cells"]) == 1
     assert records(assigner)["deviations"][0]["words"] == "session stopped in: game"
+    assert shows(assigner.app.window.contentItem(), "of quota")
+
+
+def test_without_a_list_the_panel_counts_sessions_begun_and_has_no_quota(assigner: Desk) -> None:
+    assigner.go_to(Stage.GAME)
+    assigner.open_panel()
+    assigner.wait_until(lambda: bool(records(assigner)["cells"]))
+    (cell,) = records(assigner)["cells"]
+    assert (records(assigner)["listed"], cell["listed"], cell["done"]) == (False, False, "1")
+    window = assigner.app.window.contentItem()
+    assert [words for words in ("begun", "of quota") if shows(window, words)] == ["begun"]
 
 
 def test_the_condition_of_the_session_under_way_is_not_told(make_assigner: MakeDesk) -> None:
@@ -283,9 +304,11 @@ def test_one_line_tells_that_all_is_well_or_what_is_not(assigner: Desk, monkeypa
     assigner.app.experimenter.upkeep.free_space = FreeSpace(4000)
     assigner.open_panel()
     assert assigner.panel.property("health")["summary"] == "All is well"
+    assert not shows(assigner.app.window.contentItem(), NO_ALARM)
     assigner.app.experimenter.upkeep.free_space = FreeSpace(100)
     assigner.wait_until(lambda: not assigner.panel.property("health")["well"])
     assert assigner.panel.property("health")["summary"] == "Disk: only 100 MiB free: make room this evening"
+    assert shows(assigner.app.window.contentItem(), NO_ALARM)
 
 
 def test_a_voice_that_is_lost_is_written_down_and_shown_among_the_days_events(assigner: Desk) -> None:

@@ -178,6 +178,10 @@ def test_a_forecast_needs_a_pace_and_something_that_is_missing(
     assert day_at(hours, done, 30, completed)["target"] == f"{done} / 30: {words}"
 
 
+def test_without_a_target_its_games_are_none_rather_than_0() -> None:
+    assert day_at(3, done=0, quota=0, completed=6)["target"] == "-: "
+
+
 def test_conditions_have_letters_in_the_order_of_the_design() -> None:
     name = neutral_names((None, Condition.NOTOM, Condition.TOM), EN.text)
     assert [name(each) for each in (Condition.TOM, Condition.NOTOM, None)] == ["A", "B", "automatic"]

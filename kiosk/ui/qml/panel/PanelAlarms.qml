@@ -11,7 +11,11 @@ PanelSection {
 
     title: panel.words["console-alarms"]
 
-    PanelEmpty { words: alarms.panel.words["console-alarms-none"]; visible: alarms.panel.alarms.length === 0 }
+    // What is not well need not be an alarm: then the line at the top stands over an empty list.
+    PanelEmpty {
+        words: alarms.panel.words[alarms.panel.health.well ? "console-alarms-none" : "console-alarms-none-but-notice"]
+        visible: alarms.panel.alarms.length === 0
+    }
     Repeater {
         model: alarms.panel.alarms
         delegate: Row {

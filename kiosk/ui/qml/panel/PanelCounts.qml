@@ -18,11 +18,15 @@ PanelSection {
 
     readonly property list<string> columns: ["dropped", "overridden", "beyond", "withdrawn"]
 
-    title: words["console-counts"]
+    // Without a list there is no quota: its sessions are counted as soon as they begin.
+    readonly property string heading: words[records.listed ? "console-counts-done" : "console-counts-begun"]
+
+    aside: names.visible ? names.width : 0
+    title: words[records.listed ? "console-counts" : "console-counts-unlisted"]
 
     Row {
         PlainText { width: counts.first + counts.between; text: " "; font.pixelSize: Theme.dense }
-        PanelCell { width: counts.second; words: counts.words["console-counts-done"]; heading: true }
+        PanelCell { width: counts.second; words: counts.heading; heading: true }
         Repeater {
             model: counts.columns
             delegate: PanelCell {
@@ -51,6 +55,7 @@ PanelSection {
                 width: counts.second
                 height: done.height
                 Rectangle {
+                    visible: cell.modelData.listed
                     anchors { left: parent.left; verticalCenter: parent.verticalCenter }
                     width: parent.width * 0.5
                     height: 12 * Theme.unit
@@ -65,9 +70,9 @@ PanelSection {
                 }
                 PlainText {
                     id: done
-                    x: parent.width * 0.56
+                    x: cell.modelData.listed ? parent.width * 0.56 : 0
                     text: cell.modelData.done
-                    Accessible.name: `${text} ${counts.words["console-counts-done"]}`
+                    Accessible.name: `${text} ${counts.heading}`
                     font.pixelSize: Theme.dense
                     color: Theme.ink
                 }
@@ -87,6 +92,7 @@ PanelSection {
     }
     // Visitors may read along, so the conditions are named only on request.
     PanelButton {
+        id: names
         parent: counts
         anchors { top: parent.top; right: parent.right; margins: 0.6 * Theme.gap }
         objectName: "names"

@@ -7,6 +7,7 @@ Rectangle {
     id: section
 
     required property string title
+    property real aside: 0     // how much room the heading leaves for what stands beside it
     default property alias content: body.data
 
     height: body.height + heading.height + 2.4 * Theme.gap
@@ -17,6 +18,7 @@ Rectangle {
     PlainText {
         id: heading
         anchors { top: parent.top; left: parent.left; right: parent.right; margins: 0.8 * Theme.gap }
+        anchors.rightMargin: 0.8 * Theme.gap + section.aside
         text: section.title
         font { pixelSize: Theme.dense * 1.12; bold: true }
         color: Theme.ink
