@@ -263,7 +263,8 @@ def crossings(parts: Sequence[Part]) -> Iterator[tuple[Part, Part]]:
     edges = [(seen.left(), seen.right(), seen.top(), seen.bottom()) for _, seen in sorted_parts]
     for one, (left, right, _, bottom) in enumerate(edges):
         for other in range(one + 1, len(edges)):
-            if edges[other][2] >= bottom:
+            # Places are fractions of pixels, so parts that touch may lie on each other by a rounding error.
+            if edges[other][2] > bottom - HALF_A_PIXEL:
                 break
             if edges[other][0] < right and left < edges[other][1]:
                 yield sorted_parts[one][0], sorted_parts[other][0]
