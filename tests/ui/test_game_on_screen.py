@@ -24,7 +24,7 @@ from kiosk.ui.renderer import Renderer
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
 from tests.ui.headless import headless
-from tests.ui.looking import items, lies_in
+from tests.ui.looking import items, lies_in, painted, place
 
 MOVING = RunMode(WindowMode.NOWHERE, ClockMode.WALL)
 QUIET = Settings.model_validate({"voice": {"enabled": False}})
@@ -367,6 +367,16 @@ def test_on_an_upright_screen_the_helper_stands_close_to_the_board(app: App) -> 
     bottom = board.mapToScene(board.boundingRect().bottomLeft()).y()
     top = face.mapToScene(face.boundingRect().topLeft()).y()
     assert bottom < top < bottom + 0.25 * app.window.height()
+
+
+@STILL
+def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than_to_the_tray(app: App) -> None:
+    resize(app.window, "upright")
+    lay_out(app.window)
+    shown = list(items(app.window.contentItem()))
+    tray = max(place(item).bottom() for item in shown if lies_in(item, "Tray"))
+    number = painted(min((item for item in shown if item.property("text") == "1"), key=lambda item: place(item).top()))
+    assert number.top() - tray > place(find(app, "card-0")).top() - number.bottom() > 0
 
 
 @STILL

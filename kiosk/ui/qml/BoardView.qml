@@ -46,7 +46,11 @@ FocusScope {
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
-    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
+    // The shelf stands further from the columns' numbers than the cards do, as they name the cards; but no card gets
+    // smaller by it.
+    readonly property real apart: upright ? 48 * Theme.unit : 0
+    readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
+    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip + Math.max(0, Math.min(apart, spare))
     // Where the words about the game stand: above the tray, or beside it in the same line.
     readonly property real wordsAt: 12 * Theme.unit
     readonly property real wordsHigh: upright ? wordsLine - 8 * Theme.unit : tray.height
@@ -58,7 +62,7 @@ FocusScope {
     readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
-    readonly property real wish: 34 * Theme.unit + shelf + numbers + pill.height
+    readonly property real wish: 34 * Theme.unit + shelf + apart + numbers + pill.height
         + rows * (width - numbers - 2 * Theme.gap) / Math.max(1, columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))

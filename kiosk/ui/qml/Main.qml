@@ -98,7 +98,7 @@ Window {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
         y: root.wide || !boardView.visible ? 0
-         : Math.round(root.high ? Math.max(0, (free - height) / 2) : 0.035 * root.room)
+         : Math.round(root.high ? Math.max(0, (free - height) / 2) : 0.01 * root.room)
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
