@@ -206,7 +206,7 @@ def colours(palette: str) -> dict[str, QColor]:
     theme = made.property("theme")
     names = (
         *("paper", "white", "sand", "edge", "ink", "faintInk"),
-        *("sea", "lightSea", "amber", "deepAmber", "done", "held"),
+        *("sea", "lightSea", "amber", "deepAmber", "leaf", "done", "held"),
     )
     found = {name: theme.property(name) for name in names}
     made.deleteLater()

@@ -51,6 +51,16 @@ def test_a_mark_stands_out_from_the_paper(palette: str, vision: Vision) -> None:
 
 
 @pytest.mark.parametrize("vision", Vision, ids=lambda vision: vision.name.lower())
+@pytest.mark.parametrize("palette", ["normal", "high"])
+def test_a_found_pair_stands_out_from_the_paper_and_is_not_taken_for_a_hint(palette: str, vision: Vision) -> None:
+    theme = colours(palette)
+    paper, frame, hint = (seen(colour(theme[name]), vision) for name in ("paper", "leaf", "amber"))
+    darker, lighter = sorted((relative_luminance(frame), relative_luminance(paper)))
+    assert (lighter + 0.05) / (darker + 0.05) >= EDGE_CONTRAST
+    assert float(distance(frame, hint).mean()) >= LEAST_MARK
+
+
+@pytest.mark.parametrize("vision", Vision, ids=lambda vision: vision.name.lower())
 def test_a_marked_card_is_told_from_one_that_is_not(vision: Vision) -> None:
     pictures = [seen(picture, vision) for picture in marks()]
     for plain, marked in (pictures[:2], pictures[2:]):

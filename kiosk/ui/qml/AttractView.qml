@@ -133,7 +133,7 @@ FocusScope {
                     width: face.width * face.scale + 12 * Theme.unit
                     height: width
                     radius: width * 0.13
-                    color: Theme.amber
+                    color: Theme.leaf
                 }
                 CardFace {
                     id: face

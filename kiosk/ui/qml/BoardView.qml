@@ -349,7 +349,7 @@ FocusScope {
                 anchors { fill: parent; margins: parent.width * 0.05 }
                 opacity: place.rest
                 radius: width * 0.12
-                color: (place.row + place.column + 1) <= view.wave * (view.rows + view.columns) ? Theme.amber : Theme.sand
+                color: (place.row + place.column + 1) <= view.wave * (view.rows + view.columns) ? Theme.amber : Theme.leaf
                 Behavior on color { ColorAnimation { duration: Theme.motion } }
             }
             Rectangle {
@@ -358,7 +358,7 @@ FocusScope {
                 width: face.width * face.scale * 1.04
                 height: width
                 radius: width * 0.13
-                color: Theme.amber
+                color: Theme.leaf
                 opacity: place.forward
             }
             CardFace {

@@ -91,7 +91,7 @@ PageFrame {
                         width: face.width + 10 * Theme.unit
                         height: width
                         radius: width * 0.13
-                        color: Theme.amber
+                        color: Theme.leaf
                     }
                     CardFace {
                         id: face

@@ -33,6 +33,8 @@ QtObject {
     readonly property color lightSea: highContrast ? "#000000" : Qt.colorEqual(accent, "#1F5F6B") ? "#2E7784" : Qt.darker(accent, 1.15)
     readonly property color amber: highContrast ? "#FFB000" : "#F2A33A"
     readonly property color deepAmber: highContrast ? "#5A2D00" : "#8A4B00"
+    // A pair that is found: not the colour of a hint, nor that of a closed card.
+    readonly property color leaf: highContrast ? "#00592E" : "#3E8E5A"
     // How much of a card is still to be seen when it is found for good, and while a tap on it would not count.
     readonly property real done: highContrast ? 1 : 0.6
     readonly property real held: highContrast ? 1 : 0.72

@@ -40,7 +40,7 @@ Item {
                 anchors { fill: parent; margins: parent.width * 0.06 }
                 radius: width * 0.18
                 color: place.filled ? Theme.sand : Theme.white
-                border { color: tray.full ? Theme.amber : Theme.edge; width: Math.max(1, (tray.full ? 4 : 3) * Theme.unit) }
+                border { color: tray.full ? Theme.amber : place.filled ? Theme.leaf : Theme.edge; width: Math.max(1, (place.filled ? 4 : 3) * Theme.unit) }
             }
             // Two cards, one on the other.
             Repeater {
