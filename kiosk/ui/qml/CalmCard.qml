@@ -9,6 +9,8 @@ FocusScope {
 
     required property string title
     property string line: ""
+    // What is to be noted down, large on a line of its own; empty for none.
+    property string code: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
     property string sign: ""
     // Where the middle of the card is.
@@ -80,6 +82,17 @@ FocusScope {
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
                 wrapMode: Text.Wrap
+            }
+            PlainText {
+                objectName: "noted"
+                width: parent.width
+                visible: text !== ""
+                text: calm.code
+                font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                fontSizeMode: Text.HorizontalFit
+                minimumPixelSize: Theme.body
+                color: Theme.sea
+                horizontalAlignment: Text.AlignHCenter
             }
             Flow {
                 id: flow

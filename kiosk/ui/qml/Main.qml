@@ -321,6 +321,7 @@ Window {
         sign: "M8.5 9 C8.5 4 16 4 16 8.7 C16 12 12 12 12 15 M12 19 V19.2"
         title: root.words["stop-title"]
         line: root.kiosk.stopLine
+        code: root.kiosk.stopCode
         choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
         onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")
         Keys.onEscapePressed: root.kiosk.ask("")

@@ -401,6 +401,11 @@ class KioskScreen(QObject):
         return self._catalogue.text("stop-line-kept", code=self._code)
 
     @Property(str, notify=controls)
+    def stopCode(self) -> str:  # noqa: N802 - QML's convention
+        """Return the code with which a visitor who stops can have it deleted; empty if nothing is kept."""
+        return self._code if self._consent is not None and self._consent.on_withdrawal != "delete" else ""
+
+    @Property(str, notify=controls)
     def pauseLine(self) -> str:  # noqa: N802 - QML's convention
         """Return what the pause screen says below its title."""
         if self._back_at:
