@@ -113,6 +113,7 @@ form-wrong-number = Please type a whole number from { $lowest } to { $highest }.
 form-refused = This holds a line break or another character that cannot be stored. Please type it again.
 form-range = from { $lowest } to { $highest }
 form-none = Nothing is chosen yet
+form-touch = Touch the line
 form-type = Tap here to type
 form-less = One less
 form-more = One more

@@ -114,6 +114,7 @@ form-wrong-number = Escribe un número entero de { $lowest } a { $highest }.
 form-refused = Contiene un salto de línea u otro carácter que no se puede guardar. Escríbelo de nuevo, por favor.
 form-range = de { $lowest } a { $highest }
 form-none = Aún no se ha elegido nada
+form-touch = Toca la línea
 form-type = Toca aquí para escribir
 form-less = Uno menos
 form-more = Uno más

@@ -118,6 +118,7 @@ form-wrong-number = Scrivi un numero intero da { $lowest } a { $highest }.
 form-refused = Contiene un a capo o un altro carattere che non si può salvare. Scrivilo di nuovo, per favore.
 form-range = da { $lowest } a { $highest }
 form-none = Non è ancora scelto nulla
+form-touch = Tocca la linea
 form-type = Tocca qui per scrivere
 form-less = Uno in meno
 form-more = Uno in più

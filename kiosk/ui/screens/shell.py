@@ -45,6 +45,7 @@ FIXED = (
     "form-skipped",
     "form-refused",
     "form-none",
+    "form-touch",
     "form-type",
     "form-less",
     "form-more",

@@ -113,6 +113,7 @@ form-wrong-number = Bitte gib eine ganze Zahl von { $lowest } bis { $highest } e
 form-refused = Darin ist ein Zeilenumbruch oder ein anderes Zeichen, das nicht gespeichert werden kann. Bitte gib es noch einmal ein.
 form-range = von { $lowest } bis { $highest }
 form-none = Noch nichts gewählt
+form-touch = Tippe auf die Linie
 form-type = Zum Schreiben hier tippen
 form-less = Eins weniger
 form-more = Eins mehr

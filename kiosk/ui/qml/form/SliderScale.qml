@@ -14,6 +14,7 @@ Item {
     required property string leftEnd
     required property string rightEnd
     required property string none       // "nothing is chosen yet"
+    required property string touch      // "touch the line"
     required property bool answered
     required property int given
     required property bool alone
@@ -26,7 +27,8 @@ Item {
     readonly property bool below: alone || width < 4 * most
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    readonly property real thickness: (alone ? 68 : 56) * Theme.unit
+    readonly property real rail: Math.max(36 * Theme.unit, hint.implicitHeight + 4 * Theme.unit)
+    readonly property real thickness: Math.max((alone ? 68 : 56) * Theme.unit, rail + 14 * Theme.unit)
 
     readonly property real words: Math.max(lower.height, upper.height)
 
@@ -67,7 +69,8 @@ Item {
         objectName: `slider-${scale.item}`
         x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
-        width: Math.min(900 * Theme.unit, scale.below ? scale.width : scale.width - scale.leftRoom - scale.rightRoom - 2 * Theme.gap)
+        // On a page of several, its ends stand at the same edges as those of the points.
+        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.below ? scale.width : scale.width - scale.leftRoom - scale.rightRoom - 2 * Theme.gap
         height: scale.thickness
         padding: 0
         from: scale.lowest
@@ -97,19 +100,24 @@ Item {
             x: 0
             y: (slider.height - height) / 2
             width: slider.width
-            height: 26 * Theme.unit
+            height: scale.rail
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
-            // A tenth of the way each, or a step where there are fewer.
+            // A tenth of the way each, or a step where there are fewer, and one at each end; where the middle of the handle can be.
             Repeater {
-                model: Math.min(10, scale.range) - 1
+                id: ticks
+                model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
-                    x: (index + 1) * slider.width / Math.min(10, scale.range) - width / 2
-                    y: (26 * Theme.unit - height) / 2
-                    width: 3 * Theme.unit
-                    height: 12 * Theme.unit
+                    readonly property bool end: index === 0 || index === ticks.model - 1
+                    readonly property real middle: scale.thickness / 2 + index / (ticks.model - 1) * (slider.width - scale.thickness)
+                    // Not under the words.
+                    visible: !hint.visible || Math.abs(middle - slider.width / 2) > hint.implicitWidth / 2 + 0.5 * Theme.gap
+                    x: middle - width / 2
+                    y: (scale.rail - height) / 2
+                    width: (end ? 4 : 3) * Theme.unit
+                    height: (end ? 22 : 12) * Theme.unit
                     radius: width / 2
                     color: Theme.lightSea
                 }
@@ -123,12 +131,23 @@ Item {
             objectName: `handle-${scale.item}`
             x: slider.visualPosition * (slider.width - width)
             y: (slider.height - height) / 2
-            width: scale.thickness * 0.8
+            width: scale.thickness
             height: width
             radius: width / 2
             visible: scale.answered || slider.pressed
             color: Theme.sea
             border { color: Theme.white; width: 4 * Theme.unit }
         }
+    }
+    // In the line as long as nothing is chosen: a handle that stood somewhere would suggest an answer.
+    PlainText {
+        id: hint
+        objectName: `touch-${scale.item}`
+        visible: !scale.answered && !slider.pressed
+        x: slider.x + (slider.width - width) / 2
+        y: slider.y + (slider.height - height) / 2
+        text: scale.touch
+        font.pixelSize: Theme.small
+        color: Theme.faintInk
     }
 }
