@@ -162,11 +162,11 @@ def test_a_digit_answers_the_next_item_after_one_that_does_not_apply(booth: Boot
     assert given[-1][1] == 3
 
 
-def test_a_slider_has_no_handle_until_it_is_put_somewhere(booth: Booth, given: Given) -> None:
+def test_a_slider_asks_for_a_touch_and_has_no_handle_until_it_is_put_somewhere(booth: Booth, given: Given) -> None:
     ask(booth, ITEMS["slider"])
-    assert not booth.sees("handle-effort")
+    assert (booth.sees("touch-effort"), booth.sees("handle-effort")) == (True, False)
     UiDriver(booth.app.window).click("slider-effort", across=0.8)
-    assert booth.sees("handle-effort")
+    assert (booth.sees("touch-effort"), booth.sees("handle-effort")) == (False, True)
     ((item, value),) = given
     assert item == "effort"
     assert isinstance(value, int)
