@@ -103,7 +103,7 @@ def test_a_session_is_played_again_up_to_an_event_that_cannot_be_read(pristine: 
 def test_a_session_that_cannot_be_read_is_named_and_the_others_are_listed(
     pristine: Path, tmp_path: Path, statement: str
 ) -> None:
-    broken_at(pristine, tmp_path / "data", f"{statement} WHERE ?1 > 0")
+    broken_at(pristine, tmp_path / "data", f"{statement} WHERE ? > 0")
     listed = run("sessions", "--data", tmp_path / "data", "--json")
     assert "session 1 cannot be read: " in listed.stderr
     assert json.loads(listed.stdout) == []

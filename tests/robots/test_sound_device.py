@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Generator, Iterator
 from itertools import count
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -277,14 +278,16 @@ def test_a_player_whose_program_fails_tells_that_there_is_no_device_until_it_pla
 
 
 @pytest.fixture
-def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[PulseServer]:
     """Provide a virtual loudspeaker."""
-    server = PulseServer(tmp_path)
-    server.start()
-    for name in ("PULSE_SERVER", "PULSE_RUNTIME_PATH", "XDG_RUNTIME_DIR"):
-        monkeypatch.setenv(name, server.environment[name])
-    yield server
-    server.stop()
+    # The path of a socket has at most 107 bytes, and a test's own folder may be longer.
+    with TemporaryDirectory() as folder:
+        server = PulseServer(Path(folder))
+        server.start()
+        for name in ("PULSE_SERVER", "PULSE_RUNTIME_PATH", "XDG_RUNTIME_DIR"):
+            monkeypatch.setenv(name, server.environment[name])
+        yield server
+        server.stop()
 
 
 @streams
