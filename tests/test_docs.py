@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 import shlex
 import subprocess
@@ -10,7 +9,6 @@ import sys
 import zipfile
 from pathlib import Path
 from queue import SimpleQueue
-from types import ModuleType
 
 import click
 import pytest
@@ -21,6 +19,7 @@ from kiosk.cli.guide import every_command
 from kiosk.cli.main import recollect
 from kiosk.config import Settings
 from kiosk.experiment.transitions import diagram
+from tests.packaging.scripts import load
 
 ROOT = Path(__file__).parent.parent
 PAGES = [
@@ -29,16 +28,6 @@ PAGES = [
     *sorted((ROOT / "docs").rglob("*.md")),
     *sorted(ROOT.glob("p*/*.md")),
 ]
-
-
-def load(name: str) -> ModuleType:
-    """Load a file of packaging/, which is no package."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / "packaging" / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 REFERENCE, BOOTSTRAP, SITE = load("reference"), load("bootstrap"), load("site_hooks")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import re
 import shlex
@@ -22,6 +21,7 @@ from kiosk.experiment.session_config import SessionKind
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
 from tests.forked import PROGRAM, LoadedProgram
+from tests.packaging.scripts import load
 from tests.samples import WITH_PIN, plan
 from tests.store.visitors import new_code
 from tests.store.visitors import rows as rows_of
@@ -105,12 +105,7 @@ class Newcomer:
 
 def bootstrap() -> ModuleType:
     """Return the file that the first command runs."""
-    spec = importlib.util.spec_from_file_location("bootstrap", ROOT / "packaging" / "bootstrap.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load("bootstrap")
 
 
 @pytest.fixture(scope="module")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+
+from tests.packaging.scripts import load
 
 ROOT = Path(__file__).parents[2]
 
@@ -14,12 +15,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture
 def bootstrap() -> ModuleType:
     """Return the file that sets everything up."""
-    spec = importlib.util.spec_from_file_location("bootstrap", ROOT / "packaging" / "bootstrap.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load("bootstrap")
 
 
 def test_files_of_tests_are_in_memory_for_one_run(

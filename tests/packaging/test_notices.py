@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import re
 from collections.abc import Iterator
 from importlib.metadata import Distribution, PackageNotFoundError, distribution, distributions
@@ -16,6 +15,8 @@ from packaging.specifiers import SpecifierSet
 from PySide6 import QtCore
 from Xlib import X
 
+from tests.packaging.scripts import load
+
 ROOT = Path(__file__).parents[2]
 REALTIME = "websockets"
 """What a build holds beyond the requirements of a plain installation."""
@@ -24,12 +25,7 @@ REALTIME = "websockets"
 @pytest.fixture(scope="module")
 def notices() -> ModuleType:
     """Return the file that collects them."""
-    spec = importlib.util.spec_from_file_location("notices", ROOT / "packaging" / "notices.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load("notices")
 
 
 def required(name: str, met: set[str]) -> Iterator[Distribution]:

@@ -212,7 +212,7 @@ def test_a_file_that_was_changed_at_random_ends_in_a_sentence_or_is_played(folde
         began = time.monotonic()
         try:
             became[_tried(folder, name)] += 1
-        except Exception as error:  # noqa: BLE001 - whatever it is, its seed is told and the next is tried
+        except Exception as error:  # noqa: BLE001 - the test names the seed of every error
             faults.setdefault(f"{name}: {type(error).__name__}: {error}"[:300], seed)
         finally:
             slowest = max(slowest, (time.monotonic() - began, seed))
