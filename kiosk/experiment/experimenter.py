@@ -197,6 +197,7 @@ class AuditEvent(Enum):
     MUTE_CHANGED = "MuteChanged"
     SESSION_ABORTED = "SessionAborted"
     SESSION_RESUMED = "SessionResumed"
+    PIN_ATTEMPTED = "PinAttempted"
     PIN_REFUSED = "PinRefused"
     PIN_ACCEPTED = "PinAccepted"
     PANEL_OPENED = "PanelOpened"

@@ -136,14 +136,17 @@ def last_written_ms(folder: Path) -> int:
 
 
 def wrong_pins(folder: Path) -> int:
-    """Return how many wrong PINs came since the last right one."""
+    """Return how many PINs were tried since the last right one.
+
+    An attempt without an answer, because the kiosk was killed while it checked, counts as a wrong one.
+    """
     with _looking_at(folder) as connection:
         times: int = connection.execute(
             """
-            SELECT count(*) FROM audit_event WHERE type = ?
-            AND id > (SELECT coalesce(max(id), 0) FROM audit_event WHERE type = ?)
+            SELECT max(count(*) FILTER (WHERE type = ?), count(*) FILTER (WHERE type = ?)) FROM audit_event
+            WHERE id > (SELECT coalesce(max(id), 0) FROM audit_event WHERE type = ?)
             """,
-            (AuditEvent.PIN_REFUSED.value, AuditEvent.PIN_ACCEPTED.value),
+            (AuditEvent.PIN_ATTEMPTED.value, AuditEvent.PIN_REFUSED.value, AuditEvent.PIN_ACCEPTED.value),
         ).fetchone()[0]
     return times
 

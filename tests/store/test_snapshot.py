@@ -119,6 +119,16 @@ def test_wrong_pins_are_counted_since_the_last_right_one(tmp_path: Path) -> None
         assert wrong_pins(tmp_path) == 2
 
 
+def test_a_pin_that_was_tried_and_never_answered_counts_as_wrong(tmp_path: Path) -> None:
+    with Recorder(tmp_path) as recorder:
+        for note in (AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_REFUSED, AuditEvent.PIN_ATTEMPTED):
+            recorder.add_audit_event(note.value, {})
+        assert wrong_pins(tmp_path) == 2
+        for note in (AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_ACCEPTED):
+            recorder.add_audit_event(note.value, {})
+        assert wrong_pins(tmp_path) == 0
+
+
 def test_a_folder_without_a_database_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UserInputError, match="there is no database"):
         read_snapshot(tmp_path, NOW, kind=SessionKind.STUDY)

@@ -69,6 +69,8 @@ class PinVerifier:
             return
         self._checks = True
         self._wrong = WrongPins(self._wrong.times + 1, self._now_ms())
+        # Written down first, so that an attempt counts even if the kiosk is killed before the answer.
+        self._write(AuditEvent.PIN_ATTEMPTED, {})
         self._work(partial(self._try, pin), partial(self._checked, told))
 
     def _try(self, pin: str) -> bool | Exception:

@@ -172,6 +172,23 @@ def test_the_wait_outlasts_a_new_start_and_the_right_pin_ends_the_row(make_assig
     assert [body["in_a_row"] for body in refusals(again)] == [1, 2, 3, 4, 1]
 
 
+def test_an_attempt_that_is_cut_off_with_the_kiosk_counts(
+    make_assigner: MakeDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assigner = make_assigner()
+    Slow(assigner, monkeypatch)
+    assigner.shortcut(Action.PANEL)
+    assigner.type(PIN)
+    assigner.enter()
+    assert not refusals(assigner)
+    assigner.close()
+    again = make_assigner(data=assigner.data)
+    again.shortcut(Action.PANEL)
+    assert again.card.asks_for is AuthorisationStep.WAIT
+    guess(again)
+    assert [body["in_a_row"] for body in refusals(again)] == [2]
+
+
 def test_the_card_goes_away_when_nobody_answers_and_the_session_has_gone_on_meanwhile(assigner: Desk) -> None:
     assert isinstance(assigner.app.clock, VirtualClock)
     assigner.go_to(Stage.PRACTICE)

@@ -47,7 +47,7 @@ def test_a_session_that_is_ended_meanwhile_ends_when_that_is_written(assigner: D
     assert assigner.stage is Stage.INTRODUCTION
     other.execute("ROLLBACK")
     assigner.wait_until(lambda: assigner.stage is Stage.ATTRACT)
-    assert kinds(assigner) == ["PinAccepted", "SessionAborted"]
+    assert kinds(assigner) == ["PinAttempted", "PinAccepted", "SessionAborted"]
     with open_repository(assigner.data) as stored:
         assert [session.status for session in stored.sessions()] == [Status.STOPPED]
 
@@ -84,7 +84,7 @@ def test_the_panel_opens_and_closes_meanwhile_and_both_are_known_afterwards(
     assigner.shortcut(Action.PANEL)
     assert not assigner.panel.is_open
     other.execute("ROLLBACK")
-    assigner.wait_until(lambda: kinds(assigner) == ["PinAccepted", "PanelOpened"])
+    assigner.wait_until(lambda: kinds(assigner) == ["PinAttempted", "PinAccepted", "PanelOpened"])
     assigner.app.runner.close()
     with open_repository(assigner.data) as stored:
         told = [type(event).__name__ for event in stored.events(1)]
@@ -113,7 +113,7 @@ def test_leaving_waits_for_nobody_but_what_is_left_is_written_while_it_closes(
     assert kinds(assigner) == []
     other.execute("ROLLBACK")
     assigner.close()
-    assert kinds(assigner) == ["PinAccepted", "PinAccepted", "ApplicationQuit"]
+    assert kinds(assigner) == [*["PinAttempted", "PinAccepted"] * 2, "ApplicationQuit"]
 
 
 def test_activity_told_meanwhile_does_not_shorten_the_idle_time_of_the_next_stage(

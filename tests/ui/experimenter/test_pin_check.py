@@ -40,8 +40,8 @@ class Door:
 
 def test_a_right_and_a_wrong_pin_are_written_down_then_told_whatever_the_disk_says() -> None:
     door = Door()
-    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
-    assert door.check("1111") == [AuditEvent.PIN_REFUSED, False]
+    assert door.check("258013") == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("1111") == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_REFUSED, False]
 
 
 def test_while_nobody_may_try_the_right_one_is_not_even_looked_at() -> None:
@@ -49,7 +49,7 @@ def test_while_nobody_may_try_the_right_one_is_not_even_looked_at() -> None:
     door.check("1111")
     assert door.check("258013") == [False]
     door.now_ms += door.lock.left_ms
-    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("258013") == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_ACCEPTED, True]
 
 
 def test_the_row_goes_on_from_the_records_and_the_wait_begins_anew() -> None:
@@ -85,13 +85,14 @@ def test_of_a_burst_one_pin_is_checked_and_the_right_one_among_them_opens_nothin
         door.lock.check_pin(pin, door.tell)
     assert len(slow.jobs) == 1
     slow.do()
-    assert door.heard == [*[False] * 39, AuditEvent.PIN_REFUSED, False]
+    assert door.heard == [AuditEvent.PIN_ATTEMPTED, *[False] * 39, AuditEvent.PIN_REFUSED, False]
     assert door.check("258013") == [False]
     assert slow.jobs == []
+    door.heard.clear()
     door.now_ms += door.lock.left_ms
     door.check("258013")
     slow.do()
-    assert door.heard == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.heard == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_ACCEPTED, True]
 
 
 def test_the_wait_is_whole_however_long_the_check_took() -> None:
@@ -111,6 +112,6 @@ def test_a_check_that_fails_counts_as_a_wrong_pin_and_locks_nobody_out(monkeypat
         patch.setattr("kiosk.ui.experimenter.authorisation.pin_matches", lambda *_: 1 / 0)
         with pytest.raises(ZeroDivisionError):
             door.lock.check_pin("258013", door.tell)
-    assert door.heard == [AuditEvent.PIN_REFUSED, False]
+    assert door.heard == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_REFUSED, False]
     door.now_ms += door.lock.left_ms
-    assert door.check("258013") == [AuditEvent.PIN_ACCEPTED, True]
+    assert door.check("258013") == [AuditEvent.PIN_ATTEMPTED, AuditEvent.PIN_ACCEPTED, True]
