@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtGui import QImage
 
+from kiosk.ui.rehearsal import LAYOUTS
 from tests.golden import story
 from tests.golden.story import recollect
 
@@ -31,18 +32,19 @@ def test_a_rehearsal_prints_one_object_and_the_list_of_sessions_has_the_same(tmp
 def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
     shots = tmp_path / "shots"
     here = ("--data", str(tmp_path / "data"), "--shots", str(shots))
-    recollect("rehearse", "--headless", "--seed", "1", "--language", "es", "--layout", "upright", *here)
-    assert [sheet.name for sheet in shots.glob("contact-*")] == ["contact-es-upright.png"]
+    recollect("rehearse", "--headless", "--seed", "1", "--language", "es", "--layout", "both", *here)
+    assert {sheet.name for sheet in shots.glob("contact-*")} == {"contact-es-upright.png", "contact-es-wide.png"}
     sheet = QImage(str(shots / "contact-es-upright.png"))
     assert sheet.width() > 8 * 150
     assert sheet.height() > 3 * 270
     assert len(json.loads(recollect("sessions", "--data", str(tmp_path / "data"), "--json"))) == 1
-    taken = {picture.stem[3:] for picture in shots.glob("*.png")}
+    taken = {picture.stem[3:] for picture in shots.glob("upright/*.png")}
+    assert taken == {picture.stem[3:] for picture in shots.glob("wide/*.png")}
     assert taken >= {"attract", "introduction", "board", "card", "turning-back", "speaking", "pair", "result"}
     assert taken >= {
         "about",
         "consent",
-        "ticks",
+        "ticked",
         "age",
         "about-you-1",
         "items-1",
@@ -51,7 +53,7 @@ def test_every_moment_of_a_rehearsal_is_photographed(tmp_path: Path) -> None:
         "debrief",
         "thanks",
     }
-    assert taken >= {"last-pair", "pause", "stop", "panel"}
-    heights = {QImage(str(picture)).height() for picture in shots.glob("[0-9]*.png")}
-    assert heights == {1920}
+    assert taken >= {"last-pair", "pause", "stop", "still-there", "panel"}
+    heights = {layout: {QImage(str(file)).height() for file in shots.glob(f"{layout}/*")} for layout in LAYOUTS}
+    assert heights == {"wide": {1080}, "upright": {1920}}
     assert taken & {"mark-card", "mark-row", "mark-column"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, replace
 from functools import partial
@@ -49,6 +49,7 @@ from kiosk.ui.rehearsal import (
     Screenshots,
     day_summary,
     draw_visitors,
+    layout_of,
     make_folder,
     rehearse_day,
     resize,
@@ -58,6 +59,9 @@ from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, MemoryTr
 from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 LARGEST_SEED = 2**63 - 1
+BOTH = "both"
+"""Asks for the single pictures of each layout."""
+
 SETTLE_MS = 450
 """When a picture is taken after its moment, so that nothing moves any more."""
 
@@ -110,12 +114,14 @@ leaves_option = click.option(
     "--shots",
     type=click.Path(path_type=Path),
     help="Save a picture of every moment in this folder, and contact sheets of the session: with --headless one for "
-    "each language (or that of --language) and layout, and pictures of the pause, the question to stop and the panel.",
+    "each language (or that of --language) and layout, and pictures of the pause, of the questions to stop and whether "
+    "you are still there, and of the panel.",
 )
 @click.option(
     "--layout",
-    type=click.Choice(tuple(LAYOUTS)),
-    help="With --headless --shots: save the pictures and contact sheets of this layout only.",
+    type=click.Choice((*LAYOUTS, BOTH)),
+    help="With --headless --shots: save the pictures and contact sheets of this layout only; with both, save the "
+    "single pictures of each layout in a folder of its own.",
 )
 @rehearsal_data_option
 @study_option
@@ -157,8 +163,7 @@ def rehearse(
         characters = tuple(replace(visitor, memory=next(memories)) for visitor in visitors)
         _rehearse_day(prepared, mode, data, seed, characters, as_json=as_json)
         return
-    if shots is not None:
-        make_folder(shots)
+    folders = _make_folders(shots, layout if headless else None)
     sheets = _sheets(prepared, language, layout) if shots is not None and headless else ()
     language = language or prepared.languages[0]
     character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
@@ -169,7 +174,7 @@ def rehearse(
         _recorder(data, mode) as recorder,
         App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app,
     ):
-        pictures = _pictures(app, mode, shots, layout if headless else None)
+        pictures = _pictures(app, mode, shots, layout if headless and layout != BOTH else None, folders)
         rehearsal = Rehearsal(app, seed, pictures, character)
         with _stuck_in_words():
             rehearsal.run()
@@ -178,28 +183,42 @@ def rehearse(
         begun = recorder.sessions_begun
     if shots is not None and pictures is not None:
         if headless and begun and character.manner is BehaviourKind.COMPLETES:
-            _shoot_covers(prepared, mode, origin, character, shots, pictures, seed)
-        if layout in (None, pictures.layout):
+            _shoot_covers(prepared, mode, origin, character, pictures, seed)
+        if layout in (None, BOTH, pictures.layout):
             pictures.sheet.save(shots / f"contact-{language}-{pictures.layout}.png")
         for other, how in set(sheets) - {(language, pictures.layout)}:
-            _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed)
+            folder = folders.get(how) if other == language else None
+            _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed, folder)
     told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
 
 
-def _pictures(app: App, mode: RunMode, shots: Path | None, layout: str | None) -> Screenshots | None:
+def _make_folders(shots: Path | None, layout: str | None) -> dict[str, Path]:
+    """Make the folders for the pictures; return where the single ones of each layout belong, if both are wanted."""
+    if shots is None:
+        return {}
+    folders = {how: shots / how for how in LAYOUTS} if layout == BOTH else {}
+    for folder in (shots, *folders.values()):
+        make_folder(folder)
+    return folders
+
+
+def _pictures(
+    app: App, mode: RunMode, shots: Path | None, layout: str | None, folders: Mapping[str, Path]
+) -> Screenshots | None:
     """Give what takes the pictures of a session, if they are wanted, and size the window to the layout."""
     if shots is None:
         return None
     if layout is not None:
         resize(app.window, layout)
-    return Screenshots(app.window, shots, app.clock, 0 if mode.pace is ClockMode.VIRTUAL else SETTLE_MS)
+    folder = folders.get(layout_of(app.window.size()), shots)
+    return Screenshots(app.window, folder, app.clock, 0 if mode.pace is ClockMode.VIRTUAL else SETTLE_MS)
 
 
 def _sheets(study: StudyConfig, language: str | None, layout: str | None) -> tuple[tuple[str, str], ...]:
     """List the languages and layouts of which there is a contact sheet."""
     languages = study.languages if language is None else (language,)
-    return tuple((each, how) for each in languages for how in LAYOUTS if layout in (None, how))
+    return tuple((each, how) for each in languages for how in LAYOUTS if layout in (None, BOTH, how))
 
 
 def _shoot_sheet(
@@ -210,8 +229,12 @@ def _shoot_sheet(
     layout: str,
     shots: Path,
     seed: int,
+    folder: Path | None,
 ) -> None:
-    """Rehearse the session once more in another language or layout, for its contact sheet alone; it is not kept."""
+    """Rehearse the session once more in another language or layout, for its contact sheet; it is not kept.
+
+    Its single pictures are saved in ``folder``, if there is one.
+    """
     with (
         TemporaryDirectory() as unkept,
         guarded() as beat,
@@ -219,11 +242,14 @@ def _shoot_sheet(
         App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
     ):
         resize(app.window, layout)
-        pictures = Screenshots(app.window, None, app.clock, 0)
+        pictures = Screenshots(app.window, folder, app.clock, 0)
         with _stuck_in_words():
             Rehearsal(app, seed, pictures, character).run()
         if app.stop_requested:
             raise click.Abort
+        begun = recorder.sessions_begun
+    if folder is not None and begun and character.manner is BehaviourKind.COMPLETES:
+        _shoot_covers(study, mode, origin, character, pictures, seed)
     pictures.sheet.save(shots / f"contact-{character.language}-{layout}.png")
 
 
@@ -232,7 +258,6 @@ def _shoot_covers(
     mode: RunMode,
     origin: RunContext,
     character: BehaviourProfile,
-    shots: Path,
     before: Screenshots,
     seed: int,
 ) -> None:
@@ -249,7 +274,7 @@ def _shoot_covers(
         App(mode, recorder, ConditionAssigner(study, recorder, origin), beat=beat) as app,
     ):
         resize(app.window, before.layout)
-        pictures = Screenshots(app.window, shots, app.clock, 0, before)
+        pictures = Screenshots(app.window, before.folder, app.clock, 0, before)
         with _stuck_in_words():
             CoversRehearsal(app, seed, pictures, character).run()
         if app.stop_requested:

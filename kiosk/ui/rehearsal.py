@@ -162,7 +162,7 @@ class Screenshots:
         self.sheet: ContactSheet = ContactSheet() if before is None else before.sheet
         self.layout = layout_of(window.size())
         self._window = window
-        self._folder = folder
+        self.folder = folder
         self._clock = clock
         self._settle_ms = settle_ms
         self._taken: list[str] = [] if before is None else before._taken
@@ -194,8 +194,8 @@ class Screenshots:
             QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
             picture = self._window.grabWindow()
         self.sheet.add(Path(name).stem, picture)
-        if self._folder is not None and not picture.save(str(self._folder / name)):
-            raise unwritten(self._folder / name)
+        if self.folder is not None and not picture.save(str(self.folder / name)):
+            raise unwritten(self.folder / name)
 
 
 def _loads(item: QQuickItem) -> bool:
@@ -215,7 +215,6 @@ def unwritten(picture: Path) -> UserInputError | StorageError:
 _NAMES: dict[type[Effect], str] = {
     do.ShowAbout: "about",
     do.ShowConsent: "consent",
-    do.ShowTicks: "ticks",
     do.ShowAgeQuestion: "age",
     do.ShowValidationErrors: "missing",
     do.ShowIntroduction: "introduction",
@@ -408,6 +407,9 @@ class Rehearsal:
         elif consent.needed:
             self._click(f"purpose-{min(consent.needed)}")
         else:
+            if self._shots is not None:
+                with self.pulse.aside():
+                    self._shots.take("ticked")
             self._click("agree")
 
     def _fill_in(self) -> None:
@@ -498,6 +500,9 @@ class CoversRehearsal(Rehearsal):
         kiosk.ask("stop")
         self._pictures.take("stop")
         kiosk.ask("")
+        kiosk.ask_still_there(asks=True)
+        self._pictures.take("still-there")
+        kiosk.ask_still_there(asks=False)
         kiosk.pause(paused=True)
         self._pictures.take("pause")
         kiosk.pause(paused=False)
