@@ -77,6 +77,17 @@ def last_hash(connection: sqlite3.Connection, session: int) -> bytes:
 
 def broken_links(connection: sqlite3.Connection, only: int | None = None) -> Iterator[tuple[int, int]]:
     """Yield the session and the number of every event, of all sessions or of one, whose hash does not fit."""
+    for session, seq, *_, fits in chained_events(connection, only):
+        if not fits:
+            yield session, seq
+
+
+ChainedEvent = tuple[int, int, int, str, str, bool]
+"""The session, seq, at_ms, type and payload of an event, and whether its hash fits."""
+
+
+def chained_events(connection: sqlite3.Connection, only: int | None = None) -> Iterator[ChainedEvent]:
+    """Yield every event, of all sessions or of one, in order, and whether its hash fits."""
     session, before = None, b""
     sha256 = hashlib.sha256
     which, values = ("", ()) if only is None else (" WHERE session = ?", (only,))
@@ -89,8 +100,7 @@ def broken_links(connection: sqlite3.Connection, only: int | None = None) -> Ite
             session, before = number, first_hash(connection, number)
         # As in next_hash: millions of events are looked at, and a call for each takes as long as the hash.
         told = f"{seq} {at_ms} {origin} {kind} {wall_ms} {payload}".encode()
-        if sha256(before + told).digest() != written:
-            yield number, seq
+        yield number, seq, at_ms, kind, payload, sha256(before + told).digest() == written
         before = written if isinstance(written, bytes) else b""
 
 

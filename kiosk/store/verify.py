@@ -6,17 +6,17 @@ import hashlib
 import json
 import sqlite3
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from enum import Enum
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from kiosk import UserInputError
 from kiosk.experiment.events import from_fields
 from kiosk.garbage import rare_collections
-from kiosk.store.chain import broken_links, lost_ends, missing_since_written
+from kiosk.store.chain import chained_events, lost_ends, missing_since_written
 from kiosk.store.connecting import reason
 from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
@@ -61,18 +61,25 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
 
     A kiosk may be writing meanwhile: all is seen as it stood at one moment.
     """
+    with closing(open_as_it_is(folder)) as connection:
+        return _flaws(connection, folder, tell)
+
+
+def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]:
     flaws: list[Flaw] = []
-    with rare_collections(), closing(open_as_it_is(folder)) as connection:
-        connection.execute("BEGIN")
-        looks = _LOOKS | {
-            Verification.HEADS: partial(_heads, folder=folder),
-            Verification.FINISHED: partial(_finished, folder=folder),
-            Verification.COPIES: partial(_copies, folder=folder),
-        }
-        for done, (check, look) in enumerate(looks.items()):
-            tell(done, len(looks))
+    of_events = cache(_events)
+    looks = _LOOKS | {
+        **{check: partial(_found_by, of_events, check) for check in _OF_EVENTS},
+        Verification.HEADS: partial(_heads, folder=folder),
+        Verification.FINISHED: partial(_finished, folder=folder),
+        Verification.COPIES: partial(_copies, folder=folder),
+    }
+    connection.execute("BEGIN")
+    with rare_collections():
+        for done, check in enumerate(Verification):
+            tell(done, len(Verification))
             try:
-                flaws += [Flaw(check, where, what) for where, what in look(connection)]
+                flaws += [Flaw(check, where, what) for where, what in looks[check](connection)]
             except (sqlite3.Error, ValueError) as error:
                 words = reason(error, folder) if isinstance(error, sqlite3.Error) else str(error)
                 flaws.append(Flaw(check, "the database", f"cannot be looked at: {words}"))
@@ -93,12 +100,10 @@ def check_foreign(folder: Path) -> None:
         connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LONGEST_BYTES)
         try:
             wrong = list(_schema(connection))
-            for query in () if wrong else ("SELECT content FROM source", "SELECT payload FROM event"):
-                for _ in connection.execute(query):
-                    pass
         except sqlite3.Error as error:
             raise UserInputError(f"the database of {folder} cannot be read: {reason(error, folder)}") from error
-    found = wrong or [(each.where, each.what) for each in verify(folder) if each.check not in _HARMLESS]
+        flaws = () if wrong else _flaws(connection, folder)
+    found = wrong or [(each.where, each.what) for each in flaws if each.check not in _HARMLESS]
     if found:
         where, what = found[0]
         more = f", and {len(found) - 1} more" if len(found) > 1 else ""
@@ -159,12 +164,6 @@ def _sources(connection: sqlite3.Connection) -> _Found:
             yield f"source {sha256[:12]}", "is not what its hash says"
 
 
-def _chain(connection: sqlite3.Connection) -> _Found:
-    for session, seq in broken_links(connection):
-        first = ", or what the session followed," if seq == 1 else ""
-        yield f"session {session}, event {seq}", f"it{first} is not what was recorded: it does not match its hash"
-
-
 def _heads(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
     told = dict(missing_since_written(connection, folder)) if folder is not None else {}
     told |= lost_ends(connection)
@@ -172,49 +171,74 @@ def _heads(connection: sqlite3.Connection, folder: Path | None = None) -> _Found
         yield f"session {session}", what
 
 
-def _numbering(connection: sqlite3.Connection) -> _Found:
-    rows = connection.execute(
-        """
-        SELECT session.id, count(seq), min(seq), max(seq) FROM session LEFT JOIN event ON session = session.id
-        GROUP BY session.id HAVING NOT (count(seq) > 0 AND min(seq) = 1 AND max(seq) = count(seq))
-        """
-    )
-    for session, events, first, last in rows:
-        what = f"has {events} events, numbered from {first} to {last}" if events else "has no events"
-        yield f"session {session}", what
-
-
-def _time(connection: sqlite3.Connection) -> _Found:
-    rows = connection.execute("SELECT session, seq, at_ms FROM event ORDER BY session, seq")
-    before, before_ms = None, 0
-    for session, seq, at_ms in rows:
-        if session != before:
-            before, before_ms = session, 0
-        if at_ms < before_ms:
-            yield f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"
-        before_ms = at_ms
-
+_OF_EVENTS = (Verification.CHAIN, Verification.NUMBERING, Verification.TIME, Verification.READABLE)
+"""The checks that look at every event: all of them share one reading, which takes longer than any check."""
 
 _REMEMBERED = 100_000
 """So many different events are remembered as readable; most events of a study say the same as an earlier one."""
 
 
-def _readable(connection: sqlite3.Connection) -> _Found:
+def _events(connection: sqlite3.Connection) -> Mapping[Verification, Iterable[tuple[str, str]]]:
+    """Read every event once, and return what each of these checks finds."""
+    broken: list[tuple[str, str]] = []
+    late: list[tuple[str, str]] = []
+    unread: list[tuple[str, str]] = []
+    gaps: set[int] = set()
     readable: set[tuple[str, str]] = set()
-    for session, seq, at_ms, kind, payload in connection.execute(
-        "SELECT session, seq, at_ms, type, payload FROM event"
-    ):
-        # The schema holds the time to a whole number, so it makes no difference.
-        if (kind, payload) in readable:
-            continue
-        try:
-            from_fields(kind, at_ms, json.loads(payload))
-        except (ValueError, TypeError) as error:
-            yield f"session {session}, event {seq}", f"{kind} cannot be read: {error}"
-            continue
-        if len(readable) == _REMEMBERED:
-            readable.clear()
-        readable.add((kind, payload))
+    before, before_seq, before_ms = None, 0, 0
+    for session, seq, at_ms, kind, payload, fits in chained_events(connection):
+        if session != before:
+            before, before_seq, before_ms = session, 0, 0
+        before_seq += 1
+        if seq != before_seq:
+            gaps.add(session)
+        if not fits:
+            broken.append((f"session {session}, event {seq}", _does_not_fit(seq)))
+        if at_ms < before_ms:
+            late.append((f"session {session}, event {seq}", f"is at {at_ms} ms, after one at {before_ms} ms"))
+        before_ms = at_ms
+        if (kind, payload) not in readable:
+            why = _why_unreadable(kind, at_ms, payload, readable)
+            if why:
+                unread.append((f"session {session}, event {seq}", f"{kind} cannot be read: {why}"))
+    numbering = list(_numbering(connection, gaps))
+    return dict(zip(_OF_EVENTS, (broken, numbering, late, unread), strict=True))
+
+
+def _does_not_fit(seq: int) -> str:
+    first = ", or what the session followed," if seq == 1 else ""
+    return f"it{first} is not what was recorded: it does not match its hash"
+
+
+def _why_unreadable(kind: str, at_ms: int, payload: str, readable: set[tuple[str, str]]) -> str:
+    """Say why an event cannot be read; "" if it can, which is then remembered among the readable ones."""
+    try:
+        from_fields(kind, at_ms, json.loads(payload))
+    except (ValueError, TypeError) as error:
+        return str(error) or "it is malformed"
+    if len(readable) == _REMEMBERED:
+        readable.clear()
+    # The schema holds the time to a whole number, so it makes no difference.
+    readable.add((kind, payload))
+    return ""
+
+
+def _numbering(connection: sqlite3.Connection, gaps: Iterable[int]) -> _Found:
+    empty = "SELECT id FROM session WHERE NOT EXISTS (SELECT 1 FROM event WHERE session = id)"
+    for session in sorted({*gaps, *(session for (session,) in connection.execute(empty))}):
+        events, first, last = connection.execute(
+            "SELECT count(*), min(seq), max(seq) FROM event WHERE session = ?", (session,)
+        ).fetchone()
+        what = f"has {events} events, numbered from {first} to {last}" if events else "has no events"
+        yield f"session {session}", what
+
+
+def _found_by(
+    look: Callable[[sqlite3.Connection], Mapping[Verification, Iterable[tuple[str, str]]]],
+    check: Verification,
+    connection: sqlite3.Connection,
+) -> _Found:
+    yield from look(connection)[check]
 
 
 def _participants(connection: sqlite3.Connection) -> _Found:
@@ -339,11 +363,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.SCHEMA: _schema,
     Verification.RECEIPTS: _receipts,
     Verification.SOURCES: _sources,
-    Verification.CHAIN: _chain,
     Verification.HEADS: _heads,
-    Verification.NUMBERING: _numbering,
-    Verification.TIME: _time,
-    Verification.READABLE: _readable,
     Verification.PARTICIPANTS: _participants,
     Verification.ALLOCATION: _places,
     Verification.WITHDRAWN: _withdrawn,
