@@ -272,6 +272,29 @@ class ConditionConfig(ConfigModel):
         str, Field(description="Another Q-table than that of [assistance], by its name or path; empty: the same.")
     ] = ""
     timing: Annotated[dict[str, int], Field(description="Keys of [timing] that are different in this condition.")] = {}
+    praise: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="How often the helper praises a pair, where it does not help with the next card: 1 always, "
+            "0 never.",
+        ),
+    ] = 0.0
+    encourage: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="How often the helper encourages after a move that missed, where it does not help with the "
+            "next card.",
+        ),
+    ] = 0.0
+
+    @property
+    def comments(self) -> bool:
+        """Whether the helper comments on moves."""
+        return self.praise > 0 or self.encourage > 0
 
     @property
     def helps(self) -> bool:

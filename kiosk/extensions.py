@@ -61,6 +61,8 @@ _BUILT_IN: Mapping[ExtensionGroup, Mapping[str, str]] = {
         "sug_col": "kiosk.assistance.policy:SUG_COL",
         "sug_row": "kiosk.assistance.policy:SUG_ROW",
         "sug_card": "kiosk.assistance.policy:SUG_CARD",
+        "encouragement": "kiosk.assistance.policy:ENCOURAGEMENT",
+        "praise": "kiosk.assistance.policy:PRAISE",
     },
 }
 

@@ -8,6 +8,7 @@ from random import Random
 from typing import Any, Protocol
 
 from kiosk import UserInputError
+from kiosk.assistance.comments import Comment
 from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate, MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
@@ -235,14 +236,16 @@ class Explanation:
     rules: DecisionRules = BY_TABLE
     hesitation: Wait | None = None
     """Set where no help was decided, and the hint came because the player hesitated."""
+    comment: Comment | None = None
+    """Set where no help was decided, and there was a comment on the move before."""
 
     def to_json(self) -> dict[str, Any]:
         """Return the explanation as JSON values: locations from 0 row by row, rows and columns from 1.
 
         Without a hint ``target``, ``counts`` and ``reason`` are null. ``overridden`` is there only when the action
         was not left to gate and table, ``said`` only when it is known, ``memory`` only where memory is modelled,
-        ``timing`` only where it decides (``q`` is empty then), ``chance`` only where the action was drawn, and
-        ``hesitation`` only where the help came because the player hesitated.
+        ``timing`` only where it decides (``q`` is empty then), ``chance`` only where the action was drawn,
+        ``hesitation`` only where the help came because the player hesitated, and ``comment`` only where there was one.
         """
         decision = self.decision
         return {
@@ -253,6 +256,7 @@ class Explanation:
             **self._memory(),
             "action": decision.action.label,
             **({"hesitation": asdict(self.hesitation)} if self.hesitation else self._chance()),
+            **({"comment": self._comment(self.comment)} if self.comment else {}),
             **({"overridden": True} if self.overridden else {}),
             **self._pointing(decision.hint),
             "targets": [self.board.location(position) for position in self.candidates],
@@ -271,6 +275,10 @@ class Explanation:
         if timing and by_memory:
             told["timing"] = asdict(timing) | {"action": by_memory.label}
         return told
+
+    @staticmethod
+    def _comment(comment: Comment) -> dict[str, Any]:
+        return {"action": comment.action.label, "probability": comment.probability}
 
     def _chance(self) -> dict[str, Any]:
         decision = self.decision

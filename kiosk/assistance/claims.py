@@ -33,6 +33,10 @@ class ClaimPhrases:
     """Words for "the first time", which do not claim that a card was up once."""
     row: str
     column: str
+    pair: str
+    """A pair was found, unless ``miss`` is said."""
+    miss: str
+    """No pair was found."""
 
 
 CLAIM_PHRASES: Mapping[str, ClaimPhrases] = {
@@ -45,6 +49,8 @@ CLAIM_PHRASES: Mapping[str, ClaimPhrases] = {
         first_time="first time",
         row="row",
         column="column",
+        pair=r"\bpair\b",
+        miss=r"\bno pair\b",
     ),
     "it": ClaimPhrases(
         never=r"\bmai\b|non ancora|non sono ancora|ancora no\b|non l'hai ancora|non è ancora|non l'altr"
@@ -56,6 +62,8 @@ CLAIM_PHRASES: Mapping[str, ClaimPhrases] = {
         first_time="prima volta",
         row="riga",
         column="colonna",
+        pair=r"\bcoppia\b",
+        miss=r"niente coppia",
     ),
     "es": ClaimPhrases(
         never=r"nunca|ninguna|todavía no|aún no|no (el|la) otr|solo has visto un[oa], |por descubrir|sitio nuevo",
@@ -66,6 +74,8 @@ CLAIM_PHRASES: Mapping[str, ClaimPhrases] = {
         first_time="primera vez",
         row="fila",
         column="columna",
+        pair=r"\bpareja\b",
+        miss=r"no hay pareja",
     ),
 }
 """The languages whose claims can be checked."""
@@ -130,6 +140,23 @@ def false_places(sentence: str, language: str, place: Mapping[str, str | int]) -
             yield f"it must not speak of a {key}"
     if len(re.findall(r"\d+", sentence)) != len(place):
         yield "it has other figures than those of the place"
+
+
+def false_comments(sentence: str, language: str, *, matched: bool) -> Iterator[str]:
+    """Yield what a comment on a move claims wrongly; it may say whether a pair was found, and nothing else.
+
+    Raises KeyError for a language that is not in CLAIM_PHRASES.
+    """
+    phrases = CLAIM_PHRASES[language]
+    miss = re.search(phrases.miss, sentence, re.IGNORECASE)
+    if miss and matched:
+        yield "it says that no pair was found"
+    if not miss and not matched and re.search(phrases.pair, sentence, re.IGNORECASE):
+        yield "it says that a pair was found"
+    seen = (phrases.never, phrases.often, phrases.once, phrases.new, phrases.known)
+    if any(re.search(phrase, sentence, re.IGNORECASE) for phrase in seen):
+        yield "it must not say how often a card was turned up"
+    yield from false_places(sentence, language, {})
 
 
 def other_cards(sentence: str, names: Mapping[str, str], allowed: Collection[str]) -> tuple[str, ...]:

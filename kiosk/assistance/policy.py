@@ -92,6 +92,11 @@ ACTIONS = (NO_HELP, SUG_COL, SUG_ROW, SUG_CARD)
 
 ActionSpec.NO_HELP, ActionSpec.SUG_COL, ActionSpec.SUG_ROW, ActionSpec.SUG_CARD = ACTIONS
 
+PRAISE = ActionSpec("praise", message="praise")
+"""Said after a pair was found; no table has it."""
+ENCOURAGEMENT = ActionSpec("encouragement", message="encouragement")
+"""Said after a move that missed; a table may have it, too."""
+
 
 def load_action(extension: Extension) -> ActionSpec:
     """Import an action; raises UserInputError if it is none."""
@@ -408,6 +413,8 @@ def check_actions(actions: Sequence[ActionSpec]) -> tuple[ActionSpec, ...]:
     labels = [action.label for action in actions]
     if labels[:1] != [NO_HELP.label] or len(set(labels)) < len(labels):
         raise ValueError(f"its actions are {labels}, but the first must be {NO_HELP.label!r}, and none may stand twice")
+    if PRAISE in actions:
+        raise ValueError(f"{PRAISE.label!r} comes after a pair was found, so a table cannot choose it before a flip")
     return tuple(actions)
 
 

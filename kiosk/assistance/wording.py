@@ -18,7 +18,7 @@ from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
 from kiosk import UserInputError
 from kiosk.assistance.keyboards import KeyRows, key_rows
 from kiosk.assistance.mentaliser import Hint
-from kiosk.assistance.policy import ActionSpec
+from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
 from kiosk.config import ASSETS, read_text
 from kiosk.language_codes import babel_codes, standard
 
@@ -416,6 +416,8 @@ def given_with(message: str) -> frozenset[str] | None:
     """
     if message.startswith(("reason-", "remind-")):
         return frozenset({CARD})
+    if message in {comment.message for comment in (PRAISE, ENCOURAGEMENT)}:
+        return frozenset()
     if message.startswith("point-"):
         return _PLACES.get(message.rpartition("-")[2])
     return None

@@ -23,7 +23,7 @@ from kiosk.assistance.assistant import Explanation, game_after
 from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
-from kiosk.assistance.policy import ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
+from kiosk.assistance.policy import PRAISE, ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
 from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
@@ -442,6 +442,10 @@ def _taken(explanation: Explanation) -> Iterator[str]:
     yield _line(
         "action", decision.action.label + (", by the case and not by the table" if explanation.overridden else "")
     )
+    if explanation.comment:
+        comment = explanation.comment
+        after = "a pair" if comment.action is PRAISE else "a miss"
+        yield _line("comment", f"{comment.action.label}, with probability {comment.probability:.4g} after {after}")
     if explanation.hesitation:
         yield _line("hesitation", _waited(explanation.hesitation))
     elif decision.is_randomised:

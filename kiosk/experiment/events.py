@@ -149,6 +149,15 @@ class FallbackReason(Enum):
     """The robot was not found, or had failed."""
 
 
+class RemarkTrigger(Enum):
+    """What a remark came from."""
+
+    DECISION = "decision"
+    """The decision before the flip: an action of the table."""
+    COMMENT = "comment"
+    """The move before: praise for a pair, or encouragement after a miss."""
+
+
 class InputDevice(Enum):
     """What a visitor used."""
 
@@ -611,13 +620,18 @@ class HesitationNoticed(SessionEvent):
 
 @dataclass(frozen=True, kw_only=True)
 class RemarkGiven(SessionEvent):
-    """Before flip number ``flip`` the assistant said something that points nowhere; it holds the board like a hint."""
+    """Before flip number ``flip`` the assistant said something that points nowhere; it holds the board like a hint.
+
+    ``trigger`` is what it came from, and ``probability`` the chance of a comment after such a move.
+    """
 
     flip: int
     card: FlipInMove
     action: ActionSpec
     sentence: str
     utterance: int
+    trigger: RemarkTrigger = RemarkTrigger.DECISION
+    probability: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)

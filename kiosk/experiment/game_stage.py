@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from kiosk.assistance.assistant import Assistant, Decision
+from kiosk.assistance.comments import Comment, Commentator
 from kiosk.assistance.hesitation import HesitationRule, PlayerTimes
 from kiosk.assistance.mentaliser import Hint, Mentaliser
 from kiosk.assistance.policy import ActionSpec, FlipInMove
@@ -19,7 +20,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Help, Sentences
 from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
-from kiosk.experiment.events import PracticeEnd, Timer, WorldEvent
+from kiosk.experiment.events import PracticeEnd, RemarkTrigger, Timer, WorldEvent
 from kiosk.experiment.page_stages import SpeechWriter, StageHandler
 from kiosk.game import CARDS_IN_A_PAIR, Board, Concentration, Flip, IllegalFlip, Position
 
@@ -32,6 +33,14 @@ class HintGuide:
     sentences: Sentences
     hesitation: HesitationRule | None = None
     """When a player who hesitates gets help; None: never."""
+
+
+@dataclass(frozen=True)
+class MoveComments:
+    """Who comments on moves, and what is said then."""
+
+    commentator: Commentator
+    sentences: Sentences
 
 
 @dataclass(frozen=True)
@@ -128,12 +137,21 @@ class DealtTable:
 class GameStage(StageHandler):
     """A game on one board, helped or not."""
 
-    def __init__(self, table: DealtTable, guide: HintGuide | None, timing: Timing, utterances: Iterator[int]) -> None:
+    def __init__(
+        self,
+        table: DealtTable,
+        guide: HintGuide | None,
+        timing: Timing,
+        utterances: Iterator[int],
+        comments: MoveComments | None = None,
+    ) -> None:
         """Without a guide there is no help; ``utterances`` numbers the sentences of the whole session."""
         self.game = Concentration(table.board)
         self._table = table
         self._guide = guide
-        self._sentences = guide.sentences if guide is not None else None
+        self._comments = comments
+        speaker = guide or comments
+        self._sentences = speaker.sentences if speaker is not None else None
         self._times = PlayerTimes(guide.hesitation) if guide is not None and guide.hesitation is not None else None
         self._timing = timing
         self._utterances = utterances
@@ -313,13 +331,24 @@ class GameStage(StageHandler):
     def _help_or_open(self, outcome: OutcomeBuilder) -> None:
         """Decide about the coming flip; the board is open unless a hint holds it."""
         action, hint = self._choose_help(outcome)
-        if self._sentences is None or action is ActionSpec.NO_HELP:
-            outcome.effect(do.UnlockBoard())
-            self._await_hesitation(outcome)
+        if self._sentences is not None and action is not ActionSpec.NO_HELP:
+            self._give(action, hint, self._sentences, outcome)
             return
-        self._give(action, hint, self._sentences, outcome)
+        comment = self._comments.commentator.comment(self.game) if self._comments is not None else None
+        if self._comments is not None and comment is not None:
+            self._give(comment.action, None, self._comments.sentences, outcome, comment)
+            return
+        outcome.effect(do.UnlockBoard())
+        self._await_hesitation(outcome)
 
-    def _give(self, action: ActionSpec, hint: Hint | None, sentences: Sentences, outcome: OutcomeBuilder) -> None:
+    def _give(
+        self,
+        action: ActionSpec,
+        hint: Hint | None,
+        sentences: Sentences,
+        outcome: OutcomeBuilder,
+        comment: Comment | None = None,
+    ) -> None:
         """Say a hint or a remark, and hold the board with it."""
         sentence = sentences.remark(action) if hint is None else sentences.sentence(hint)
         given = _Given(hint, action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
@@ -335,6 +364,8 @@ class GameStage(StageHandler):
                 action=action,
                 sentence=sentence,
                 utterance=given.utterance,
+                trigger=RemarkTrigger.DECISION if comment is None else RemarkTrigger.COMMENT,
+                probability=1.0 if comment is None else comment.probability,
             )
         )
         if self._timing.taps_wait:

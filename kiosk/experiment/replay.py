@@ -21,18 +21,19 @@ from kiosk.assistance.assistant import (
     memory_before_flip,
     table_before_flip,
 )
+from kiosk.assistance.comments import Comment
 from kiosk.assistance.hesitation import Wait
 from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import Mentaliser, Target, TargetRule
-from kiosk.assistance.policy import ActionSpec, State
+from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec, MoveOutcome, State
 from kiosk.assistance.wording import Catalogue, Wording
 from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import Event, HesitationNoticed, Stage, WorldEvent
+from kiosk.experiment.events import Event, HesitationNoticed, RemarkTrigger, Stage, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
-from kiosk.experiment.session_state import DealtBoard
+from kiosk.experiment.session_state import BoardRemark, DealtBoard
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Board, Concentration, Position
 
@@ -106,6 +107,8 @@ class DecisionContext:
     """The action that was taken, where chance had a part in it."""
     hesitated: HesitationNoticed | None = None
     """Set where the help came because the player hesitated."""
+    commented: Comment | None = None
+    """Set where there was a comment on the move before."""
 
     @classmethod
     def before(cls, flip: int, game: DealtBoard, plan: SessionConfig) -> DecisionContext:
@@ -128,6 +131,7 @@ class DecisionContext:
             memory=memory_before_flip(config, game.board, flips, game.hints) if plan.cell.helps else None,
             drawn=decision.action if decision and config.explore else None,
             hesitated=game.hesitations.get(flip),
+            commented=_comment(game.remarks.get(flip)),
         )
 
     def explained(self) -> Explanation:
@@ -135,13 +139,20 @@ class DecisionContext:
         game, chance = game_after(self.board, self.flips), Random(self.seed)
         given = help_in(self.cell, self.rule, Wording(self.catalogue, chance), chance)
         if given is None:
-            return explain_decision(game, self._undecided(game), None, None)
+            return self._commented(explain_decision(game, self._undecided(game), None, None))
         point = partial(self._point, given.mentaliser)
         taken = self.override or (self.hesitated.action if self.hesitated else self.drawn)
         decision = decide(game, self.last, self.policy, point, taken, rules=self.rules, memory=self.memory)
         overridden = self.override is not None
         explanation = explain_decision(game, decision, given.mentaliser, given.sentences, overridden=overridden)
-        return replace(explanation, rules=self.rules, hesitation=_hesitation(self.hesitated))
+        return self._commented(replace(explanation, rules=self.rules, hesitation=_hesitation(self.hesitated)))
+
+    def _commented(self, explanation: Explanation) -> Explanation:
+        """Return an explanation with the comment on the move before, if there was one."""
+        if self.commented is None:
+            return explanation
+        sentences = self.catalogue.wordings(self.commented.action.message)
+        return replace(explanation, comment=self.commented, sentences=sentences)
 
     def _point(self, mentaliser: Mentaliser, game: Concentration) -> Target:
         return mentaliser.target(game) if self.target is None else mentaliser.pointing_at(self.target, game)
@@ -161,6 +172,12 @@ def _hesitation(noticed: HesitationNoticed | None) -> Wait | None:
     return Wait(noticed.waited_ms, noticed.usual_ms, noticed.threshold_ms) if noticed else None
 
 
+def _comment(remark: BoardRemark | None) -> Comment | None:
+    if remark is None or remark.given.trigger is not RemarkTrigger.COMMENT:
+        return None
+    return Comment(remark.given.action, remark.given.probability)
+
+
 def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) -> bool:
     """Tell whether a decision comes out as it was recorded for this flip, in all that was recorded of it."""
     return (
@@ -169,6 +186,12 @@ def agrees_with_record(explanation: Explanation, game: DealtBoard, flip: int) ->
         and _is_same_hint(game, flip, explanation)
         and _is_same_remark(game, flip, explanation)
     )
+
+
+def _is_due(comment: Comment, explanation: Explanation) -> bool:
+    """Tell whether a comment is on how the move before ended, and in place of a hint."""
+    wanted = PRAISE if explanation.decision.state.outcome is MoveOutcome.F_CORRECT else ENCOURAGEMENT
+    return comment.action is wanted and explanation.decision.action is ActionSpec.NO_HELP
 
 
 def _is_same_decision(game: DealtBoard, flip: int, today: Decision) -> bool:
@@ -215,6 +238,8 @@ def _is_same_remark(game: DealtBoard, flip: int, explanation: Explanation) -> bo
     stored = game.remarks.get(flip)
     if stored is None:
         return not explanation.decision.is_remark
+    if explanation.comment is not None and not _is_due(explanation.comment, explanation):
+        return False
     return stored.given.sentence in explanation.sentences
 
 

@@ -9,16 +9,24 @@ from random import Random
 
 from kiosk import UserInputError
 from kiosk.assistance.assistant import assistant_with
+from kiosk.assistance.comments import Commentator, CommentRule
 from kiosk.assistance.hesitation import HesitationRule
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.assistance.wording import Wording
+from kiosk.assistance.wording import PlainSentences, Wording
 from kiosk.config import Game, Idle, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
 from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, TextSize, Timer, WorldEvent
-from kiosk.experiment.game_stage import DealtTable, GameStage, HintGuide, PracticeStage, SampleHints
+from kiosk.experiment.game_stage import (
+    DealtTable,
+    GameStage,
+    HintGuide,
+    MoveComments,
+    PracticeStage,
+    SampleHints,
+)
 from kiosk.experiment.information import POINTER
 from kiosk.experiment.page_stages import (
     AboutStage,
@@ -244,7 +252,19 @@ def _game(plan: SessionConfig, seed: int, wording: Wording, numbers: Iterator[in
     assistant = assistant_with(plan.policy, given.mentaliser, settings.assistance, explored) if given else None
     hesitation = HesitationRule.of(settings.assistance)
     guide = HintGuide(assistant, given.sentences, hesitation) if given and assistant else None
-    return GameStage(DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck), guide, plan.timing, numbers)
+    table = DealtTable(_deal(settings.game, plan.deck, deal), settings.game.deck)
+    return GameStage(table, guide, plan.timing, numbers, _comments(plan, seed, wording))
+
+
+def _comments(plan: SessionConfig, seed: int, wording: Wording) -> MoveComments | None:
+    """Return who comments on moves, if anybody does.
+
+    Chance has a stream of its own, so that no hint is another one for a comment.
+    """
+    rule = CommentRule.of(plan.cell)
+    if rule is None:
+        return None
+    return MoveComments(Commentator(rule, Random(f"{seed}/comments")), PlainSentences(wording))
 
 
 def _deal(game: Game | Practice, cards: tuple[str, ...], chance: Random) -> Board:

@@ -365,6 +365,7 @@ ACTION = Variable(
         Level("sug_col", "the column of a card was named"),
         Level("sug_row", "the row of a card was named"),
         Level("sug_card", "a card was named by row and column"),
+        Level("encouragement", "an encouragement was said, which names no place"),
         *(
             Level(each.name, f"an action of the package {each.package} {each.version}")
             for each in installed(ExtensionGroup.ACTIONS)
@@ -381,6 +382,15 @@ GATE = Variable(
 
 def condition_in_words(declared: ConditionConfig) -> str:
     """Say what a condition comes to, for a codebook."""
+    comments = [
+        *([f"praises {100 * declared.praise:g} % of the pairs"] if declared.praise else []),
+        *([f"encourages after {100 * declared.encourage:g} % of the misses"] if declared.encourage else []),
+    ]
+    added = f"; it {' and '.join(comments)}, where it does not help with the next card" if comments else ""
+    return _help_in_words(declared) + added
+
+
+def _help_in_words(declared: ConditionConfig) -> str:
     if not declared.helps:
         return "no help at all"
     first = _TARGETS[declared.target_rule]

@@ -8,8 +8,14 @@ from enum import Enum
 
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
-from kiosk.experiment.events import AssistanceDecided, HesitationNoticed, InputDevice, MemoryEstimated
-from kiosk.experiment.session_state import BoardFlip, BoardHint, DealtBoard
+from kiosk.experiment.events import (
+    AssistanceDecided,
+    HesitationNoticed,
+    InputDevice,
+    MemoryEstimated,
+    RemarkTrigger,
+)
+from kiosk.experiment.session_state import BoardFlip, BoardHint, BoardRemark, DealtBoard
 from kiosk.export.columns import (
     ACTION,
     AT,
@@ -512,6 +518,86 @@ HINTS = Table(
 
 TRIGGERED_HINTS = replace(HINTS, columns=(*_HINT_COLUMNS, *_TRIGGERS))
 """The hints of a study in which visitors who hesitate get some."""
+
+
+@dataclass(frozen=True)
+class _Remark:
+    kept: SessionRecord
+    dealt: DealtBoard
+    remark: BoardRemark
+
+
+def _remarks(kept: SessionRecord) -> Iterator[_Remark]:
+    dealt = kept.state.game
+    if dealt is not None:
+        yield from (_Remark(kept, dealt, remark) for remark in dealt.remarks.values())
+
+
+_REMARK_COLUMNS: tuple[Column[_Remark], ...] = make_columns(
+    (PARTICIPANT, lambda row: row.kept.name),
+    (BOARD, lambda row: row.dealt.number),
+    (FLIP, lambda row: row.remark.given.flip),
+    (MOVE_CARD, lambda row: row.remark.given.card.value),
+    (
+        Variable(
+            "remark",
+            "What the helper said: praise after a pair, encouragement after a miss, or an action of the table.",
+        ),
+        lambda row: row.remark.given.action.label,
+    ),
+    (
+        Variable(
+            "remark_trigger",
+            "What it came from.",
+            levels=enum_levels(
+                RemarkTrigger,
+                decision="the decision before the flip: the table has such an action",
+                comment="the move before, after which comments come at the rate of the condition",
+            ),
+        ),
+        lambda row: row.remark.given.trigger.value,
+    ),
+    (
+        Variable(
+            "remark_probability",
+            "The chance of a comment after such a move, where no help was decided for the next card; 1 for an action "
+            "of the table.",
+            ColumnKind.NUMBER,
+        ),
+        lambda row: row.remark.given.probability,
+    ),
+    (SENTENCE, lambda row: row.remark.given.sentence),
+    (UTTERANCE, lambda row: row.remark.given.utterance),
+    (AT, lambda row: row.remark.given.at_ms),
+    (
+        Variable(
+            "remark_hold_ms",
+            "How long it held the board: from its sentence until cards could be tapped again, pauses included.",
+            ColumnKind.WHOLE,
+            "ms",
+            empty="the session ended before",
+        ),
+        lambda row: None if row.remark.opened_ms is None else row.remark.opened_ms - row.remark.given.at_ms,
+    ),
+    (
+        Variable(
+            "next_move_matched",
+            "Whether the move that the remark came before, or in, ended in a match.",
+            ColumnKind.TRUTH,
+            empty="the move did not end",
+        ),
+        lambda row: row.dealt.move_matched(row.remark.given.flip),
+    ),
+)
+
+REMARKS = Table(
+    "remarks",
+    "One row for every remark in the game: praise, encouragement, and what else was said that points nowhere. Only of "
+    "studies that have such.",
+    (PARTICIPANT.name, BOARD.name, FLIP.name),
+    _REMARK_COLUMNS,
+    _remarks,
+)
 
 
 @dataclass(frozen=True)

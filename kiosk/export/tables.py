@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from kiosk.assistance.policy import ActionSpec
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.export.columns import ExportOption, Table, TableShape
 from kiosk.export.game_tables import (
     CARDS,
@@ -14,6 +16,7 @@ from kiosk.export.game_tables import (
     MEMORY,
     MODELLED_DECISIONS,
     POINTER_TRACES,
+    REMARKS,
     TRIGGERED_HINTS,
 )
 from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
@@ -58,12 +61,20 @@ def _others(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[Tab
     traced = any(plan.settings.privacy.pointer_trace for plan in study.plans)
     modelled = any(plan.settings.assistance.models_memory for plan in study.plans)
     triggered = any(plan.settings.assistance.hesitation_max for plan in study.plans)
+    remarks = (REMARKS,) if any(_has_remarks(plan) for plan in study.plans) else ()
     hints = TRIGGERED_HINTS if triggered else HINTS
     decisions = (MODELLED_DECISIONS, MEMORY) if modelled else (DECISIONS,)
     return (
-        *(FLIPS, *((POINTER_TRACES,) if traced else ()), hints, *decisions, CARDS),
+        *(FLIPS, *((POINTER_TRACES,) if traced else ()), hints, *remarks, *decisions, CARDS),
         *(answers_table(study, extras), SCORES, SENTENCES, deviations_table(extras), events_table(study, extras)),
     )
+
+
+def _has_remarks(plan: SessionConfig) -> bool:
+    """Tell whether something may be said in the game that points nowhere."""
+    actions = (action for action in plan.policy.actions if action is not ActionSpec.NO_HELP)
+    declared = plan.settings.conditions.values()
+    return any(cell.comments for cell in declared) or any(not action.needs_target for action in actions)
 
 
 def _elsewhere(study: StudyMaterials, extras: frozenset[ExportOption]) -> frozenset[str]:

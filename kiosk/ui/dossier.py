@@ -171,7 +171,11 @@ def _conditions(settings: Settings, words: _Words) -> Iterator[str]:
         cell = settings.condition(Condition(name).name)
         told = {(True, True): "why-where", (True, False): "why", (False, True): "where", (False, False): "plain"}
         message = f"help-{told[cell.explanation, cell.location]}" if cell.helps else "help-none"
-        rows.append((escape(name), target, words(message)))
+        told_of = words(message)
+        if cell.comments:
+            rates = {"praise": f"{100 * cell.praise:g}", "encourage": f"{100 * cell.encourage:g}"}
+            told_of += f" {words('help-comments', **rates)}"
+        rows.append((escape(name), target, told_of))
     yield f"<h2>{words('conditions')}</h2><p>{words('conditions-line')}</p>"
     yield _table((words("condition"), words("visitors"), words("help")), rows)
 

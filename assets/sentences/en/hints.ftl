@@ -154,3 +154,16 @@ point-second-card =
     .a = The partner is in row { $row }, column { $column }.
     .b = Look for its partner in row { $row }, column { $column }.
     .c = You will find the match in row { $row }, column { $column }.
+
+## Comments after a move, where a condition has them: no place, and nothing about what was seen
+
+# After a pair was found.
+praise =
+    .a = Well done, that is a pair!
+    .b = A pair. Very good!
+    .c = You found a pair. Nicely done!
+# After a move that missed.
+encouragement =
+    .a = Keep going!
+    .b = No pair this time. You can do it!
+    .c = Take all the time you need.

@@ -188,3 +188,16 @@ point-second-card =
     .a = Su pareja está en la fila { $row }, columna { $column }.
     .b = Busca la otra en la fila { $row }, columna { $column }.
     .c = La que falta la encuentras en la fila { $row }, columna { $column }.
+
+## Comentarios después de una jugada, si la condición los tiene: ningún lugar, y nada sobre lo que se ha visto
+
+# Después de encontrar una pareja.
+praise =
+    .a = ¡Muy bien, es una pareja!
+    .b = Una pareja. ¡Estupendo!
+    .c = Has encontrado una pareja. ¡Bien hecho!
+# Después de una jugada fallida.
+encouragement =
+    .a = ¡Sigue así!
+    .b = No hay pareja, por ahora. ¡Tú puedes!
+    .c = Tómate todo el tiempo que necesites.

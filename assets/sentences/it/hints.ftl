@@ -188,3 +188,16 @@ point-second-card =
     .a = La carta gemella è in riga { $row }, colonna { $column }.
     .b = Cerca l'altra in riga { $row }, colonna { $column }.
     .c = Quella uguale la trovi in riga { $row }, colonna { $column }.
+
+## Commenti dopo una mossa, se la condizione li prevede: nessun posto, e niente su ciò che è stato visto
+
+# Dopo una coppia trovata.
+praise =
+    .a = Ben fatto, è una coppia!
+    .b = Una coppia. Ottimo!
+    .c = Hai trovato una coppia. Complimenti!
+# Dopo una mossa non riuscita.
+encouragement =
+    .a = Continua così!
+    .b = Niente coppia, per ora. Ce la puoi fare!
+    .c = Prenditi tutto il tempo che ti serve.

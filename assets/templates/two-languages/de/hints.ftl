@@ -147,3 +147,16 @@ point-second-card =
     .a = Das Gegenstück ist in Reihe { $row }, Spalte { $column }.
     .b = Such das Gegenstück in Reihe { $row }, Spalte { $column }.
     .c = Die passende Karte findest du in Reihe { $row }, Spalte { $column }.
+
+## Bemerkungen nach einem Zug, wo eine Bedingung sie hat: kein Ort, und nichts über das, was gesehen wurde
+
+# Nach einem gefundenen Paar.
+praise =
+    .a = Gut gemacht, das ist ein Paar!
+    .b = Ein Paar. Sehr gut!
+    .c = Du hast ein Paar gefunden. Prima!
+# Nach einem Zug ohne Paar.
+encouragement =
+    .a = Nur weiter!
+    .b = Kein Paar, dieses Mal. Du schaffst das!
+    .c = Nimm dir alle Zeit, die du brauchst.
