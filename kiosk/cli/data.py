@@ -18,7 +18,7 @@ from rich.table import Table
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, one_line, tell_caution
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
@@ -143,7 +143,7 @@ def verify_command(data: Path, *, as_json: bool) -> None:
         else:
             click.echo("What was left of people who withdrew is deleted now:", err=True)
             for flaw in flaws:
-                click.echo(f"  {flaw.where}: {flaw.what}", err=True)
+                click.echo(f"  {one_line(f'{flaw.where}: {flaw.what}')}", err=True)
             flaws = checking.verify(data)
     if as_json:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
@@ -205,7 +205,7 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
     if others:
         click.echo("These were made of this folder and may still hold them; see to each of them:", err=True)
     for each in others:
-        click.echo(f"  {each.kind.value} of {each.made_at[:10]}: {each.place}", err=True)
+        click.echo(f"  {one_line(f'{each.kind.value} of {each.made_at[:10]}: {each.place}')}", err=True)
 
 
 class FolderAndSite(click.ParamType[tuple[Path, str]]):
@@ -294,4 +294,4 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
     if exported.trials:
         click.echo(f"Left out, as no PIN was set, so that they were trials: {exported.trials}.")
     for caution in exported.cautions:
-        click.echo(f"caution: {caution}")
+        tell_caution(caution)

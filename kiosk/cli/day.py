@@ -12,6 +12,7 @@ from statistics import median
 import click
 
 from kiosk.cli.options import json_option, sessions_data_option
+from kiosk.cli.terminal import one_line
 from kiosk.config import ASSETS
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
@@ -75,7 +76,7 @@ def day_command(data: Path, day: datetime | None, out: Path | None, *, with_rehe
         return
     click.echo(f"{page} is about {len(report.sessions)} sessions of {chosen}, {completed} of them completed.")
     for caution in cautions:
-        click.echo(f"look at: {caution}")
+        click.echo(f"look at: {one_line(caution)}")
 
 
 def day_page(report: DayReport) -> str:

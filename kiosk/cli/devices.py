@@ -118,7 +118,7 @@ def _pretend(port: int | None) -> None:
         while True:
             request = heard.get()
             words = ", ".join(f"{name}={value}" for name, value in request.parameters.items())
-            click.echo(f"{request.path.removeprefix('/furhat/'):12}{words}")
+            click.echo(one_line(f"{request.path.removeprefix('/furhat/'):12}{words}"))
 
 
 def greet(settings: Settings, language: str, sentence: str) -> RobotTrial | None:

@@ -26,6 +26,7 @@ from kiosk.assistance.mentaliser import Hint, HintReason, Mentaliser, TargetRule
 from kiosk.assistance.policy import PRAISE, ActionSpec, FlipInMove, MoveOutcome, QTable, find_action, said_once
 from kiosk.assistance.wording import ReasonedSentences, Wording
 from kiosk.cli.options import json_option, read_catalogue, sessions_data_option, shipped_languages
+from kiosk.cli.terminal import one_line, tell_caution
 from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.replay import DecisionContext
@@ -234,7 +235,7 @@ def explain_command(
     if as_json:
         click.echo(json.dumps(_of_one(moments[0]) if one else _of_all(int(case_or_session), moments)))
     else:
-        click.echo("\n".join(_one(moments[0]) if one else _all(moments)))
+        click.echo("\n".join(map(one_line, _one(moments[0]) if one else _all(moments))))
     if picture is not None:
         click.echo(f"The boards are drawn in {picture}.", err=True)
     if any(moment.differs for moment in moments):
@@ -276,7 +277,7 @@ def _of_session(number: str, flip: int | None, data: Path) -> list[Moment]:
 
 def _name_broken(explainer: DecisionExplainer) -> None:
     for broken in explainer.broken:
-        click.echo(f"caution: {broken}", err=True)
+        tell_caution(broken, err=True)
 
 
 def _moment(explainer: DecisionExplainer, flip: int) -> Moment:

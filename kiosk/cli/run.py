@@ -25,6 +25,7 @@ from kiosk.cli.options import (
     site_option,
     study_option,
 )
+from kiosk.cli.terminal import tell_caution
 from kiosk.experiment.events import Event
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionConfig, kind_of
@@ -256,7 +257,7 @@ def _read_story(data: Path, session: int) -> tuple[list[Event], SessionConfig, i
     """Return the events of a session, up to one that cannot be read, its plan and its seed."""
     with open_repository(data) as stored:
         for broken in stored.broken_events(session):
-            click.echo(f"caution: {broken}", err=True)
+            tell_caution(broken, err=True)
         return stored.readable_story(session), stored.plan(session), stored.seed(session)
 
 

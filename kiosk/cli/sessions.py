@@ -13,7 +13,7 @@ from rich.table import Table
 
 from kiosk import UserInputError
 from kiosk.cli.options import data_option, json_option, sessions_data_option
-from kiosk.cli.terminal import console, one_line
+from kiosk.cli.terminal import console, one_line, tell_caution
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
 from kiosk.experiment.events import Status
 from kiosk.experiment.session_config import SessionKind
@@ -102,7 +102,7 @@ def sessions_command(
 
 
 def _caution(what: str) -> None:
-    click.echo(f"caution: {what}", err=True)
+    tell_caution(what, err=True)
 
 
 def _table(listed: Sequence[StoredSession]) -> Iterator[str]:
@@ -158,7 +158,7 @@ def _targets(enrolled: EnrolmentCounts) -> Table:
 
 
 def _word(value: object) -> str:
-    return "-" if value is None else str(value)
+    return "-" if value is None else one_line(str(value))
 
 
 @click.command()
@@ -179,7 +179,7 @@ def events_command(session: int, data: Path, *, as_json: bool) -> None:
         origin = record.pop("origin")
         details = "  ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in record.items())
         mark = "<" if origin == "world" else ">"
-        click.echo(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}")
+        click.echo(one_line(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}"))
 
 
 NOT_ALIVE, TROUBLE = 3, 1

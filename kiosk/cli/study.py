@@ -18,7 +18,7 @@ from kiosk.assistance.wording import CARD, Catalogue
 from kiosk.cli.guide import add_guide
 from kiosk.cli.main import BAD_INPUT
 from kiosk.cli.options import json_option, set_pin_command
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, one_line, tell_caution
 from kiosk.config import NO_ROBOT, Settings, pictures_in
 from kiosk.experiment.items import TextPage
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
@@ -127,9 +127,9 @@ def _print_summary(read: StudyConfig, summary: Mapping[str, Any]) -> None:
             table.add_row(key.replace("_", " "), _told(value))
     console().print(table)
     for source in read.sources:
-        click.echo(_came_from(source))
+        click.echo(one_line(_came_from(source)))
     for caution in summary["cautions"]:
-        click.echo(f"caution: {caution}")
+        tell_caution(caution)
 
 
 def check_pictures(read: StudyConfig) -> list[str]:
@@ -264,7 +264,7 @@ def study_cards(file: Path, sheet: Path | None, *, names: bool, practice: bool, 
         table.add_row(card, *called[card], f"{drawing.width} x {drawing.height}")
     console().print(table)
     for warning in warnings:
-        click.echo(f"caution: {warning}")
+        tell_caution(warning)
     if sheet is not None:
         click.echo(f"The cards are drawn on {sheet}.")
 
@@ -421,6 +421,6 @@ def study_import(
     items = "1 item" if len(read.items) == 1 else f"{len(read.items)} items"
     click.echo(f"{items} written to {out}")
     for sentence in left:
-        click.echo(f"not taken: {sentence}")
+        click.echo(f"not taken: {one_line(sentence)}")
     for sentence in unclear:
-        click.echo(f"to change in {out} before it is used: {sentence}")
+        click.echo(f"to change in {out} before it is used: {one_line(sentence)}")

@@ -11,6 +11,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
+from kiosk.cli.terminal import one_line
 from kiosk.robots.registry import check_robot
 from kiosk.study.comparison import Impact, compare
 from kiosk.study.loader import read_study
@@ -84,7 +85,7 @@ def diff_command(context: click.Context, one: Path, other: Path, *, as_json: boo
             if some:
                 click.echo(f"{impact.value}:")
             for each in some:
-                click.echo(f"  {each.where}: {each.what} ({each.effect})")
+                click.echo(f"  {one_line(f'{each.where}: {each.what} ({each.effect})')}")
         if not found:
             same = studies[0].sha256 == studies[1].sha256
             click.echo("The studies are the same." if same else "Nothing differs that sessions follow.")

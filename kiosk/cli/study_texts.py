@@ -14,7 +14,7 @@ from rich.table import Table
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, one_line
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
 from kiosk.study.checks import expected_minutes
@@ -66,7 +66,7 @@ def _read(settings: Settings, translation: Translation, file: Path, *, as_json: 
     for path in written:
         click.echo(f"written: {path}")
     for sentence in left:
-        click.echo(f"left out: {sentence}")
+        click.echo(f"left out: {one_line(sentence)}")
     if translation.language not in map(code_of, settings.languages):
         click.echo(f'Add "./{translation.language}" to languages in the study file to use it.')
 

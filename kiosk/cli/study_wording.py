@@ -15,7 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, one_line
 from kiosk.config import Settings, code_of
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.study.loader import read_study
@@ -127,7 +127,7 @@ def review_command(
     # The study's cards may have changed since, and the file is open to editors.
     failed = draft.check(_checker(plan))
     for sentence in failed:
-        click.echo(f"left, though it was taken: {sentence}", err=True)
+        click.echo(f"left, though it was taken: {one_line(sentence)}", err=True)
     _decide(draft, State.TAKEN, take)
     _decide(draft, State.LEFT, leave)
     if not (take or leave or only_list or as_json):

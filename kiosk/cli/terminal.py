@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TextIO
 
+import click
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -21,6 +23,11 @@ def harmless(text: str) -> str:
 def one_line(text: str) -> str:
     """Return a harmless text without ends of lines, after which words could pass for the program's own."""
     return harmless(" ".join(text.splitlines()))
+
+
+def tell_caution(what: object, *, err: bool = False) -> None:
+    """Print a caution on one line, whatever it quotes of a study or a record."""
+    click.echo(f"caution: {one_line(str(what))}", err=err)
 
 
 class HarmlessStream:

@@ -244,7 +244,7 @@ def _session(record: SessionRecord, zone: tzinfo | None) -> DaySession:
 
 def _spans(state: SessionState, first_ms: int, last_ms: int) -> Iterator[StageSpan]:
     visits = [visit for visit in state.stages if visit.stage is not Stage.OVER]
-    ends = [*(visit.at_ms for visit in visits[1:]), last_ms]
+    ends = [*(visit.at_ms for visit in visits[1:]), last_ms] if visits else []
     for visit, end_ms in zip(visits, ends, strict=True):
         yield StageSpan(visit.stage, visit.at_ms - first_ms, max(visit.at_ms, end_ms) - first_ms)
 

@@ -11,6 +11,7 @@ from typing import ClassVar
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QUrl
 from PySide6.QtGui import QGuiApplication, QIcon
+from PySide6.QtNetwork import QNetworkProxy
 from PySide6.QtQml import QQmlApplicationEngine, QQmlEngine
 from PySide6.QtQuick import QQuickWindow
 
@@ -166,6 +167,17 @@ def application(display: WindowMode, fonts: Sequence[Path] = ()) -> QGuiApplicat
     existing = QGuiApplication.instance()
     application = existing if isinstance(existing, QGuiApplication) else QGuiApplication(["recollect"])
     application.setQuitOnLastWindowClosed(False)
+    refuse_network()
     use_fonts(fonts)
     application.setWindowIcon(QIcon(str(ASSETS / "icon.svg")))
     return application
+
+
+def refuse_network() -> None:
+    """Keep Qt from connecting to any other machine, whatever a screen were to load.
+
+    A proxy without a name refuses every request before it is sent. Qt asks no proxy about this machine's own addresses.
+    A network access manager written in Python would cover those too, but Qt calls it in threads that the main thread
+    waits for while it holds the interpreter, and the kiosk would hang.
+    """
+    QNetworkProxy.setApplicationProxy(QNetworkProxy(QNetworkProxy.ProxyType.HttpProxy, "", 0))

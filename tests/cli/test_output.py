@@ -13,11 +13,12 @@ import pytest
 from rich.table import Table
 from rich.text import Text
 
-from kiosk import DISK_FULL, program
-from kiosk.cli.main import main
-from kiosk.cli.terminal import console, harmless, one_line
-from kiosk.experiment.events import SessionStarted
+from kiosk import DISK_FULL, UserInputError, program
+from kiosk.cli.main import main, recollect
+from kiosk.cli.terminal import console, harmless, one_line, tell_caution
+from kiosk.experiment.events import RobotDisconnected, SessionStarted
 from kiosk.experiment.session_config import SessionKind
+from kiosk.store.day_report import DayReport
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 
@@ -142,6 +143,31 @@ def test_nothing_that_a_command_prints_of_a_study_steers_the_terminal(
         said += stream.buffer.getvalue().decode()
     assert not set(said) & {"\u202e", "\u2066"}
     assert (r"[bold]\u202e.toml" if beside else r"[/x] \u202e\u2066") in said
+
+
+FORGED = "one\ncaution: two\x85three\u2028four\x1b[2J"
+
+
+def test_a_caution_stays_on_its_line(capsys: pytest.CaptureFixture[str]) -> None:
+    tell_caution(FORGED)
+    tell_caution(UserInputError(FORGED), err=True)
+    told = "caution: one caution: two three four\\x1b[2J\n"
+    assert capsys.readouterr() == (told, told)
+
+
+def test_a_line_of_events_sessions_and_the_day_holds_whatever_the_record_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with Recorder(tmp_path) as recorder:
+        provenance = Provenance(plan(), 1, f"robot:{FORGED}", "abc123", kind=SessionKind.SIMULATED)
+        recorder.begin(provenance, [SessionStarted(at_ms=0), RobotDisconnected(at_ms=1, why=FORGED)])
+    monkeypatch.setattr(DayReport, "cautions", lambda _: [FORGED])
+    for command in (["sessions"], ["events", "1"], ["day", "--with-rehearsals"]):
+        recollect.main([*command, "--data", str(tmp_path)], standalone_mode=False)
+        printed = "".join(capsys.readouterr())
+        assert "three" in printed
+        assert not [line for line in printed.splitlines() if line.startswith(("caution: two", "three"))]
 
 
 def test_a_path_that_is_no_text_is_told_all_the_same(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import pytest
 from fluent.syntax import FluentParser, FluentSerializer, ast
 from fluent.syntax.visitor import Transformer
 from PySide6.QtCore import Qt, QUrl
+from PySide6.QtNetwork import QNetworkAccessManager, QNetworkReply, QNetworkRequest
 from PySide6.QtQml import QQmlComponent, QQmlExpression, qmlContext
 from PySide6.QtQuick import QQuickItem
 from PySide6.QtTest import QTest
@@ -21,15 +22,21 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
+from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.information import ConsentPage, Information
 from kiosk.experiment.items import Single
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector
+from kiosk.robots.furhat import Furhat
+from kiosk.robots.furhat_rules import VOICES
 from kiosk.study.loader import read_study
-from kiosk.ui.experimenter.view_model import AuthorisationStep
+from kiosk.ui.experimenter.view_model import AuthorisationStep, PanelScreen
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.simulated_visitor import find_item, lay_out
 from kiosk.ui.window import QML, ClockMode, RunMode, Window, WindowMode
+from tests.robots.furhat_fake import FurhatFake
+from tests.robots.recording import Interface, Reports, Waits
 from tests.samples import CATALOGUES
 from tests.ui.conftest import Booth
 from tests.ui.looking import described
@@ -205,7 +212,9 @@ def test_no_text_on_any_screen_is_drawn_as_markup(window: Window, study: StudyCo
         assert [text for text, plain in found.items() if not plain] == [], moment
 
 
-def test_a_picture_in_a_text_is_asked_for_by_no_screen(window: Window, study: StudyConfig, qtbot: QtBot) -> None:
+def test_a_picture_in_a_text_is_asked_for_by_no_screen(
+    window: Window, study: StudyConfig, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with create_server(("127.0.0.1", 0)) as server:
         server.settimeout(0)
         picture = f'<img src="http://127.0.0.1:{server.getsockname()[1]}/{{}}.png">'
@@ -215,11 +224,20 @@ def test_a_picture_in_a_text_is_asked_for_by_no_screen(window: Window, study: St
         sheet = study.plans[0].information
         window.screens.about.show(sheet.about.model_copy(update={"title": picture.format("title")}))
         window.screens.avatar.say(picture.format("sentence"))
+        monkeypatch.setitem(VOICES, picture.format("voice"), "en-GB")
+        answer = health_of_a_robot_whose_voice_is(picture.format("voice"))
+        line = {"name": "robot", "message": answer, "is_ok": True, "part": "robot"}
+        panel = window.screens.experimenter.parts[2]
+        fill_panel(panel)
+        panel.show_health({"well": True, "summary": answer, "lines": [line], "more": [line]})
         window.screens.form.show((item,), 1, 1)
         for screen in ("about", "form"):
             window.screens.kiosk.show(screen)
             lay_out(window.shown)
             window.shown.grabWindow()
+        panel.open(is_open=True)
+        assert answer in seen(window)
+        window.shown.grabWindow()
         # A text that is not plain asks at once, which shows that the others would have been heard before it.
         source = f"import QtQuick\nText {{ textFormat: Text.StyledText; text: '{picture.format('styled')}' }}"
         component = QQmlComponent(window.engine)
@@ -247,6 +265,29 @@ def test_a_picture_in_a_text_is_asked_for_by_no_screen(window: Window, study: St
         styled.deleteLater()
 
 
+def health_of_a_robot_whose_voice_is(name: str) -> str:
+    """Return what the experimenter reads about a robot whose voice has this name."""
+    interface, settings = Interface(), RobotSettings(kind="furhat")
+    with FurhatFake(voices={name: "en-GB"}) as fake:
+        driver = Furhat(settings.model_copy(update={"host": "127.0.0.1", "port": fake.port}), "en")
+        embodiments = EmbodimentSelector(Reports(), Waits().after, settings)
+        robot = AsyncRobotAdapter(driver, embodiments, interface.land, look_every_ms=60_000)
+        embodiments.attach_robot(robot)
+        interface.settle(robot)
+        message = robot.health.message
+        embodiments.close()
+    assert name in message
+    return message
+
+
+def test_qt_asks_nothing_of_another_machine(window: Window, qtbot: QtBot) -> None:
+    manager = QNetworkAccessManager(window.shown)
+    # An address that is kept free for examples.
+    answer = manager.get(QNetworkRequest(QUrl("http://192.0.2.1/picture.png")))
+    qtbot.waitUntil(answer.isFinished)
+    assert answer.error() is QNetworkReply.NetworkError.ProxyNotFoundError
+
+
 def test_questions_options_ends_and_hints_stand_there_as_they_were_written(window: Window, study: StudyConfig) -> None:
     for moment in show_everything(window.screens, study):
         if moment.startswith("form: "):
@@ -259,8 +300,8 @@ def test_questions_options_ends_and_hints_stand_there_as_they_were_written(windo
             assert wanted <= seen(window).keys(), moment
 
 
-def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: Window) -> None:
-    card, note, panel = window.screens.experimenter.parts
+def fill_panel(panel: PanelScreen) -> None:
+    """Show markup in every part of the experimenter's panel."""
     words = dict.fromkeys(_names_of_the_panel(), MARKUP)
     option = [{"value": "one", "label": MARKUP}, {"value": "two", "label": BOLD}]
     line = {"name": MARKUP, "message": PICTURE, "is_ok": False, "part": "voice"}
@@ -287,6 +328,11 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     lists = dict.fromkeys(("conditions", "embodiments", "languages", "volumes", "breaks"), option)
     flags = {"underWay": True, "canBeNext": True, "muted": False, "named": False, "staysPaused": False, "onBreak": True}
     panel.show_choices({**chosen, **lists, **flags, "session": MARKUP, "backup": MARKUP})
+
+
+def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: Window) -> None:
+    card, note, panel = window.screens.experimenter.parts
+    fill_panel(panel)
     panel.open(is_open=True)
     note.tell(MARKUP)
     card.show(AuthorisationStep.REASON, MARKUP, MARKUP, reasons=(MARKUP, BOLD))
