@@ -986,6 +986,25 @@ class Privacy(ConfigModel):
     ] = False
 
 
+class ReturningConfig(ConfigModel):
+    """Whether a visitor can come back another day as the same participant."""
+
+    enabled: Annotated[
+        bool,
+        Field(
+            description="Lets visitors who agreed to the purpose 'return' of the consent come back with their code, "
+            "as the same participant."
+        ),
+    ] = False
+    condition: Annotated[
+        Literal["same", "next", "new"],
+        Field(
+            description="Which help a participant gets who comes back: that of the first visit, the next condition "
+            "in the design's order, or a new place of the allocation list, as a new participant would."
+        ),
+    ] = "same"
+
+
 class MarkersConfig(ConfigModel):
     """Whether the moments of a session go to recorders of gaze or EEG."""
 
@@ -1068,6 +1087,7 @@ class Settings(ConfigModel):
     shortcuts: Keys = Keys()
     experimenter: ExperimenterConfig = ExperimenterConfig()
     privacy: Privacy = Privacy()
+    returning: ReturningConfig = ReturningConfig()
     markers: MarkersConfig = MarkersConfig()
     remote: Annotated[Remote, Field(exclude=True)] = Remote()
 

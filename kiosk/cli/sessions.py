@@ -36,6 +36,7 @@ _FATES = {
     Disposition.DROPPED_OUT: "dropped out",
     Disposition.OVERRIDDEN: "chosen by hand",
     Disposition.BEYOND: "beyond the list",
+    Disposition.RETURNING: "came back",
     Disposition.UNLISTED: "without a list",
 }
 _STATUSES = [RUNNING, *(status.value for status in Status)]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from math import gcd
 from random import Random
-from typing import ClassVar, Protocol
+from typing import ClassVar, Literal, Protocol
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
@@ -123,6 +123,8 @@ class AllocationSource(Enum):
     """The experimenter chose; it takes no slot."""
     BEYOND = "beyond"
     """The list is used up."""
+    RETURNING = "returning"
+    """The participant was here before, and earlier visits decide; it takes no slot."""
 
 
 @dataclass(frozen=True)
@@ -160,6 +162,22 @@ def allocation_slots(
 def next_slot(listed: tuple[AllocationSlot, ...], consumed: Collection[int]) -> AllocationSlot | None:
     """Return the first slot that is not consumed; None when the list is used up."""
     return next((slot for slot in listed if slot.number not in consumed), None)
+
+
+def condition_of_return(
+    rule: Literal["same", "next", "new"], before: Sequence[Condition], listed: Collection[Condition]
+) -> Condition | None:
+    """Return the condition of a participant who comes back, by those of the visits before, the first one first.
+
+    ``next`` goes on in the design's order among the conditions that are listed, and begins anew after the last. None
+    means that the condition is found as for a new participant.
+    """
+    if rule == "new" or not before:
+        return None
+    if rule == "same":
+        return before[0]
+    order = in_design_order({*listed, before[-1]})
+    return order[(order.index(before[-1]) + 1) % len(order)]
 
 
 def ratio_in_words(quotas: Mapping[Condition, int]) -> str:

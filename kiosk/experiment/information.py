@@ -22,6 +22,9 @@ PUBLISHING = "share"
 POINTER = "pointer"
 """The purpose of the consent that stands for recording the way of the pointer."""
 
+RETURNING = "return"
+"""The purpose of the consent that stands for linking what a visitor does at several visits."""
+
 Paragraphs = Annotated[tuple[Text, ...], Field(min_length=1, max_length=8, strict=False)]
 
 

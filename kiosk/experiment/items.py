@@ -174,6 +174,10 @@ class AnswerFormat:
     ends: tuple[int, int] | None = None
 
 
+Visits = Literal["every", "first"]
+"""At which visits of a participant who comes back something is asked."""
+
+
 class BaseItem(ConfigModel):
     """What all items have: a name within the questionnaire, and a text.
 
@@ -191,6 +195,8 @@ class BaseItem(ConfigModel):
 
     An empty one stays out of dumps, so that the hash of a questionnaire without conditions is what it always was.
     """
+    visits: Annotated[Visits, Field(exclude_if=lambda visits: visits == "every")] = "every"
+    """Whether it is asked at every visit of a participant who comes back, or at the first one only."""
 
     def view(self, language: str) -> dict[str, Any]:  # noqa: ARG002 - for the kinds that have words
         """Return what QML draws besides the text, as JSON values in a language."""

@@ -12,7 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood, OutcomeBuilder
 from kiosk.experiment.events import Event, Timer, WorldEvent
-from kiosk.experiment.information import Information, Page
+from kiosk.experiment.information import RETURNING, ConsentPage, Information, Page
 from kiosk.experiment.items import (
     Question,
     Response,
@@ -99,10 +99,11 @@ class SpeechWriter:
 class ConsentStage(StageHandler):
     """One box for each purpose, none ticked; agreeing counts once every required one is."""
 
-    def __init__(self, information: Information, language: str) -> None:
-        """Ask for the consent of this sheet."""
+    def __init__(self, information: Information, language: str, *, back: bool = False) -> None:
+        """Ask for the consent of this sheet; who came ``back`` has to agree that their visits are linked."""
         self._information = information
         self._language = language
+        self._back = back
         self._ticked: frozenset[str] = frozenset()
 
     @property
@@ -112,7 +113,7 @@ class ConsentStage(StageHandler):
 
     def enter(self, outcome: OutcomeBuilder) -> None:
         """Show the boxes, with the ticks of a visitor who was here before."""
-        outcome.effect(do.ShowConsent(self._information.consent))
+        outcome.effect(do.ShowConsent(self._page))
         if self._ticked:
             outcome.effect(do.ShowTicks(self._ticked))
 
@@ -141,8 +142,19 @@ class ConsentStage(StageHandler):
             case happened.ConsentSubmitted():
                 self._agree(outcome)
 
+    @property
+    def _page(self) -> ConsentPage:
+        """The page as it is asked; its hash stays that of the sheet."""
+        page = self._information.consent
+        if not self._back:
+            return page
+        purposes = (
+            each.model_copy(update={"required": each.required or each.id == RETURNING}) for each in page.purposes
+        )
+        return page.model_copy(update={"purposes": tuple(purposes)})
+
     def _agree(self, outcome: OutcomeBuilder) -> None:
-        missing = self._information.consent.required - self._ticked
+        missing = self._page.required - self._ticked
         purposes = tuple(purpose.id for purpose in self._information.consent.purposes)
         if missing:
             outcome.effect(do.ShowValidationErrors(tuple(purpose for purpose in purposes if purpose in missing)))

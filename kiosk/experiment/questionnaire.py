@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from enum import Enum
 from functools import reduce
 from operator import or_
@@ -31,10 +31,11 @@ from kiosk.experiment.items import (
     Slider,
     Text,
     TextPage,
+    Visits,
     in_language,
     refuse_twice,
 )
-from kiosk.experiment.relevance import condition_faults
+from kiosk.experiment.relevance import condition_faults, read_condition, simple_conditions
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
 
 
@@ -110,7 +111,18 @@ class Questionnaire(ConfigModel):
     order: Annotated[ItemOrder, Field(strict=False)] = ItemOrder.FIXED
     least_answered: Annotated[float, Field(ge=0, le=1)] = 0.5
     """The share of a scale's items that must be answered for the scale to have a mean; one is needed in any case."""
+    visits: Annotated[Visits, Field(exclude_if=lambda visits: visits == "every")] = "every"
+    """At which visits all of it is asked; an item can say for itself that it is asked at the first one only."""
     items: Annotated[tuple[Item, ...], Field(min_length=1, max_length=MOST_ITEMS, strict=False)]
+
+    def at_visit(self, visit: int) -> Self | None:
+        """Return what of it is asked at a visit, counted from 1; None if nothing is."""
+        if visit == 1:
+            return self
+        items = tuple(item for item in self.items if "first" not in (self.visits, item.visits))
+        if len(items) == len(self.items):
+            return self
+        return self.model_copy(update={"items": items}) if items else None
 
     @property
     def sha256(self) -> str:
@@ -167,7 +179,7 @@ class Questionnaire(ConfigModel):
         faults = (
             [(at, _SHUFFLED) for at, item in enumerate(items) if item.relevant]
             if shuffled
-            else list(condition_faults(items))
+            else [*condition_faults(items), *_asked_later(items)]
         )
         if faults:
             raise ValidationError.from_exception_data(
@@ -192,6 +204,21 @@ class Questionnaire(ConfigModel):
             if len({item.ends for item in items}) > 1:
                 raise ValueError(f"items: those of the scale {scale!r} have different ends, so they cannot be summed")
         return self
+
+
+def _asked_later(items: tuple[Item, ...]) -> Iterator[tuple[int, str]]:
+    """Yield items of every visit whose condition depends on an item of the first visit, by their positions."""
+    first = {item.id for item in items if item.visits == "first"}
+    for at, item in enumerate(items):
+        if item.visits == "first" or not item.relevant:
+            continue
+        try:
+            asked = [part.item for part in simple_conditions(read_condition(item.relevant)) if part.item in first]
+        except ValueError:
+            # The condition itself is refused as one that cannot be read.
+            continue
+        if asked:
+            yield at, f"the item {asked[0]!r} is asked at the first visit only, so this one must be as well"
 
 
 QUESTIONNAIRES = TypeAdapter(tuple[Questionnaire, ...])

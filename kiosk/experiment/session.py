@@ -181,12 +181,14 @@ class StageFactory:
         settings = plan.settings
         makers: dict[Stage, Callable[[], StageHandler]] = {
             Stage.ABOUT: lambda: AboutStage(plan.information.about),
-            Stage.CONSENT: lambda: ConsentStage(plan.information, plan.language),
+            Stage.CONSENT: lambda: ConsentStage(plan.information, plan.language, back=plan.visit > 1),
             Stage.AGE: lambda: AgeStage(settings.consent.adult),
-            Stage.ABOUT_YOU: lambda: QuestionnaireStage((plan.about_you,), Random(f"{seed}/about_you"), plan.language),
+            Stage.ABOUT_YOU: lambda: QuestionnaireStage(
+                plan.asked_about_you, Random(f"{seed}/about_you"), plan.language
+            ),
             Stage.RESULT: lambda: ResultStage(self.speaker, log),
             Stage.QUESTIONS: lambda: QuestionnaireStage(
-                plan.questionnaires, Random(f"{seed}/questions"), plan.language, rates=True
+                plan.asked_after_game, Random(f"{seed}/questions"), plan.language, rates=True
             ),
             Stage.DEBRIEF: lambda: DebriefStage(plan.information.debrief),
             Stage.THANKS: lambda: ThanksStage(self.speaker, plan.timing.thanks_ms),

@@ -11,6 +11,7 @@ from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConditionConfig, Settings, Timing
 from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import Stage
 from kiosk.experiment.information import Information
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.transitions import StageOrder
@@ -73,6 +74,18 @@ class SessionConfig:
     """The tables of the study's conditions, by their names, where any has one of its own."""
     study_sha256: str = ""
     """The hash of the whole study, as ``study pack`` prints it; empty where it is not known."""
+    visit: int = 1
+    """Which visit of the participant it is, counted from 1."""
+
+    @property
+    def asked_about_you(self) -> tuple[Questionnaire, ...]:
+        """The questionnaire about the visitor as it is asked at this visit; nothing if it is not."""
+        return _at_visit((self.about_you,), self.visit)
+
+    @property
+    def asked_after_game(self) -> tuple[Questionnaire, ...]:
+        """The questionnaires after the game as they are asked at this visit."""
+        return _at_visit(self.questionnaires, self.visit)
 
     @property
     def cell(self) -> ConditionConfig:
@@ -99,8 +112,17 @@ class SessionConfig:
 
     @property
     def stage_order(self) -> StageOrder:
-        """Its stages in their order; raises UserInputError if there can be no such course."""
-        return StageOrder.of(self.settings.stages)
+        """Its stages in their order; raises UserInputError if there can be no such course.
+
+        A later visit leaves out a stage in which nothing is asked.
+        """
+        order = StageOrder.of(self.settings.stages)
+        empty = {Stage.ABOUT_YOU: not self.asked_about_you, Stage.QUESTIONS: not self.asked_after_game}
+        return StageOrder(tuple(stage for stage in order.stages if self.visit == 1 or not empty.get(stage)))
+
+
+def _at_visit(questionnaires: tuple[Questionnaire, ...], visit: int) -> tuple[Questionnaire, ...]:
+    return tuple(asked for each in questionnaires if (asked := each.at_visit(visit)) is not None)
 
 
 @dataclass(frozen=True)

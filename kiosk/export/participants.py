@@ -61,6 +61,7 @@ class FlowQuantity(Enum):
     UNDER_WAY = Disposition.UNDER_WAY.value
     OVERRIDDEN = Disposition.OVERRIDDEN.value
     BEYOND = Disposition.BEYOND.value
+    RETURNING = Disposition.RETURNING.value
     UNLISTED = Disposition.UNLISTED.value
     WITHDRAWN = "withdrawn"
     NOT_SHARED = "not_shared"
@@ -78,6 +79,7 @@ MEANINGS = {
     FlowQuantity.UNDER_WAY: "sessions with a slot that were going on when this was exported, by condition",
     FlowQuantity.OVERRIDDEN: "sessions whose condition the experimenter chose, by condition",
     FlowQuantity.BEYOND: "sessions that began when the list was used up, by condition",
+    FlowQuantity.RETURNING: "later visits of participants who came back and took no slot, by condition",
     FlowQuantity.UNLISTED: "sessions without an allocation list, by condition",
     FlowQuantity.WITHDRAWN: "sessions that were deleted because their visitor withdrew, by condition; each is counted "
     "in one of the rows before as well",

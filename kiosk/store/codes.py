@@ -6,6 +6,7 @@ import hashlib
 import re
 import secrets
 import sqlite3
+from collections.abc import Sequence
 
 from kiosk import UserInputError
 
@@ -59,6 +60,34 @@ def issue_code(connection: sqlite3.Connection, session: int, site: str) -> str:
     return code
 
 
+def shown_code(text: str, site: str) -> str:
+    """Return a code that was typed as it is shown; raises UserInputError if it was mistyped."""
+    characters = checked_code(text)
+    return "-".join(part for part in (site, characters[:_GROUP], characters[_GROUP:]) if part)
+
+
+def keys_of(connection: sqlite3.Connection) -> tuple[bytes, ...]:
+    """Return what a database hashes codes with: one key, or that of each part where folders were merged."""
+    return tuple(key for (key,) in connection.execute("SELECT key FROM code_key"))
+
+
+def hashes_of(text: str, keys: Sequence[bytes]) -> tuple[bytes, ...]:
+    """Return what is stored of a code under each key, some 4 ms for each.
+
+    Raises UserInputError if it was mistyped.
+    """
+    return tuple(hash_code(text, key) for key in keys)
+
+
+def session_with_hash(connection: sqlite3.Connection, hashes: Sequence[bytes]) -> int | None:
+    """Return the session whose person has the code with one of these hashes; None if no stored one has."""
+    for each in hashes:
+        row = connection.execute("SELECT session FROM withdrawal_code WHERE hash = ?", (each,)).fetchone()
+        if row is not None:
+            return int(row[0])
+    return None
+
+
 def session_with_code(connection: sqlite3.Connection, text: str) -> int | None:
     """Return the session whose person has this code; None if no stored one has.
 
@@ -75,7 +104,7 @@ def session_withdrawn_with(connection: sqlite3.Connection, text: str) -> int | N
 def _session(connection: sqlite3.Connection, table: str, text: str) -> int | None:
     code = checked_code(text)
     # A merged folder has the key of each part.
-    for (key,) in connection.execute("SELECT key FROM code_key").fetchall():
+    for key in keys_of(connection):
         row = connection.execute(
             f"SELECT session FROM {table} WHERE hash = ?",  # noqa: S608 - ours
             (hash_code(code, key),),

@@ -91,7 +91,7 @@ _TABLES = (
         allocation_list INTEGER REFERENCES allocation_list (id),
         allocation_slot INTEGER CHECK ((allocation_slot IS NULL) = (allocation_list IS NULL)),
         allocation_source TEXT CHECK (
-            allocation_source IN ('list', 'override', 'beyond')
+            allocation_source IN ('list', 'override', 'beyond', 'returning')
             AND (allocation_source IS 'list') = (allocation_slot IS NOT NULL)
         ),
         information_source TEXT NOT NULL REFERENCES source (sha256),
@@ -125,14 +125,16 @@ _TABLES = (
     """,
     # Every session that begins asks who finished a game.
     "CREATE INDEX game_finished ON event (session) WHERE type = 'GameFinished'",
-    # Each kind of session has numbers of its own, so that a rehearsal uses up no participant's number.
+    # Each kind of session has numbers of its own, so that a rehearsal uses up no participant's number. Someone who
+    # comes back keeps the number, and the visit counts from 1.
     """
     CREATE TABLE participant (
         session INTEGER PRIMARY KEY REFERENCES session (id),
         site TEXT NOT NULL,
         kind INTEGER NOT NULL CHECK (kind IN (0, 1, 2)),
         number INTEGER NOT NULL,
-        UNIQUE (site, kind, number)
+        visit INTEGER NOT NULL DEFAULT 1 CHECK (visit >= 1),
+        UNIQUE (site, kind, number, visit)
     ) STRICT
     """,
     # What codes are hashed with: made with the database. A merged one has the key of each part.
@@ -167,7 +169,8 @@ _TABLES = (
         status TEXT NOT NULL,
         game_completed INTEGER NOT NULL CHECK (game_completed IN (0, 1)),
         withdrawn_at TEXT NOT NULL,
-        UNIQUE (site, kind, number)
+        visit INTEGER NOT NULL DEFAULT 1 CHECK (visit >= 1),
+        UNIQUE (site, kind, number, visit)
     ) STRICT
     """,
     # What experimenters did outside sessions.
@@ -206,6 +209,8 @@ _NEVER_CHANGED = {
 }
 """The statements that no row of a table takes."""
 
+_SAME_VISIT = "(site = NEW.site AND kind = NEW.kind AND number = NEW.number AND visit = NEW.visit)"
+
 _IN_ITS_WAY = {
     "event": "session = NEW.session AND seq = NEW.seq",
     "session": "id = NEW.id",
@@ -216,8 +221,8 @@ _IN_ITS_WAY = {
     "audit_event": "id = NEW.id",
     "withdrawal_code": "hash = NEW.hash",
     "withdrawn_code": "hash = NEW.hash",
-    "participant": "session = NEW.session OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
-    "tombstone": "session = NEW.session OR (site = NEW.site AND kind = NEW.kind AND number = NEW.number)",
+    "participant": f"session = NEW.session OR {_SAME_VISIT}",
+    "tombstone": f"session = NEW.session OR {_SAME_VISIT}",
 }
 """Which row a new one would replace: INSERT OR REPLACE deletes it without asking the triggers on delete."""
 
@@ -274,7 +279,7 @@ _TRIGGERS = (
     """,
 )
 
-MIGRATIONS: tuple[Migration, ...] = (Migration(4, "the tables of 0.2", (*_TABLES, *_TRIGGERS, *SUMMARIES)),)
+MIGRATIONS: tuple[Migration, ...] = (Migration(5, "the tables of 0.2", (*_TABLES, *_TRIGGERS, *SUMMARIES)),)
 """Every step so far, the first one creates the database; a step that was released never changes.
 
 Earlier steps were never released, and their databases are not read.

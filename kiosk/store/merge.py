@@ -311,7 +311,7 @@ def _copy_lists(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
 
 def _copy_tombstones(parts: Sequence[_Part], target: sqlite3.Connection) -> None:
     """They stand before the sessions, so that no session that is yet to come takes their numbers."""
-    ordered = _ordered(parts, "tombstone", "site", "kind", "number")
+    ordered = _ordered(parts, "tombstone", "site", "kind", "number", "visit")
     for number, (part, row) in enumerate(ordered, 1):
         old = row["session"]
         insert(

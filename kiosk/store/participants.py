@@ -25,12 +25,27 @@ from kiosk.experiment.condition import (
     ratio_in_words,
 )
 from kiosk.experiment.events import NotRecordedReason
+from kiosk.experiment.information import RETURNING
 from kiosk.experiment.labels import read_as
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.codes import issue_code
 
 _DIGITS_OF_A_YEAR = 4
 _SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)
+
+
+@dataclass(frozen=True)
+class ReturningVisitor:
+    """A participant who was here before.
+
+    ``visit`` is the one that begins now, counted from 1, and ``conditions`` are those of the visits before, the first
+    one first. The code is the one they gave.
+    """
+
+    number: int
+    visit: int
+    conditions: tuple[Condition, ...]
+    code: str
 
 
 @dataclass(frozen=True)
@@ -42,6 +57,8 @@ class Participant:
     number: int
     code: str
     """What they can withdraw with. It is not stored, so it is known only while their session is under way."""
+    visit: int = 1
+    """Which of their visits it is."""
 
     @property
     def name(self) -> str:
@@ -73,14 +90,75 @@ def _is_long_number(site: str) -> bool:
     return site.isdigit() and len(site) > _DIGITS_OF_A_YEAR
 
 
-def enrol(connection: sqlite3.Connection, session: int) -> Participant:
-    """Give a session's person the next number of the site, and a code, within the transaction that is open."""
+def enrol(connection: sqlite3.Connection, session: int, returning: ReturningVisitor | None = None) -> Participant:
+    """Give a session's person the next number of the site, and a code, within the transaction that is open.
+
+    Someone who comes back keeps number and code. Their session gets a code of its own all the same, which is not
+    shown: by its hash an older copy is found that still holds the session after they withdrew.
+    """
     site, kind = connection.execute("SELECT site, kind FROM session WHERE id = ?", (session,)).fetchone()
-    number = _next_number(connection, site, kind)
+    number = _next_number(connection, site, kind) if returning is None else returning.number
+    visit = 1 if returning is None else returning.visit
     connection.execute(
-        "INSERT INTO participant (session, site, kind, number) VALUES (?, ?, ?, ?)", (session, site, kind, number)
+        "INSERT INTO participant (session, site, kind, number, visit) VALUES (?, ?, ?, ?, ?)",
+        (session, site, kind, number, visit),
     )
-    return Participant(session, site, number, issue_code(connection, session, site))
+    own = issue_code(connection, session, site)
+    return Participant(session, site, number, own if returning is None else returning.code, visit)
+
+
+def returning_visitor(
+    connection: sqlite3.Connection, session: int, code: str, *, site: str, kind: SessionKind
+) -> ReturningVisitor | None:
+    """Return the person of a session who comes back to this site.
+
+    None if they did not agree that their visits are linked, or if they belong to another site or kind.
+    """
+    row = connection.execute(
+        "SELECT number FROM participant WHERE session = ? AND site = ? AND kind = ?", (session, site, int(kind))
+    ).fetchone()
+    if row is None:
+        return None
+    (number,) = row
+    visits = connection.execute(_VISITS, {"site": site, "kind": int(kind), "number": number}).fetchall()
+    agreed = connection.execute(_AGREED, {"site": site, "kind": int(kind), "number": number, "purpose": RETURNING})
+    if not agreed.fetchone()[0]:
+        return None
+    conditions = tuple(Condition(condition) for _, condition in visits)
+    return ReturningVisitor(number, 1 + max(visit for visit, _ in visits), conditions, code)
+
+
+_VISITS = """
+    SELECT visit, condition FROM participant JOIN session ON session.id = participant.session
+    WHERE participant.site = :site AND participant.kind = :kind AND number = :number
+    UNION ALL
+    SELECT visit, condition FROM tombstone WHERE site = :site AND kind = :kind AND number = :number
+    ORDER BY visit
+"""
+"""A visit that the person deleted is counted as well."""
+
+_AGREED = """
+    SELECT EXISTS (
+        SELECT 1 FROM participant JOIN event ON event.session = participant.session
+        WHERE participant.site = :site AND participant.kind = :kind AND number = :number AND type = 'ConsentGiven'
+        AND EXISTS (SELECT 1 FROM json_each(payload, '$.purposes') WHERE value = :purpose)
+    )
+"""
+
+
+def visits_of(connection: sqlite3.Connection, session: int) -> tuple[int, ...]:
+    """Return the stored sessions of the person of a session, stored or withdrawn, the first visit first."""
+    rows = connection.execute(
+        """
+        SELECT other.session FROM participant AS other JOIN (
+            SELECT site, kind, number FROM participant WHERE session = :session
+            UNION SELECT site, kind, number FROM tombstone WHERE session = :session
+        ) AS person ON other.site = person.site AND other.kind = person.kind AND other.number = person.number
+        ORDER BY other.visit
+        """,
+        {"session": session},
+    )
+    return tuple(number for (number,) in rows)
 
 
 def enrol_again(connection: sqlite3.Connection, session: int) -> Participant | None:
@@ -89,11 +167,11 @@ def enrol_again(connection: sqlite3.Connection, session: int) -> Participant | N
     The earlier one was only on their screen and paper; both stay valid. Returns None if the session was recorded before
     people were numbered, or is not there.
     """
-    row = connection.execute("SELECT site, number FROM participant WHERE session = ?", (session,)).fetchone()
+    row = connection.execute("SELECT site, number, visit FROM participant WHERE session = ?", (session,)).fetchone()
     if row is None:
         return None
-    site, number = row
-    return Participant(session, site, number, issue_code(connection, session, site))
+    site, number, visit = row
+    return Participant(session, site, number, issue_code(connection, session, site), visit)
 
 
 def _next_number(connection: sqlite3.Connection, site: str, kind: int) -> int:
@@ -334,6 +412,8 @@ class Disposition(Enum):
     """It has a slot, and its game may still be completed."""
     OVERRIDDEN = "overridden"
     BEYOND = "beyond"
+    RETURNING = "returning"
+    """Its participant was here before, and took no slot."""
     UNLISTED = "unlisted"
     """No allocation list was followed."""
 
@@ -408,6 +488,8 @@ def _fate(source: str | None, *, finished: bool, ended: bool) -> Disposition:
             return Disposition.OVERRIDDEN
         case AllocationSource.BEYOND:
             return Disposition.BEYOND
+        case AllocationSource.RETURNING:
+            return Disposition.RETURNING
         case _:
             return Disposition.UNLISTED
 

@@ -62,6 +62,8 @@ class StoredSession:
     participant: str | None
     stage: Stage | None
     allocation_source: AllocationSource | None
+    visit: int = 1
+    """Which visit of the participant it was."""
     record_sha256: str | None = None
     """The end of the chain of hashes over its events; None if the database has lost it."""
 
@@ -80,6 +82,7 @@ class StoredSession:
         return {
             "session": self.id,
             "participant": self.participant,
+            "visit": self.visit,
             "status": self.status.value if self.status else RUNNING,
             "stage": self.stage.value if self.stage else None,
             "allocation_source": self.allocation_source.value if self.allocation_source else None,
@@ -370,9 +373,15 @@ class SessionRepository:
                 practice_deck=tuple(json.loads(row["practice_deck"])),
                 study_sha256=row["study_sha256"],
                 translations=self._translations(row) if self._changed_language(number) else (),
+                visit=self._visit(number),
             )
         except ValueError as error:
             raise UserInputError(f"what session {number} followed cannot be read: {error}") from error
+
+    def _visit(self, number: int) -> int:
+        """Return which visit of its participant a session is."""
+        row = self._connection.execute("SELECT visit FROM participant WHERE session = ?", (number,)).fetchone()
+        return 1 if row is None else int(row[0])
 
     def _changed_language(self, number: int) -> bool:
         where = "session = ? AND type = ?"
@@ -447,13 +456,14 @@ class SessionRepository:
             participant=None if row["number"] is None else participant_name(row["site"], row["number"]),
             stage=Stage(row["stage"]) if row["stage"] else None,
             allocation_source=AllocationSource(row["allocation_source"]) if row["allocation_source"] else None,
+            visit=row["visit"] or 1,
             record_sha256=row["record_sha256"].lower() or None,
         )
 
 
 _SESSIONS = """
     SELECT session.id, session.site, started_at, condition, embodiment, session.kind, allocation_source,
-        participant.number, status, stage, flips, pairs, hints, duration_ms,
+        participant.number, participant.visit, status, stage, flips, pairs, hints, duration_ms,
         hex(head.hash) AS record_sha256
     FROM session JOIN session_summary ON session_summary.session = session.id
     LEFT JOIN head ON head.session = session.id

@@ -21,15 +21,18 @@ from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Stat
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
+from kiosk.store.codes import keys_of, session_with_hash, shown_code
 from kiosk.store.connecting import failure, primary_code, reason
 from kiosk.store.database import BUSY, lock_folder, open_for_writing
 from kiosk.store.participants import (
     AllocationLists,
     Participant,
+    ReturningVisitor,
     check_not_given_out_again,
     checked_site,
     enrol,
     enrol_again,
+    returning_visitor,
 )
 from kiosk.store.summaries import go_on
 from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished, note_intention
@@ -141,6 +144,8 @@ class Provenance:
     slot: AllocationSlot | None = None
     """The slot that it takes in the allocation list; given if, and only if, its condition came from the list."""
     allocation_source: AllocationSource | None = None
+    returning: ReturningVisitor | None = None
+    """Who comes back; None for a new participant. The plan is that of their visit."""
 
 
 OPENING_WAIT_MS = 5_000
@@ -246,7 +251,7 @@ class Recorder:
             session = self._insert_session(provenance)
             rows = event_rows(session, 1, events, first_hash(self._connection, session))
             self._connection.executemany(_INSERT_EVENT, rows)
-            participant = enrol(self._connection, session)
+            participant = enrol(self._connection, session, provenance.returning)
         self._session = session
         self._resumed = False
         self._next_seq = 1
@@ -285,6 +290,22 @@ class Recorder:
             self._connection.executemany(_INSERT_EVENT, rows)
         self._resumed = False
         self._written(rows)
+
+    def code_keys(self) -> tuple[bytes, ...]:
+        """Return what codes are hashed with."""
+        with self._transaction("DEFERRED"):
+            return keys_of(self._connection)
+
+    def returning_visitor(self, code: str, hashes: Sequence[bytes], kind: SessionKind) -> ReturningVisitor | None:
+        """Return the participant who has the code with one of these hashes, and may come back to this site.
+
+        None if there is none: the code is unknown, or its person withdrew or did not agree that visits are linked.
+        """
+        with self._transaction("DEFERRED"):
+            session = session_with_hash(self._connection, hashes)
+            if session is None:
+                return None
+            return returning_visitor(self._connection, session, shown_code(code, self.site), site=self.site, kind=kind)
 
     def append_and_withdraw(self, events: Sequence[Event]) -> None:
         """Write a session's last events and delete its rows, in one transaction; a tombstone stays.
@@ -368,6 +389,8 @@ class Recorder:
 
     def _insert_session(self, provenance: Provenance) -> int:
         plan = provenance.plan
+        if plan.visit != (provenance.returning.visit if provenance.returning else 1):
+            raise ValueError(f"a plan of visit {plan.visit} is not one for {provenance.returning}")
         return insert(
             self._connection,
             "session",

@@ -31,6 +31,8 @@ from kiosk.store.queries import BrokenEvent, SessionRepository, StoredEvent, dec
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
 
+_VISIT = "v"
+
 _LETTERS = {SessionKind.STUDY: "P", SessionKind.SIMULATED: "r", SessionKind.TRIAL: "t"}
 
 
@@ -97,8 +99,19 @@ class SessionRecord:
         """What the person is called: site and number, with a letter that keeps it from being read as a number.
 
         P stands for participants, r for rehearsals and t for trials; as small letters are in no site, no two are alike.
+        From the second visit on, v and the visit follow.
         """
         return _name(self.row, self.secret)
+
+    @property
+    def visit(self) -> int:
+        """Which visit of the participant it was, from 1."""
+        return int(self.row["visit"] or 1)
+
+    @property
+    def participant(self) -> str:
+        """What the person is called at every visit: the name of the first one."""
+        return self.name if self.visit == 1 else self.name.removesuffix(f"{_VISIT}{self.visit}")
 
     @cached_property
     def events(self) -> tuple[Event, ...]:
@@ -138,7 +151,8 @@ def _name(row: Mapping[str, Any], secret: bytes | None) -> str:
     else:
         told = f"{row['site']}/{int(kind)}/{row['number']}/{'' if row['number'] is not None else row['id']}"
         number = hmac.new(secret, told.encode(), hashlib.sha256).hexdigest()[:_SHUFFLED].upper()
-    return f"{row['site']}-{_LETTERS[kind]}{number}" if row["site"] else f"{_LETTERS[kind]}{number}"
+    name = f"{row['site']}-{_LETTERS[kind]}{number}" if row["site"] else f"{_LETTERS[kind]}{number}"
+    return name if (row["visit"] or 1) == 1 else f"{name}{_VISIT}{row['visit']}"
 
 
 SHUFFLING_FILE = "shuffled-ids.secret"
@@ -262,10 +276,10 @@ class RecordSource:
 
     def _in_order(self) -> list[int]:
         cursor = self.connection.execute(
-            "SELECT session.id, session.site, session.kind, participant.number FROM session LEFT JOIN participant"  # noqa: S608 - numbers
-            f" ON participant.session = session.id WHERE {self._wanted} ORDER BY session.id"
+            "SELECT session.id, session.site, session.kind, participant.number, visit FROM session"  # noqa: S608 - numbers
+            f" LEFT JOIN participant ON participant.session = session.id WHERE {self._wanted} ORDER BY session.id"
         )
-        rows = [dict(zip(("id", "site", "kind", "number"), row, strict=True)) for row in cursor]
+        rows = [dict(zip(("id", "site", "kind", "number", "visit"), row, strict=True)) for row in cursor]
         if self.secret is not None:
             rows.sort(key=lambda row: _name(row, self.secret))
         return [row["id"] for row in rows]
@@ -286,7 +300,8 @@ class RecordSource:
 
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
-            "SELECT session.*, participant.number, list.block_size, list.slots, hex(head.hash) AS record_sha256"  # noqa: S608 - the names are ours
+            "SELECT session.*, participant.number, participant.visit, list.block_size, list.slots,"  # noqa: S608 - the names are ours
+            " hex(head.hash) AS record_sha256"
             " FROM session LEFT JOIN participant ON participant.session = session.id"
             " LEFT JOIN head ON head.session = session.id"
             " LEFT JOIN allocation_list AS list ON list.id = session.allocation_list"
@@ -302,7 +317,7 @@ class RecordSource:
 
     def _plan(self, row: Mapping[str, Any]) -> SessionConfig | None:
         """Return what a session followed; sessions that followed the same share it."""
-        key = tuple(row[column] for column in _FOLLOWED)
+        key = tuple(row[column] for column in (*_FOLLOWED, "visit"))
         if key not in self._plans:
             try:
                 self._plans[key] = self.archive.plan(row["id"])

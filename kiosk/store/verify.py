@@ -38,7 +38,7 @@ class Verification(Enum):
     NUMBERING = "events are numbered from 1 without a gap"
     TIME = "time never goes back within a session"
     READABLE = "every event can be read"
-    PARTICIPANTS = "numbers are sound, no two alike, and everybody has a code"
+    PARTICIPANTS = "numbers and visits are sound, no two alike, and everybody has a code"
     ALLOCATION = "lists meet their quotas, and sessions their slots"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
@@ -258,6 +258,7 @@ def _participants(connection: sqlite3.Connection) -> _Found:
     if not connection.execute("SELECT EXISTS (SELECT 1 FROM code_key)").fetchone()[0]:
         yield "the codes", "have no key, so that none of them can be checked"
     yield from _alike(connection)
+    yield from _visits(connection)
 
 
 def _alike(connection: sqlite3.Connection) -> _Found:
@@ -265,11 +266,25 @@ def _alike(connection: sqlite3.Connection) -> _Found:
     for site, number, times in connection.execute(
         """
         SELECT site, number, count(*) FROM (
-            SELECT site, kind, number FROM participant UNION ALL SELECT site, kind, number FROM tombstone
-        ) GROUP BY site, kind, number HAVING count(*) > 1
+            SELECT site, kind, number, visit FROM participant
+            UNION ALL SELECT site, kind, number, visit FROM tombstone
+        ) GROUP BY site, kind, number, visit HAVING count(*) > 1
         """
     ):
         yield f"participant {number} of site {site!r}", f"stands there {times} times"
+
+
+def _visits(connection: sqlite3.Connection) -> _Found:
+    """Find participants whose visits are not numbered from 1 without a gap, those that were withdrawn among them."""
+    for site, number, visits, last in connection.execute(
+        """
+        SELECT site, number, count(*), max(visit) FROM (
+            SELECT site, kind, number, visit FROM participant
+            UNION ALL SELECT site, kind, number, visit FROM tombstone
+        ) GROUP BY site, kind, number HAVING max(visit) <> count(*)
+        """
+    ):
+        yield f"participant {number} of site {site!r}", f"has {visits} visits, and the last one is number {last}"
 
 
 def _places(connection: sqlite3.Connection) -> _Found:

@@ -21,7 +21,7 @@ from kiosk.store.codes import session_with_code, session_withdrawn_with
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
-from kiosk.store.participants import participant_name
+from kiosk.store.participants import participant_name, visits_of
 from kiosk.store.tombstones import add_tombstones, copies_with, sessions_of, withdrawn_hashes
 
 READER_WAIT_MS = 1000
@@ -34,19 +34,24 @@ class Withdrawal:
     """What goes when a participant withdraws."""
 
     session: int
+    """That of the first visit, if there are several."""
     participant: str
     started_at: str | None
     """None if the rows have gone already."""
     events: int
+    """Those of all visits."""
     backups: int
     """How many copies in the folder's own place for copies are replaced by a fresh one."""
     cut_off: bool = False
     """Whether it was begun before, and only the rest is to be done."""
+    sessions: tuple[int, ...] = ()
+    """Those of all visits of the participant."""
 
     def to_json(self) -> dict[str, Any]:
         """Return the withdrawal as the command line prints it."""
         return {
             "session": self.session,
+            "sessions": list(self.sessions),
             "participant": self.participant,
             "started_at": self.started_at,
             "events": self.events,
@@ -69,6 +74,8 @@ def find_withdrawal(folder: Path, who: str | int) -> Withdrawal:
 def withdraw(folder: Path, who: str | int) -> Withdrawal:
     """Remove the participant with this code or session, and replace the database copies; returns what went.
 
+    All visits of the participant go.
+
     A withdrawal that was cut off before is finished. Raises UserInputError if there is no such participant, or if
     another program uses the data; nothing is deleted then. Raises StorageError if the disk did not do all of it; the
     message says how far it came.
@@ -79,9 +86,10 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
         with closing(open_for_writing(folder)) as connection:
             _keep_to_oneself(connection)
             if not found.cut_off:
-                note_intention(connection, folder, found.session)
+                note_intention(connection, folder, *found.sessions)
                 with _alone(connection, folder):
-                    bury(connection, found.session)
+                    for session in found.sessions:
+                        bury(connection, session)
             _clean(connection, folder)
         _replace_backups(folder)
         _forget(folder)
@@ -90,9 +98,13 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
     return found
 
 
-def note_intention(connection: sqlite3.Connection, folder: Path, session: int) -> None:
-    """Put down that a session is withdrawn, before anything of it is deleted; raises StorageError."""
-    codes = connection.execute("SELECT hash FROM withdrawal_code WHERE session = ?", (session,)).fetchall()
+def note_intention(connection: sqlite3.Connection, folder: Path, *sessions: int) -> None:
+    """Put down that sessions are withdrawn, before anything of them is deleted; raises StorageError."""
+    codes = [
+        row
+        for session in sessions
+        for row in connection.execute("SELECT hash FROM withdrawal_code WHERE session = ?", (session,))
+    ]
     try:
         add_tombstones(folder, (code for (code,) in codes))
     except OSError as error:
@@ -154,16 +166,24 @@ def check_none_is_back(folder: Path) -> None:
 
 def _found(connection: sqlite3.Connection, folder: Path, who: str | int) -> Withdrawal:
     copies = len(list_backups(folder / FOLDER))
-    row = connection.execute(
-        """
-        SELECT session.id, session.site, number, started_at, (SELECT count(*) FROM event WHERE session = session.id)
-        FROM participant JOIN session ON session.id = participant.session WHERE session.id = ?
-        """,
-        (who if isinstance(who, int) else session_with_code(connection, who),),
-    ).fetchone()
-    if row is not None:
-        session, site, number, started_at, events = row
-        return Withdrawal(session, participant_name(site, number), started_at, events, copies)
+    session = who if isinstance(who, int) else session_with_code(connection, who)
+    if session is None and not isinstance(who, int):
+        # One of several visits may have been deleted at once, when its visitor stopped it.
+        session = session_withdrawn_with(connection, who)
+    visits = () if session is None else visits_of(connection, session)
+    if visits:
+        site, number, started_at = connection.execute(
+            "SELECT session.site, number, started_at FROM participant"
+            " JOIN session ON session.id = participant.session WHERE session.id = ?",
+            visits[:1],
+        ).fetchone()
+        marks = ", ".join("?" * len(visits))
+        (events,) = connection.execute(
+            f"SELECT count(*) FROM event WHERE session IN ({marks})",  # noqa: S608 - marks
+            visits,
+        ).fetchone()
+        name = participant_name(site, number)
+        return Withdrawal(visits[0], name, started_at, events, copies, sessions=visits)
     row = connection.execute(
         "SELECT session, site, number FROM unfinished_withdrawal JOIN tombstone USING (session) WHERE session = ?",
         (who if isinstance(who, int) else session_withdrawn_with(connection, who),),
@@ -216,7 +236,7 @@ def bury(connection: sqlite3.Connection, session: int) -> None:
                 'interrupted'
             ),
             EXISTS (SELECT 1 FROM event WHERE event.session = session.id AND type = 'GameFinished'),
-            :today
+            :today, visit
         FROM session JOIN participant ON participant.session = session.id WHERE session.id = :session
         """,
         {"session": session, "today": datetime.now(UTC).date().isoformat()},

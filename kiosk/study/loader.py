@@ -28,7 +28,7 @@ from kiosk.config import (
 )
 from kiosk.experiment.condition import Condition, allocation_slots
 from kiosk.experiment.experimenter import shortcuts
-from kiosk.experiment.information import POINTER, Information, check_alike
+from kiosk.experiment.information import POINTER, RETURNING, Information, check_alike
 from kiosk.experiment.items import Choice, Pictures
 from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
 from kiosk.experiment.questionnaire import Item, Questionnaire
@@ -187,6 +187,7 @@ def read_study(settings: Settings) -> StudyConfig:
     look.check_logo()
     look.check_fonts()
     look.check_pointer(sheets)
+    look.check_returning(sheets)
     if look.faults or condition is None or policy is None:
         raise UserInputError(*look.faults)
     for language, catalogue in catalogues.items():
@@ -569,6 +570,27 @@ class _Look:
                 "privacy.pointer_trace", f"the consent has no purpose {POINTER!r} that a visitor could agree to"
             )
 
+    def check_returning(self, sheets: Mapping[str, Information]) -> None:
+        """Refuse to let visitors come back where they cannot say so, or cannot agree to it freely."""
+        settings = self._settings
+        if not settings.returning.enabled:
+            return
+        lacking = [stage for stage in ("about", "consent") if stage not in settings.stages]
+        if lacking:
+            self._blame("returning.enabled", f"visitors can come back only in a study with the stage {lacking[0]!r}")
+        for language, sheet in sheets.items():
+            offered = {purpose.id: purpose for purpose in sheet.consent.purposes}
+            if RETURNING not in offered:
+                why = f"has no purpose {RETURNING!r} that a visitor could agree to"
+            elif offered[RETURNING].required:
+                why = f"requires the purpose {RETURNING!r}, which must be free to refuse: write required = false"
+            else:
+                continue
+            self._blame("returning.enabled", f"the consent in {language!r} {why}")
+            break
+        if settings.returning.condition == "next" and len(settings.randomisation.target_n) < _FEWEST_IN_TURN:
+            self._blame("returning.condition", "'next' needs two conditions or more in randomisation.target_n")
+
     def check_allocation(self) -> None:
         """Every quota is one of a condition, and every block holds them in ratio."""
         declared = self._settings.randomisation
@@ -578,6 +600,10 @@ class _Look:
             self.at(
                 "randomisation.block_size", partial(allocation_slots, quotas, declared.block_size, declared.seed or 0)
             )
+
+
+_FEWEST_IN_TURN = 2
+"""Conditions that can follow one another."""
 
 
 def _hash_of_files(files: Iterable[Path]) -> str:

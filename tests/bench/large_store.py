@@ -58,7 +58,7 @@ def fill(folder: Path, sessions: int) -> None:
                 (number, began, number, number, first),
             )
             connection.executemany(_INSERT_EVENT, _chained(number, games[first - 1], first_hash(connection, number)))
-            connection.execute("INSERT INTO participant VALUES (?, '', 0, ?)", (number, number))
+            connection.execute("INSERT INTO participant VALUES (?, '', 0, ?, 1)", (number, number))
             connection.execute("INSERT INTO withdrawal_code VALUES (randomblob(32), ?)", (number,))
         connection.execute("COMMIT")
 

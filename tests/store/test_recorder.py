@@ -32,7 +32,7 @@ from tests.experiment.driver import Driver, replay
 from tests.store.writer import GONE
 
 A_TOMBSTONE = (
-    "INSERT INTO tombstone VALUES (:session, '', :session, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
+    "INSERT INTO tombstone VALUES (:session, '', :session, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31', 1)"
 )
 START = happened.SessionStarted(at_ms=0)
 
@@ -230,8 +230,8 @@ def test_what_is_recorded_is_never_changed_or_deleted(folder: Path, provenance: 
         "INSERT OR REPLACE INTO event SELECT session, seq, 99, origin, type, payload, 0, hash FROM event",
         "INSERT OR REPLACE INTO source SELECT sha256, 'forged' FROM source",
         "INSERT OR REPLACE INTO migration SELECT number, 'forged', sha256, applied_at FROM migration",
-        "REPLACE INTO participant SELECT session, site, kind, 9 FROM participant",
-        "REPLACE INTO participant SELECT 9, site, kind, number FROM participant",
+        "REPLACE INTO participant SELECT session, site, kind, 9, 1 FROM participant",
+        "REPLACE INTO participant SELECT 9, site, kind, number, visit FROM participant",
         "REPLACE INTO withdrawal_code SELECT hash, 9 FROM withdrawal_code",
         "REPLACE INTO allocation_list "
         "SELECT id, site, kind, 99, block_size, quotas, slots, fixed_at FROM allocation_list",

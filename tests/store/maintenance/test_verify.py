@@ -155,10 +155,10 @@ def test_it_says_how_far_it_is(day: Path) -> None:
         (Verification.SOURCES, "is not what its hash says", ["UPDATE source SET content = content || ' '"]),
         (
             Verification.RECEIPTS,
-            "step 4: has no receipt, or that of another",
-            ["UPDATE migration SET sha256 = 'x' WHERE number = 4"],
+            "step 5: has no receipt, or that of another",
+            ["UPDATE migration SET sha256 = 'x' WHERE number = 5"],
         ),
-        (Verification.RECEIPTS, "step 4: has no receipt", ["DELETE FROM migration WHERE number = 4"]),
+        (Verification.RECEIPTS, "step 5: has no receipt", ["DELETE FROM migration WHERE number = 5"]),
         (Verification.RECEIPTS, "step 99: has a receipt", ["INSERT INTO migration VALUES (99, '', '', '')"]),
         (Verification.REFERENCES, "points at nothing in source", ["DELETE FROM source"]),
         (

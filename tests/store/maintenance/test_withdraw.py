@@ -70,7 +70,7 @@ def test_every_row_goes_and_a_tombstone_comes(folder: Path, code: str) -> None:
         assert rows(folder, f"SELECT DISTINCT {key} FROM {table} ORDER BY {key}") == [(1,), (3,)]  # noqa: S608
     today = datetime.now(UTC).date().isoformat()
     assert rows(folder, "SELECT * FROM tombstone") == [
-        (2, "", 1, 0, condition, 1, 1, "list", "completed", 1, today),
+        (2, "", 1, 0, condition, 1, 1, "list", "completed", 1, today, 1),
     ]
 
 

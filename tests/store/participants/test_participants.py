@@ -52,7 +52,7 @@ def test_a_number_that_was_withdrawn_is_not_given_again(folder: Path, provenance
     entered(folder, provenance, 1, 2)
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute(
-            "INSERT INTO tombstone VALUES (2, '', 2, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31')"
+            "INSERT INTO tombstone VALUES (2, '', 2, 1, 'tom', NULL, NULL, NULL, 'completed', 1, '2026-01-31', 1)"
         )
         for table, key in (("event", "session"), ("participant", "session"), ("session", "id")):
             connection.execute(f"DELETE FROM {table} WHERE {key} = 2")  # noqa: S608 - a table of ours

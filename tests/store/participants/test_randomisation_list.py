@@ -173,7 +173,7 @@ def test_a_place_stays_consumed_when_its_game_is_withdrawn(folder: Path, provena
         with closing(sqlite3.connect(folder / FILE)) as connection, connection:
             connection.execute(
                 "INSERT INTO tombstone VALUES"
-                " (:session, '', :session, 1, 'tom', 1, :session, 'list', 'completed', :completed, '2026-01-31')",
+                " (:session, '', :session, 1, 'tom', 1, :session, 'list', 'completed', :completed, '2026-01-31', 1)",
                 {"session": session, "completed": completed},
             )
             for table, key in (("event", "session"), ("participant", "session"), ("session", "id")):
