@@ -1,7 +1,8 @@
-"""Write a file whole: a reader finds the old one or the new one, and never half of one."""
+"""Write a file whole, and have files and folders on the disk, so that a power cut takes nothing back."""
 
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -34,7 +35,7 @@ def write_file(path: Path, content: str | bytes) -> None:
 def replace_file(path: Path, content: str | bytes, mode: int = 0o666, *, durable: bool = True) -> None:
     """Put a file in its place whole, with this mode less the umask; raises OSError and leaves nothing half written.
 
-    ``durable`` waits until the disk has it, so that a power cut does not leave an empty file.
+    ``durable`` waits until the disk has it, so that a power cut does not leave an empty file or the old one.
     """
     beside = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
@@ -44,7 +45,51 @@ def replace_file(path: Path, content: str | bytes, mode: int = 0o666, *, durable
                 file.flush()
                 os.fsync(file.fileno())
         beside.replace(path)
+        if durable:
+            sync_folder(path.parent)
     except OSError:
         with suppress(OSError):
             beside.unlink()
         raise
+
+
+_NOT_TOLD = {errno.EACCES, errno.EPERM, errno.EINVAL, errno.ENOTSUP}
+"""What systems answer where a folder may not be opened, or cannot be told to be on the disk."""
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder for its owner alone, with those above it, and have its name on the disk.
+
+    Nothing is changed if it is there. Raises FileExistsError if it is a file, and OSError.
+    """
+    above = [each for each in (folder, *folder.parents) if not each.exists()]
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    for each in above:
+        sync_folder(each.parent)
+
+
+def sync_folder(folder: Path) -> None:
+    """Have the names in a folder on the disk, where the system can do that; raises OSError."""
+    if os.name != "posix":
+        return
+    try:
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+    except OSError as error:
+        if error.errno not in _NOT_TOLD:
+            raise
+
+
+def sync_tree(folder: Path) -> None:
+    """Have all that is in a folder on the disk, its files and the folders in it; raises OSError."""
+    for path in folder.rglob("*"):
+        if path.is_file():
+            # Windows wants the right to write, which not every file gives.
+            with suppress(PermissionError), path.open("rb" if os.name == "posix" else "r+b") as file:
+                os.fsync(file.fileno())
+        else:
+            sync_folder(path)
+    sync_folder(folder)

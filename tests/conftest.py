@@ -21,6 +21,7 @@ SLOW = (
     *("cli/test_robot.py", "cli/test_check.py", "assistance/test_truth.py", "experiment/test_any_session.py"),
     *("experiment/test_replay.py", "experiment/test_stages.py", "experiment/test_two_conditions.py"),
     *("experiment/test_events.py", "store/maintenance/test_withdraw_cut_off.py", "store/test_hard_times.py"),
+    "store/test_power_cut.py",
     *("study/test_forming.py", "study/test_imported.py", "robots/test_speech.py", "test_story.py"),
 )
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""

@@ -1,4 +1,4 @@
-"""A file is written whole or not at all."""
+"""A file is written whole or not at all, and is on the disk when that is said."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError
-from kiosk.files import replace_file, write_file
+from kiosk.files import make_folder, replace_file, sync_folder, sync_tree, write_file
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
@@ -36,3 +36,50 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkey
 def test_a_private_file_is_for_its_owner_alone(tmp_path: Path) -> None:
     replace_file(tmp_path / "status.json", "{}", 0o600, durable=False)
     assert (tmp_path / "status.json").stat().st_mode & 0o077 == 0
+
+
+@pytest.fixture
+def synced(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return the numbers of the files and folders that are on the disk, as they come there."""
+    if os.name != "posix":
+        pytest.skip("folders cannot be told to be on the disk")
+    numbers: list[int] = []
+    monkeypatch.setattr("os.fsync", lambda descriptor: numbers.append(os.fstat(descriptor).st_ino))
+    return numbers
+
+
+def test_the_new_name_of_a_file_is_on_the_disk_after_the_file(tmp_path: Path, synced: list[int]) -> None:
+    write_file(tmp_path / "page.html", "new")
+    assert synced == [(tmp_path / "page.html").stat().st_ino, tmp_path.stat().st_ino]
+
+
+def test_a_file_that_need_not_last_is_not_waited_for(tmp_path: Path, synced: list[int]) -> None:
+    replace_file(tmp_path / "status.json", "{}", durable=False)
+    assert synced == []
+
+
+def test_a_new_folder_has_the_names_of_all_above_it_on_the_disk(tmp_path: Path, synced: list[int]) -> None:
+    make_folder(tmp_path / "far" / "away")
+    assert set(synced) == {tmp_path.stat().st_ino, (tmp_path / "far").stat().st_ino}
+    make_folder(tmp_path / "far" / "away")
+    assert len(synced) == 2
+    assert (tmp_path / "far" / "away").stat().st_mode & 0o077 == 0
+
+
+def test_all_of_a_tree_is_on_the_disk(tmp_path: Path, synced: list[int]) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "file").touch()
+    (tmp_path / "file").touch(mode=0o400)
+    sync_tree(tmp_path)
+    assert set(synced) == {path.stat().st_ino for path in (tmp_path, *tmp_path.rglob("*"))}
+
+
+@pytest.mark.parametrize("number", [errno.EACCES, errno.EINVAL])
+def test_a_folder_that_cannot_be_told_to_be_on_the_disk_is_no_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    def refuse(_: int) -> None:
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr("os.fsync", refuse)
+    sync_folder(tmp_path)

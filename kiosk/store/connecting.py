@@ -17,6 +17,7 @@ from typing import Any
 from weakref import WeakSet
 
 from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwritable, why
+from kiosk.files import make_folder, sync_folder, sync_tree
 
 PRIVATE = 0o600
 """What people said is for the user who runs the kiosk alone. SQLite gives its logs the mode of the database."""
@@ -247,20 +248,24 @@ UNFINISHED = ".unfinished"
 def atomic_directory(out: Path) -> Iterator[Path]:
     """Provide a new folder beside ``out``, which takes its place at the end and is gone if anything goes wrong.
 
-    Raises UserInputError if it cannot be made, or if the end of the program cut off an earlier one there: it may hold
-    what people said, so a person should know of it. Raises OSError if the disk does not take all of it.
+    It has its name once all of it is on the disk. Raises UserInputError if it cannot be made, or if the end of the
+    program cut off an earlier one there: it may hold what people said, so a person should know of it. Raises OSError if
+    the disk does not take all of it.
     """
     made = out.with_name(out.name + UNFINISHED)
     if made.exists():
         raise UserInputError(f"{made} was left unfinished; remove it first")
     try:
-        made.mkdir(mode=0o700, parents=True)
+        make_folder(made)
     except OSError as error:
         raise unwritable(f"the folder {out} cannot be used", error) from error
     try:
         yield made
+        # Else a power cut in the next half minute would leave files of no length under their final names.
+        sync_tree(made)
         if out.exists():
             out.rmdir()
         made.rename(out)
+        sync_folder(out.parent)
     finally:
         shutil.rmtree(made, ignore_errors=True)

@@ -11,6 +11,7 @@ from datetime import UTC, datetime
 from enum import Enum
 from pathlib import Path
 
+from kiosk.files import sync_folder
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 
 FILE = "recollect.copies"
@@ -50,6 +51,7 @@ def note_copy(folder: Path, kind: CopyKind, place: Path) -> None:
             os.close(descriptor)
         make_private(file)
         give_to_owner_of_folder(file)
+        sync_folder(folder)
     except OSError as error:
         _log.warning("%s could not be noted in %s: %s", place, file, error)
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from kiosk import UserInputError
+from kiosk.files import make_folder
 from kiosk.store.connecting import (
     Connection,
     failure,
@@ -442,7 +443,7 @@ def unreadable(error: OSError | sqlite3.Error, folder: Path) -> UserInputError:
 
 def _make(folder: Path) -> None:
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        make_folder(folder)
     except FileExistsError as error:
         raise UserInputError(f"the data folder {folder} cannot be used: it is a file") from error
 

@@ -16,10 +16,11 @@ from typing import Any
 import psutil
 
 from kiosk import StorageError, UserInputError
+from kiosk.files import sync_folder
 from kiosk.store.connecting import reason
 from kiosk.store.database import open_as_it_is
 from kiosk.store.maintenance import STEP_PAGES, UNFINISHED, Progress, alone, copy_name
-from kiosk.store.tombstones import add_tombstones, sync_folder, withdrawn_hashes
+from kiosk.store.tombstones import add_tombstones, withdrawn_hashes
 
 ANY = "stick"
 """Names the one stick that is plugged in."""

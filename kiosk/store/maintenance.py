@@ -16,9 +16,10 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from kiosk import StorageError, UserInputError
+from kiosk.files import make_folder, sync_folder
 from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import BACKUPS, FILE, open_as_it_is
-from kiosk.store.tombstones import add_tombstones, sync_folder, withdrawn_hashes
+from kiosk.store.tombstones import add_tombstones, withdrawn_hashes
 from kiosk.units import MIB
 
 WARN_MIB = 512
@@ -134,7 +135,7 @@ def alone(into: Path) -> Iterator[None]:
     """Be the only one who copies into a folder, and clear what a copy that was cut off has left."""
     try:
         if not into.is_dir():
-            into.mkdir(mode=0o700, parents=True, exist_ok=True)
+            make_folder(into)
             give_to_owner_of_folder(into)
         with FileLock(into / _LOCK, blocking=False):
             give_to_owner_of_folder(into / _LOCK)

@@ -7,7 +7,6 @@ that is cut off is known, and so is an older copy that still holds the person.
 from __future__ import annotations
 
 import hashlib
-import os
 import sqlite3
 from collections.abc import Iterable, Iterator
 from contextlib import closing
@@ -40,7 +39,6 @@ def add_tombstones(folder: Path, hashes: Iterable[bytes]) -> None:
     replace_file(file, "".join(f"{each.hex()} {_check(each)}\n" for each in sorted(after)), PRIVATE)
     make_private(file)
     give_to_owner_of_folder(file)
-    sync_folder(folder)
 
 
 def withdrawn_hashes(connection: sqlite3.Connection, folder: Path) -> frozenset[bytes]:
@@ -69,17 +67,6 @@ def copies_with(folder: Path, hashes: frozenset[bytes]) -> Iterator[tuple[Path, 
             continue
         if sessions:
             yield copy, sessions
-
-
-def sync_folder(folder: Path) -> None:
-    """Have the new name on the disk as well, where folders can be told so."""
-    if os.name != "posix":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
 
 
 def _read(file: Path) -> Iterator[bytes]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,18 @@ def test_it_takes_its_place_when_all_is_in_it(tmp_path: Path) -> None:
         (made / "file").write_text("words", "utf-8")
         assert not out.exists()
     assert [path.name for path in out.parent.rglob("*")] == ["out", "file"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders cannot be told to be on the disk")
+def test_all_of_it_is_on_the_disk_before_it_takes_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[tuple[int, bool]] = []
+    out = tmp_path / "out"
+    monkeypatch.setattr("os.fsync", lambda each: synced.append((os.fstat(each).st_ino, out.exists())))
+    with atomic_directory(out) as made:
+        (made / "file").touch()
+    here = {path.stat().st_ino for path in (out, out / "file")}
+    assert here <= {number for number, in_place in synced if not in_place}
+    assert synced[-1] == (tmp_path.stat().st_ino, True)
 
 
 def test_it_is_gone_if_anything_goes_wrong(tmp_path: Path) -> None:
