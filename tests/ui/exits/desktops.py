@@ -97,7 +97,7 @@ def kiosk_on(desktop: Desktop) -> Iterator[Kiosk]:
         if desktop is Desktop.CAGE:
             environment, before = _cage(folder)
         else:
-            environment, before = started.enter_context(_x_server(desktop)), ()
+            environment, before = started.enter_context(x_server(desktop)), ()
         command = [*before, sys.executable, "-m", "tests.ui.exits.kiosk", str(folder / "data")]
         kiosk = started.enter_context(_running(command, environment))
         begun = kiosk.hear("window", START_S)
@@ -130,7 +130,7 @@ def _cage(folder: Path) -> tuple[dict[str, str], tuple[str, ...]]:
 
 
 @contextmanager
-def _x_server(desktop: Desktop) -> Iterator[dict[str, str]]:
+def x_server(desktop: Desktop) -> Iterator[dict[str, str]]:
     """Provide a virtual screen, and the window manager on it."""
     reading, writing = os.pipe()
     screen = "{}x{}x24".format(*SIZE)

@@ -54,19 +54,14 @@ class Standing:
         return ", ".join(f"not {name.replace('_', ' ')}" for name, value in vars(self).items() if not value)
 
 
-class Hands:
-    """A person in front of a kiosk."""
+class Devices:
+    """Keyboard and mouse of an X server."""
 
-    def __init__(self, kiosk: Kiosk) -> None:
-        """Stand in front of it."""
-        self.kiosk = kiosk
-        self.display = Display(kiosk.environment["DISPLAY"])
+    def __init__(self, display: str) -> None:
+        """Take hold of those of this server."""
+        self.display = Display(display)
         self.display.set_error_handler(lambda *_: None)
         self.root = self.display.screen().root
-        self.window = self.display.create_resource_object("window", kiosk.begun["window"])
-        self.made: list[Window] = []
-
-    # Input
 
     def key(self, shortcut: str) -> None:
         """Press and release keys together: ``ctrl+alt+Right``."""
@@ -90,15 +85,22 @@ class Hands:
         for code in with_keys:
             self._fake(X.KeyRelease, code)
 
-    def drag(self, start: tuple[int, int], end: tuple[int, int], button: str = "left", shortcut: str = "") -> None:
+    def drag(
+        self,
+        start: tuple[int, int],
+        end: tuple[int, int],
+        button: str = "left",
+        shortcut: str = "",
+        steps: int = STEPS,
+    ) -> None:
         """Press somewhere, move, and let go somewhere else."""
         with_keys = [self._code(MODIFIERS[name]) for name in shortcut.split("+") if name]
         self.point(start)
         for code in with_keys:
             self._fake(X.KeyPress, code)
         self._fake(X.ButtonPress, BUTTONS[button])
-        for step in range(1, STEPS + 1):
-            self.point(tuple(a + (b - a) * step // STEPS for a, b in zip(start, end, strict=True)))
+        for step in range(1, steps + 1):
+            self.point(tuple(a + (b - a) * step // steps for a, b in zip(start, end, strict=True)))
             sleep(0.01)
         self._fake(X.ButtonRelease, BUTTONS[button])
         for code in with_keys:
@@ -108,6 +110,32 @@ class Hands:
         """Move the mouse somewhere."""
         xtest.fake_input(self.display, X.MotionNotify, x=at[0], y=at[1])
         self.display.sync()
+
+    def _code(self, name: str) -> int:
+        """Return the code of a key; a key that the keyboard lacks is given a place on it."""
+        symbol = XK.string_to_keysym(name)
+        assert symbol, f"there is no key {name}"
+        code = self.display.keysym_to_keycode(symbol)
+        if not code:
+            code = self.display.display.info.max_keycode
+            self.display.change_keyboard_mapping(code, [[symbol] * 2])
+            self.display.sync()
+        return code
+
+    def _fake(self, kind: int, detail: int) -> None:
+        xtest.fake_input(self.display, kind, detail)
+        self.display.sync()
+
+
+class Hands(Devices):
+    """A person in front of a kiosk."""
+
+    def __init__(self, kiosk: Kiosk) -> None:
+        """Stand in front of it."""
+        super().__init__(kiosk.environment["DISPLAY"])
+        self.kiosk = kiosk
+        self.window = self.display.create_resource_object("window", kiosk.begun["window"])
+        self.made: list[Window] = []
 
     def touch(self, gesture: str) -> None:
         """Let fingers do something on the kiosk's window."""
@@ -238,21 +266,6 @@ class Hands:
     def _active(self) -> bool:
         focus = self.display.get_input_focus().focus
         return isinstance(focus, Window) and focus.id == self.window.id
-
-    def _code(self, name: str) -> int:
-        """Return the code of a key; a key that the keyboard lacks is given a place on it."""
-        symbol = XK.string_to_keysym(name)
-        assert symbol, f"there is no key {name}"
-        code = self.display.keysym_to_keycode(symbol)
-        if not code:
-            code = self.display.display.info.max_keycode
-            self.display.change_keyboard_mapping(code, [[symbol] * 2])
-            self.display.sync()
-        return code
-
-    def _fake(self, kind: int, detail: int) -> None:
-        xtest.fake_input(self.display, kind, detail)
-        self.display.sync()
 
 
 def _between(one: Sequence[int], other: Sequence[int]) -> tuple[int, int]:

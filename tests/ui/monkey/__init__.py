@@ -1,0 +1,1 @@
+"""A monkey in front of the kiosk: input without sense, robots that fail, and kills."""
