@@ -30,6 +30,7 @@ from kiosk.store import withdrawal as withdrawing
 from kiosk.store.copies import CopyKind, known_copies, note_copy
 from kiosk.store.database import FILE as DATABASE
 from kiosk.store.database import in_use
+from kiosk.store.schema import check_readable
 from kiosk.store.verify import Flaw, Verification
 
 SHORT_SHA = 12
@@ -72,6 +73,7 @@ def backup_command(data: Path, to: str | None, keep: int, keys: tuple[str, ...],
     The copy is checked, and the oldest copies are removed. A copy that goes to another place is read back from
     there, and has its name only once it is whole.
     """
+    check_readable(data)
     if to is None and not keys:
         into = data / copies.FOLDER
         with _disk_in_words(), progress_bar("copying", hidden=as_json) as tell:
@@ -275,6 +277,7 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
 
     It has every table, as Psych-DS asks for.
     """
+    check_readable(data)
     withdrawing.check_none_is_back(data)
     extras = frozenset(extra for extra in ExportOption if also[f"with_{extra.value}"])
     with progress_bar("sessions", hidden=as_json) as bar:

@@ -79,7 +79,7 @@ def export_dataset(  # noqa: PLR0913 - each is asked for by itself
                 if tell is not None:
                     tell(done, wanted)
             writing.finish(tuple(flows.values()))
-        return replace(_exported(flows, data, stored), cautions=(*study.cautions, *map(str, stored.broken_events())))
+        return replace(_exported(flows, data, stored), cautions=(*study.cautions, *stored.cautions()))
 
 
 def _alone(stored: RecordSource, writing: Layout, flows: Mapping[SessionKind, ParticipantFlow]) -> Iterator[int]:

@@ -30,6 +30,9 @@ _ANCHORED = (
 )
 """What the first hash stands for, without what a merge changes: the number, the site and the list of a session."""
 
+_GAPS = 100
+"""So many missing sessions in a row are named one by one; a changed number could make them millions."""
+
 _CHECK_DIGITS = 8
 _LINE = 10 + 1 + 10 + 1 + 64 + 1 + _CHECK_DIGITS + 1
 
@@ -126,8 +129,14 @@ def _gaps(connection: sqlite3.Connection) -> Iterator[tuple[int, str]]:
     there = {number for (number,) in connection.execute("SELECT id FROM session UNION SELECT session FROM tombstone")}
     there |= {number for (number,) in connection.execute("SELECT session FROM head")}
     given = connection.execute("SELECT seq FROM sqlite_sequence WHERE name = 'session'").fetchone()
-    for number in sorted(set(range(1, 1 + max([*there, *(given or (0,))], default=0))) - there):
-        yield number, "is missing; its number was given out"
+    before = 0
+    for number in sorted({*there, 1 + max([*there, *(given or (0,))], default=0)}):
+        gap = range(before + 1, number)
+        if len(gap) > _GAPS:
+            yield gap[0], f"is missing, and so are all up to {gap[-1]}; their numbers were given out"
+        else:
+            yield from ((missing, "is missing; its number was given out") for missing in gap)
+        before = number
 
 
 def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Iterator[tuple[int, str]]:

@@ -36,6 +36,24 @@ _PASSING = {
 }
 """What is the fault of the disk or of another program, and not of the database."""
 
+LONGEST_BYTES = 64 * 1024 * 1024
+"""No text of a session comes near it; a file from elsewhere may have one that fills the memory."""
+
+STEPS, STEPS_PER_BYTE = 50_000_000, 100
+"""How many steps of SQLite's machine all reading of a connection may take, for any file and for each byte of it.
+
+To verify a database takes 0.5 steps a byte, to export it 0.1. A file whose pages were linked by hand can be read
+without end. Steps are counted and not seconds, so that a slow machine refuses nothing.
+"""
+_STEPS_AT_ONCE = 1_000_000
+"""How often they are counted: some 100 times a second."""
+
+_LONGEST_SQL = 1_000_000
+"""A statement of the schema is at most 2 KiB."""
+
+TOO_LONG = "a text in it is longer than any that Recollect writes"
+TOO_MANY_STEPS = "it takes longer to read than any database of its size that Recollect wrote"
+
 _TRIES = 20
 _WAIT_S = 0.05
 """How often, and after which pause, a file is copied again because it changed meanwhile."""
@@ -103,6 +121,24 @@ def give_to_owner_of_folder(path: Path) -> None:
         os.chown(path, owner.st_uid, owner.st_gid, follow_symlinks=False)
 
 
+def distrust(connection: sqlite3.Connection, size: int) -> None:
+    """Guard against a file of this many bytes that was made to harm, by its lengths or its links.
+
+    Whether its schema is ours is looked at by the module schema.
+    """
+    connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LONGEST_BYTES)
+    connection.setlimit(sqlite3.SQLITE_LIMIT_SQL_LENGTH, _LONGEST_SQL)
+    steps_left = STEPS + STEPS_PER_BYTE * size
+
+    def count() -> bool:
+        nonlocal steps_left
+        steps_left -= _STEPS_AT_ONCE
+        return steps_left < 0
+
+    connection.set_progress_handler(count, _STEPS_AT_ONCE)
+    connection.execute("PRAGMA cell_size_check = ON")
+
+
 def in_memory() -> Connection:
     """Connect to an empty database in memory."""
     return sqlite3.connect(":memory:", isolation_level=None, factory=Connection)
@@ -111,7 +147,8 @@ def in_memory() -> Connection:
 def for_reading(path: Path) -> Connection:
     """Connect to a database without any right to change it; raises sqlite3.Error or OSError.
 
-    No file is left behind. Where the folder is read only, or its disk full, what is read is a copy in memory.
+    No file is left behind. Where the folder is read only, or its disk full, what is read is a copy in memory. The file
+    is not trusted: what is read has limits.
     """
     if _would_be_in_the_way(path) and not _is_written_here(path):
         return _copy(path)
@@ -122,6 +159,7 @@ def for_reading(path: Path) -> Connection:
     if at_rest:
         connection.clear_up = partial(_remove_empty_logs, path)
     try:
+        distrust(connection, sum(size for _, size, _ in _state(path).values()))
         connection.execute("PRAGMA user_version").fetchone()
     except sqlite3.Error as error:
         connection.close()
@@ -144,7 +182,7 @@ def reason(error: BaseException, folder: Path) -> str:
     code = primary_code(error)
     if code == sqlite3.SQLITE_FULL or (code in _UNABLE and is_nearly_full(folder)):
         return DISK_FULL
-    return str(error)
+    return {sqlite3.SQLITE_TOOBIG: TOO_LONG, sqlite3.SQLITE_INTERRUPT: TOO_MANY_STEPS}.get(code or 0, str(error))
 
 
 def failure(what: str, error: sqlite3.Error | OSError, folder: Path) -> UserInputError | StorageError:
@@ -221,6 +259,7 @@ def _opened(name: str, content: dict[str, bytes]) -> Connection:
             # Bytes 18 and 19 say that there is a write-ahead log, which a database in memory cannot have.
             database[18:20] = b"\1\1" if database[18:20] == b"\2\2" else database[18:20]
             memory.deserialize(bytes(database))
+        distrust(memory, sum(map(len, content.values())))
         memory.execute("PRAGMA query_only = ON")
     except BaseException:
         memory.close()

@@ -28,8 +28,9 @@ from kiosk.experiment.session_config import SessionConfig, SessionKind, Translat
 from kiosk.experiment.session_state import CARDS_IN_A_MOVE, SessionState, language_before_flip
 from kiosk.game import Concentration
 from kiosk.store.chain import broken_links
-from kiosk.store.database import in_use, open_for_reading, unreadable
+from kiosk.store.database import in_use, unreadable
 from kiosk.store.participants import EnrolmentCounts, count_enrolment, participant_name
+from kiosk.store.schema import open_checked
 from kiosk.store.summaries import numbers_so_far
 from kiosk.units import MS_PER_SECOND
 
@@ -477,7 +478,7 @@ def open_repository(folder: Path) -> Iterator[SessionRepository]:
 
     Raises UserInputError if there is none that can be read completely.
     """
-    with closing(open_for_reading(folder)) as connection:
+    with closing(open_checked(folder)) as connection:
         try:
             yield SessionRepository(connection, in_use=in_use(folder))
         except sqlite3.DatabaseError as error:

@@ -25,8 +25,9 @@ from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.files import replace_file
-from kiosk.store.database import in_use, open_for_reading, unreadable
+from kiosk.store.database import in_use, unreadable
 from kiosk.store.queries import BrokenEvent, SessionRepository, StoredEvent, decoded
+from kiosk.store.schema import open_checked
 
 PADDED = 4
 """Digits of a participant's number, so that names sort as they should."""
@@ -216,6 +217,13 @@ class RecordSource:
         for number in self._in_order():
             yield from self.archive.changed_events(number)
 
+    def cautions(self) -> Iterator[str]:
+        """Yield in words what of these sessions cannot be read, or is not what was recorded."""
+        for number in reversed(self.plan_numbers()):
+            if not self.plans_of((number,)):
+                yield f"what session {number} followed cannot be read, so all that depends on it is left out"
+        yield from map(str, self.broken_events())
+
     def begun_between(self, since: datetime, until: datetime) -> Iterator[SessionRecord]:
         """Every session that began at or after one moment and before the other, in the order in which they began."""
         rows = self.connection.execute(f"SELECT id, started_at FROM session WHERE {self._wanted} ORDER BY id")  # noqa: S608 - numbers
@@ -350,7 +358,7 @@ _FOLLOWED = (
 @contextmanager
 def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[RecordSource]:
     """Provide what is stored in a data folder now; raises UserInputError if there is nothing that can be read."""
-    with closing(open_for_reading(folder)) as connection:
+    with closing(open_checked(folder)) as connection:
         writing = in_use(folder)
         connection.execute("BEGIN")
         archive = SessionRepository(connection, in_use=writing)

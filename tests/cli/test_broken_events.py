@@ -49,12 +49,15 @@ def broken_at(pristine: Path, folder: Path, statement: str, number: int = 3) -> 
     """Damage a flip of the game, by its number, in a copy of the folder; return the number of the event."""
     shutil.copytree(pristine, folder)
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
-        for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+        triggers = connection.execute("SELECT name, sql FROM sqlite_master WHERE type = 'trigger'").fetchall()
+        for name, _ in triggers:
             connection.execute(f"DROP TRIGGER {name}")
         flips = "SELECT seq FROM event WHERE type = ? ORDER BY seq DESC LIMIT 1 OFFSET ?"
         (seq,) = connection.execute(flips, (CardFlipped.__name__, number)).fetchone()
         connection.execute("PRAGMA ignore_check_constraints = ON")
         connection.execute(statement, (seq,))
+        for _, text in triggers:
+            connection.execute(text)
     return int(seq)
 
 

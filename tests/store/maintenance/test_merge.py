@@ -457,35 +457,6 @@ def test_merging_sessions_of_one_study_says_nothing_of_studies(milan: Path, giro
     assert "studies" not in said.stdout
 
 
-@pytest.mark.parametrize(
-    ("statements", "words"),
-    [
-        (["DROP TABLE visit"], "table visit: is missing"),
-        (["ALTER TABLE visit DROP COLUMN why"], "table visit: is not as it was made"),
-        (["CREATE TRIGGER extra AFTER INSERT ON visit BEGIN SELECT 1; END"], "trigger extra: is none of ours"),
-        (
-            [
-                "DROP TABLE visit",
-                "CREATE VIEW visit AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n",
-            ],
-            "is missing",
-        ),
-        (["PRAGMA user_version = -1"], "the schema -1"),
-        (["PRAGMA user_version = 0"], "the schema 0"),
-    ],
-)
-def test_a_database_that_others_changed_is_refused(
-    milan: Path, girona: Path, out: Path, statements: list[str], words: str
-) -> None:
-    with closing(sqlite3.connect(girona / FILE)) as connection:
-        for statement in statements:
-            connection.execute(statement)
-        connection.commit()
-    with pytest.raises(UserInputError, match=words):
-        merge([milan, girona], out)
-    assert not out.exists()
-
-
 def test_what_verify_calls_wrong_is_not_merged(milan: Path, girona: Path, out: Path) -> None:
     with closing(sqlite3.connect(girona / FILE)) as connection, connection:
         (text,) = connection.execute("SELECT sql FROM sqlite_master WHERE name = 'session_is_never_updated'").fetchone()

@@ -224,7 +224,6 @@ def test_what_was_tampered_with_is_found(day: Path, check: Verification, words: 
                 "CREATE TRIGGER visit_is_never_updated BEFORE UPDATE ON visit BEGIN SELECT 1; END",
             ],
         ),
-        ("table visit: is not as it was made", ["ALTER TABLE visit ADD COLUMN name TEXT"]),
     ],
 )
 def test_a_schema_that_is_not_ours_is_found(day: Path, words: str, statements: list[str]) -> None:
