@@ -58,12 +58,26 @@ def _keep_bytecode() -> None:
     sys.dont_write_bytecode = False
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave slow files unread when they are deselected: importing Qt and matplotlib takes longer than most tests."""
+    return True if config.option.markexpr == "not slow" and _is_slow(_place(collection_path)) else None
+
+
+def _place(path: Path) -> str:
+    """Return where a file or folder lies below that of the tests."""
+    here = Path(__file__).parent
+    return path.relative_to(here).as_posix() if path.is_relative_to(here) else ""
+
+
+def _is_slow(place: str) -> bool:
+    return place in SLOW or place.partition("/")[0] in SLOW
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the slow tests, so that ``pytest -m "not slow"`` runs the other ones, and put the longest first."""
-    here = Path(__file__).parent
-    paths = {item: item.path.relative_to(here).as_posix() for item in items}
+    paths = {item: _place(item.path) for item in items}
     for item, path in paths.items():
-        if path in SLOW or path.partition("/")[0] in SLOW:
+        if _is_slow(path):
             item.add_marker(pytest.mark.slow)
     items.sort(key=lambda item: LONGEST.index(paths[item]) if paths[item] in LONGEST else len(LONGEST))
 
