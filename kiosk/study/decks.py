@@ -23,6 +23,12 @@ _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", 
 MOST_PICTURE_BYTES = 20 * 1024 * 1024
 """A photo from a telephone has 2 to 12 MB."""
 
+MOST_PICTURES = 500
+"""A board of 24 cards needs 12; each picture of a deck is read and drawn when the study is checked."""
+
+MOST_DECK_BYTES = 250 * 1024 * 1024
+"""What all pictures of a deck may have together."""
+
 NAMES = "names.csv"
 """The table of names in the folder of a deck."""
 
@@ -34,6 +40,12 @@ _KEYS = ("card", "file", "picture")
 def deck_faults(folder: Path) -> Iterator[str]:
     """Yield a sentence for every file of a deck that looks like a picture and cannot be one."""
     taken = pictures_in(folder)
+    if len(taken) > MOST_PICTURES:
+        yield f"the deck {folder} has {len(taken):,} pictures; keep the ones that you need, at most {MOST_PICTURES}"
+        return
+    total = sum(map(_size, taken.values()))
+    if total > MOST_DECK_BYTES:
+        yield f"the pictures in {folder} have {_mb(total):,} MB together; save them smaller, at most {_MOST_DECK_MB} MB"
     for file in files_in(folder):
         ending = file.suffix.lower()
         if ending in _OTHER_PICTURES:
@@ -70,8 +82,21 @@ def picture_faults(file: Path) -> Iterator[str]:
             yield f"the picture {file} {what}"
 
 
+def _size(file: Path) -> int:
+    try:
+        return file.stat().st_size
+    except OSError:
+        # That it cannot be read is said elsewhere.
+        return 0
+
+
+def _mb(size: int) -> int:
+    return size // 1024 // 1024
+
+
 _HEAD_BYTES = 512
-_MOST_MB = MOST_PICTURE_BYTES // 1024 // 1024
+_MOST_MB = _mb(MOST_PICTURE_BYTES)
+_MOST_DECK_MB = _mb(MOST_DECK_BYTES)
 _ENDINGS = {"PNG": ".png", "JPEG": ".jpg", "WebP": ".webp", "SVG": ".svg"}
 _BY_ENDING = {".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG", ".webp": "WebP"}
 

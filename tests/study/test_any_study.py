@@ -1,4 +1,4 @@
-"""Random studies: what the check accepts is played to its end, and what has a fault planted in it is refused.
+"""Random studies: what the check accepts is played, stored and exported, and what has a fault planted in it is refused.
 
 RECOLLECT_STUDIES=300 tries so many of them; a run of all tests tries fewer.
 """
@@ -21,6 +21,7 @@ from kiosk.config import ASSETS, Settings
 from kiosk.experiment.events import Stage
 from kiosk.study.loader import read_study
 from tests.experiment.driver import Driver, with_memory
+from tests.study.storing import store_and_export
 
 STUDIES = int(os.environ.get("RECOLLECT_STUDIES", "15"))
 PAIRS = 4
@@ -222,13 +223,16 @@ RANDOM = settings(
 
 @RANDOM
 @given(study=studies())
-def test_a_study_without_a_fault_is_accepted_and_played_to_its_end(study: Study, tmp_path: Path) -> None:
+def test_a_study_without_a_fault_is_accepted_played_stored_and_exported(study: Study, tmp_path: Path) -> None:
     read = read_study(Settings.read(study.write(tmp_path)))
+    drivers = []
     for language in read.languages:
         for condition in study.target_n:
             driver = Driver(read.plan(language, read.condition(condition)), seed=study.seed)
             driver.whole_session(with_memory(2))
             assert driver.stage is Stage.OVER
+            drivers.append(driver)
+    store_and_export(drivers[-1].plan, drivers[-1], tmp_path / "data")
 
 
 @RANDOM

@@ -10,7 +10,15 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue, card_message
 from kiosk.config import ASSETS, Settings, pictures_in
 from kiosk.study.checks import study_warnings
-from kiosk.study.decks import deck_faults, names_table, picture_faults, read_names
+from kiosk.study.decks import (
+    MOST_DECK_BYTES,
+    MOST_PICTURE_BYTES,
+    MOST_PICTURES,
+    deck_faults,
+    names_table,
+    picture_faults,
+    read_names,
+)
 from kiosk.study.loader import read_study
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 240">{}<circle cx="120" cy="120" r="80"/></svg>'
@@ -49,6 +57,24 @@ def test_pictures_that_cannot_be_cards_are_told(tmp_path: Path) -> None:
         f"the pictures fish.png and fish.svg in {tmp_path} are one card; rename one of them",
         f"the picture {tmp_path / 'owl.webp'} is no WebP file",
         f"the picture {tmp_path / 'photo.heic'} is no PNG, JPEG, WebP or SVG file; save it as one of these",
+    ]
+
+
+def test_a_deck_of_too_many_pictures_is_refused_without_reading_them(tmp_path: Path) -> None:
+    for number in range(MOST_PICTURES + 1):
+        (tmp_path / f"{number}.png").touch()
+    assert list(deck_faults(tmp_path)) == [
+        f"the deck {tmp_path} has 501 pictures; keep the ones that you need, at most 500"
+    ]
+
+
+def test_a_deck_of_too_many_bytes_is_refused(tmp_path: Path) -> None:
+    for number in range(MOST_DECK_BYTES // MOST_PICTURE_BYTES + 1):
+        with (tmp_path / f"{number}.png").open("wb") as picture:
+            picture.write(PNG)
+            picture.truncate(MOST_PICTURE_BYTES)
+    assert list(deck_faults(tmp_path)) == [
+        f"the pictures in {tmp_path} have 260 MB together; save them smaller, at most 250 MB"
     ]
 
 
