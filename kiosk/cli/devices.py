@@ -33,6 +33,7 @@ from kiosk.robots.embodiment import (
     RobotError,
     Utterance,
     chosen_voice,
+    mismatch,
 )
 from kiosk.robots.furhat_rules import Request
 from kiosk.robots.registry import create_robot
@@ -197,8 +198,8 @@ def _reach(robot: InspectableRobot) -> str:
 
 
 def _voice(robot: InspectableRobot, language: str) -> str:
-    voice = chosen_voice(robot.voices(), language)
-    return f"{voice.name} ({voice.language})"
+    voice = chosen_voice(robot.voices(), language, robot.settings.voice)
+    return mismatch(voice, language) or f"{voice.name} ({voice.language})"
 
 
 def _try(name: str, do: Callable[[], str | None]) -> RobotTrial:

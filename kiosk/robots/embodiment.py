@@ -321,6 +321,9 @@ class RobotDriver(ABC):
     on_own_voice: Callable[[str], None] = staticmethod(lambda _: None)
     """Called, on any thread, with the reason why the robot speaks with its own voice where it was to play a clip."""
 
+    on_other_voice: Callable[[str], None] = staticmethod(lambda _: None)
+    """Called, on any thread, with what is wrong with the voice that the robot has."""
+
     def __init__(self, settings: RobotSettings, language: str) -> None:
         """Nothing is sent yet; ``language`` is what it is to speak, as a code such as 'en' or 'pt-BR'."""
         self.settings = settings
@@ -393,6 +396,13 @@ def chosen_voice(voices: tuple[RobotVoice, ...], language: str, wished: str = ""
         return min(matching, key=lambda each: each[0])[1]
     offered = ", ".join(sorted({voice.language for voice in voices})) or "none"
     raise RobotError(FailureKind.NO_VOICE, wished or language, f"it has {offered}")
+
+
+def mismatch(voice: RobotVoice, language: str) -> str:
+    """Say that a voice is made for another language; empty if it is not, or if it does not tell."""
+    if not voice.language or distance(language, voice.language) is not None:
+        return ""
+    return f"{voice.name} is a voice of {voice.language}, not of {language}"
 
 
 def speakable(sentence: str, longest: int = LONGEST_TEXT) -> str:
@@ -469,6 +479,10 @@ class RobotListener(SpeechListener, Protocol):
         """Report that the robot could not play the clips of the voice pack, and speaks with its own voice."""
         ...
 
+    def robot_has_other_voice(self, why: str) -> None:
+        """Report that the robot's voice is not of the language, or not the one of the study file."""
+        ...
+
 
 class AsyncRobotAdapter:
     """One robot, found or lost; lost until ``look_for`` has found it."""
@@ -480,6 +494,8 @@ class AsyncRobotAdapter:
         self._land = land
         self._saying: Utterance | None = None
         robot.on_own_voice = lambda why: land(partial(self._uses_own_voice, why))
+        robot.on_other_voice = lambda why: land(partial(self._has_other_voice, why))
+        self._voice_name = self._other_voice = ""
         self._health = Health(is_ok=False, message="the robot has not been looked for yet")
         self._sought = False
         self._under_way = 0
@@ -509,6 +525,7 @@ class AsyncRobotAdapter:
     def connect(self) -> None:
         """Look for it, and get it ready to speak; ``robot_found`` or ``robot_lost`` follows."""
         self._sought = True
+        self._other_voice = ""
         self._post(self._motion, "look for", lambda: self._land(partial(self._found, self._robot.connect())))
 
     def health_check(self) -> None:
@@ -517,6 +534,7 @@ class AsyncRobotAdapter:
 
     def set_language(self, language: str) -> None:
         """Speak this language; a robot without a voice for it is lost to the session."""
+        self._other_voice = ""
         # Before its first sentence, on whose worker it goes; but after a search, which gives it a voice as well.
         worker = self._voice if self._health.is_ok else self._motion
         self._post(worker, "speak", partial(self._robot.set_language, language))
@@ -616,9 +634,18 @@ class AsyncRobotAdapter:
 
     def _found(self, found: Capabilities) -> None:
         self._sought = False
-        voice = f" and speaks as {found.voice.name}" if found.voice else ""
-        self._health = Health(is_ok=True, message=f"the robot is there{voice}")
+        self._voice_name = f" and speaks as {found.voice.name}" if found.voice else ""
+        self._health = Health(is_ok=True, message=self._there())
         self._reports.robot_found()
+
+    def _there(self) -> str:
+        return f"the robot is there{self._voice_name}{', but ' if self._other_voice else ''}{self._other_voice}"
+
+    def _has_other_voice(self, why: str) -> None:
+        self._other_voice = why
+        if self._health.is_ok:
+            self._health = Health(is_ok=True, message=self._there())
+        self._reports.robot_has_other_voice(why)
 
     def _uses_own_voice(self, why: str) -> None:
         if self._health.is_ok:
@@ -662,6 +689,8 @@ class EmbodimentSelector:
         """Without a body nothing is said; ``take`` brings the avatar, ``take_robot`` the robot."""
         self.on_own_voice: Callable[[str], None] = lambda _: None
         """Called with the reason why the robot does not play the clips that it was to play."""
+        self.on_other_voice: Callable[[str], None] = lambda _: None
+        """Called with what is wrong with the robot's voice."""
         self._listener = listener
         self._after = after
         self._settings = settings
@@ -837,6 +866,11 @@ class EmbodimentSelector:
         """Pass on that the robot speaks with its own voice, though it was to play clips."""
         _log.warning("the robot speaks with its own voice: %s", why)
         self.on_own_voice(why)
+
+    def robot_has_other_voice(self, why: str) -> None:
+        """Pass on that the robot speaks with a voice that is not meant."""
+        _log.warning("the robot has another voice than it should: %s", why)
+        self.on_other_voice(why)
 
     def robot_lost(self, why: str) -> None:
         """Record the loss in the session that the robot was helping in, or change to the avatar."""

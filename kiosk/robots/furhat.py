@@ -32,7 +32,9 @@ from kiosk.robots.embodiment import (
     SpokenClip,
     Utterance,
     chosen_voice,
+    mismatch,
 )
+from kiosk.robots.lookup import NameLookup
 from kiosk.units import MS_PER_SECOND
 
 WISHES: Mapping[Mood, tuple[str, ...]] = MappingProxyType(
@@ -200,7 +202,7 @@ class HttpClient:
 
     def __init__(self, host: str, port: int, connect_ms: int) -> None:
         """Take a host and port without looking a name up; connecting may take ``connect_ms``."""
-        self._host = host
+        self._name = NameLookup(host, port)
         self._port = port
         self._connect_s = connect_ms / MS_PER_SECOND
         self._address = host
@@ -211,12 +213,8 @@ class HttpClient:
         return self._address
 
     def resolve(self) -> None:
-        """Look the name up, once for all calls that follow: only the system decides how long that takes."""
-        try:
-            found = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_STREAM)
-        except (OSError, UnicodeError) as error:
-            raise RobotError(FailureKind.UNREACHABLE, f"looking up {self._host}", str(error)) from error
-        self._address = str(found[0][4][0])
+        """Look the name up, once for all calls that follow; raises RobotError."""
+        self._address = self._name.resolve()
 
     def request(
         self,
@@ -324,7 +322,7 @@ class Furhat(InspectableRobot):
         self._gestures = self.gestures()
         self._voices = self.voices()
         voice = chosen_voice(self._voices, self._language, self._settings.voice)
-        self.speak_with(voice)
+        self._speak(voice, self._language)
         return Capabilities(self._voices, self._gestures, voice)
 
     def set_language(self, language: str) -> None:
@@ -332,7 +330,7 @@ class Furhat(InspectableRobot):
         if language == self._language:
             return
         if self._voices:
-            self.speak_with(chosen_voice(self._voices, language, self._settings.voice))
+            self._speak(chosen_voice(self._voices, language, self._settings.voice), language)
         # Only now: a robot that lacks one visitor's language must still be found for the next one's.
         self._language = language
 
@@ -365,6 +363,12 @@ class Furhat(InspectableRobot):
     def speak_with(self, voice: RobotVoice) -> None:
         """Give it a voice; it forgets that when it starts again. Raises RobotFailed."""
         self._ask("/furhat/voice", {"name": voice.name})
+
+    def _speak(self, voice: RobotVoice, language: str) -> None:
+        self.speak_with(voice)
+        why = mismatch(voice, language)
+        if why:
+            self.on_other_voice(why)
 
     def say(self, saying: Utterance) -> None:
         """Say a sentence to its end, in place of any other; raises RobotFailed.

@@ -31,6 +31,7 @@ from kiosk.robots.embodiment import (
     Utterance,
 )
 from kiosk.robots.furhat import WISHES, to_robot_location
+from kiosk.robots.lookup import NameLookup
 from kiosk.units import MS_PER_SECOND
 
 PATH = "/v1/events"
@@ -84,6 +85,8 @@ class FurhatRealtime(RobotDriver):
         super().__init__(settings, language)
         self._settings = settings
         self._language = language
+        self._port = settings.port or self.default_port
+        self._name = NameLookup(settings.host, self._port)
         self._numbers = count(1)
         self._socket: ClientConnection | None = None
         self._opened = ExitStack()
@@ -97,7 +100,7 @@ class FurhatRealtime(RobotDriver):
         if self._settings.key:
             self._sign_in()
         self._choose_voice()
-        self.health_check()
+        self._see_to_voice()
         return Capabilities((), (), None)
 
     def set_language(self, language: str) -> None:
@@ -107,10 +110,11 @@ class FurhatRealtime(RobotDriver):
         self._language = language
         if self._socket is not None:
             self._choose_voice()
+            self._see_to_voice()
 
     def health_check(self) -> None:
         """See whether it answers; raises RobotFailed."""
-        self._ask("request.voice.status", "response.voice")
+        self._current_voice()
 
     def say(self, saying: Utterance) -> None:
         """Say a sentence to its end, in place of any other; raises RobotFailed."""
@@ -154,13 +158,23 @@ class FurhatRealtime(RobotDriver):
         voice = {"name": self._settings.voice} if self._settings.voice else {}
         self._send("request.voice.config", language=with_region(self._language), **voice)
 
+    def _current_voice(self) -> str:
+        return str(self._ask("request.voice.status", "response.voice").get("voice_id") or "")
+
+    def _see_to_voice(self) -> None:
+        """Report a voice that is not the one of the study file."""
+        # What the robot calls it may hold more than its name.
+        wished, current = self._settings.voice, self._current_voice()
+        if wished and current and wished.casefold() not in current.casefold():
+            self.on_other_voice(f"it speaks as {current}, not as {wished}")
+
     def _sign_in(self) -> None:
         if self._ask("request.auth", "response.auth", key=self._settings.key).get("access") is not True:
             raise RobotError(FailureKind.DECLINED, "request.auth", "the key opens nothing")
 
     def _open(self) -> None:
-        host, port = self._settings.host, self._settings.port or self.default_port
-        url = f"ws://{f'[{host}]' if ':' in host else host}:{port}{PATH}"
+        host = self._name.resolve()
+        url = f"ws://{f'[{host}]' if ':' in host else host}:{self._port}{PATH}"
         doing = f"opening {url}"
         opened = ExitStack()
         try:

@@ -17,7 +17,15 @@ from kiosk.config import RobotConfig as RobotSettings
 from kiosk.errors import validation_messages
 from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.preflight import CheckResult
-from kiosk.robots.embodiment import Capability, Health, InspectableRobot, RobotDriver, RobotError, chosen_voice
+from kiosk.robots.embodiment import (
+    Capability,
+    Health,
+    InspectableRobot,
+    RobotDriver,
+    RobotError,
+    chosen_voice,
+    mismatch,
+)
 from kiosk.units import MS_PER_SECOND
 
 
@@ -259,7 +267,11 @@ def _inspected(robot: InspectableRobot, settings: RobotSettings, languages: Sequ
             remedy = f"install a voice for {language!r} in the robot's own pages; {_AVATAR}"
             yield CheckResult.warning(what, str(failure), remedy)
         else:
-            yield CheckResult.ok(what, f"{voice.name} ({voice.language})")
+            wrong = mismatch(voice, language)
+            if wrong:
+                yield CheckResult.warning(what, wrong, "take robot.voice out of the study file, or name another voice")
+            else:
+                yield CheckResult.ok(what, f"{voice.name} ({voice.language})")
 
 
 def _any(device: RobotDriver) -> CheckResult:

@@ -41,6 +41,12 @@ class Reports:
     def robot_found(self) -> None:
         self.heard.append(("found",))
 
+    def robot_uses_own_voice(self, why: str) -> None:
+        self.heard.append(("own voice", why))
+
+    def robot_has_other_voice(self, why: str) -> None:
+        self.heard.append(("other voice", why))
+
     def robot_lost(self, why: str) -> None:
         self.heard.append(("lost", why))
 

@@ -500,6 +500,7 @@ class ExperimenterConsole:
         screen.held.connect(self._held)
         booth.voice.health_changed.connect(self._voice_changed)
         booth.embodiments.on_own_voice = self._robot_uses_own_voice
+        booth.embodiments.on_other_voice = self._robot_has_other_voice
         left = open_break(folder, now_ms())
         if left is not None:
             self.actions.resume_break(left)
@@ -528,6 +529,10 @@ class ExperimenterConsole:
     def _robot_uses_own_voice(self, why: str) -> None:
         """Write down that the robot does not sound like the avatar any more."""
         self._write.record(AuditEvent.VOICE_CHANGED, {"is_heard": True, "message": f"the robot's own: {why}"})
+
+    def _robot_has_other_voice(self, why: str) -> None:
+        """Write down that the robot's voice is not the one that the study means."""
+        self._write.record(AuditEvent.VOICE_CHANGED, {"is_heard": True, "message": f"the robot: {why}"})
 
     def _stand_by(self) -> None:
         self._keyboard.set_enabled(self._asking.asks or self.panel.is_open)
