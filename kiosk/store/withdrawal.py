@@ -19,9 +19,10 @@ from typing import Any
 from kiosk import StorageError, UserInputError
 from kiosk.store.codes import session_with_code, session_withdrawn_with
 from kiosk.store.connecting import primary_code, reason
-from kiosk.store.database import in_use, lock_folder, open_for_reading, open_for_writing
+from kiosk.store.database import FILE, in_use, lock_folder, open_for_reading, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
 from kiosk.store.participants import participant_name, visits_of
+from kiosk.store.remnants import clear_remnants
 from kiosk.store.tombstones import add_tombstones, copies_with, sessions_of, withdrawn_hashes
 
 READER_WAIT_MS = 1000
@@ -91,6 +92,7 @@ def withdraw(folder: Path, who: str | int) -> Withdrawal:
                     for session in found.sessions:
                         bury(connection, session)
             _clean(connection, folder)
+        _clear_remnants(folder)
         _replace_backups(folder)
         _forget(folder)
     finally:
@@ -136,6 +138,7 @@ def finish_cut_off(folder: Path) -> int:
                 for session in back:
                     bury(connection, session)
         _clean(connection, folder)
+    _clear_remnants(folder)
     _replace_backups(folder)
     _forget(folder)
     return len(back)
@@ -253,16 +256,26 @@ def bury(connection: sqlite3.Connection, session: int) -> None:
 
 
 def _clean(connection: sqlite3.Connection, folder: Path) -> None:
-    """Leave no page with what has gone: not in the log, and not among the pages that are free."""
+    """Leave no page with what has gone in the log."""
     try:
         # Not every statement that follows takes the lock that keeps other programs out.
         connection.execute("BEGIN EXCLUSIVE")
         connection.execute("COMMIT")
         _empty_log(connection)
-        connection.execute("VACUUM")
-        _empty_log(connection)
+        if connection.execute("PRAGMA auto_vacuum").fetchone()[0]:
+            # In such a database, which SQLite has to be built for to make, remnants are not looked for page by page.
+            connection.execute("VACUUM")
+            _empty_log(connection)
     except sqlite3.Error as error:
         words = _LOOKED_AT if primary_code(error) == sqlite3.SQLITE_BUSY else reason(error, folder)
+        raise _unfinished("the file could not be cleaned up", words) from error
+
+
+def _clear_remnants(folder: Path) -> None:
+    try:
+        clear_remnants(folder / FILE)
+    except (OSError, ValueError) as error:
+        words = reason(error, folder) if isinstance(error, OSError) else str(error)
         raise _unfinished("the file could not be cleaned up", words) from error
 
 

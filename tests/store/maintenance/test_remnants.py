@@ -1,0 +1,81 @@
+"""No byte of a row that went is left in the file, wherever SQLite had kept it before."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from kiosk.store.remnants import clear_remnants
+
+OWNERS = 10
+TABLES = {
+    "a tree by the key": "CREATE TABLE kept (owner INTEGER, number INTEGER, what TEXT, PRIMARY KEY (owner, number)) "
+    "WITHOUT ROWID",
+    "rows and an index": "CREATE TABLE kept (owner INTEGER, number INTEGER, what TEXT UNIQUE)",
+}
+
+
+def written(file: Path, table: str, page_bytes: int, seed: int) -> None:
+    """Write a database as a kiosk does, in small steps, with rows that go on on other pages among them."""
+    chance = Random(seed)
+    with closing(sqlite3.connect(file, isolation_level=None)) as connection:
+        connection.execute(f"PRAGMA page_size = {page_bytes}")
+        connection.execute("PRAGMA synchronous = OFF")
+        connection.execute("PRAGMA secure_delete = OFF")
+        connection.execute(table)
+        for number in range(OWNERS * 20):
+            # Several write at once, so that pages are split in the middle as well.
+            owner = number // 40 * 2 + chance.randrange(2)
+            what = f"owner{owner:03} {number} {'x' * chance.choice((0, 30, 300, page_bytes * chance.randrange(4)))}"
+            connection.execute("INSERT INTO kept VALUES (?, ?, ?)", (owner, number, what))
+        # Its pages are used again, with what stood there, by what is written next.
+        connection.execute("DELETE FROM kept WHERE owner < 4")
+        connection.executemany("INSERT INTO kept VALUES (?, ?, ?)", [(99, n, f"later {n}" * 200) for n in range(20)])
+
+
+@pytest.mark.parametrize("page_bytes", [512, 4096, 65536])
+@pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
+def test_nothing_is_left_of_rows_that_were_deleted(tmp_path: Path, table: str, page_bytes: int) -> None:
+    written(tmp_path / "all.db", table, page_bytes, seed=page_bytes)
+    left_by_sqlite = 0
+    for owner in range(4, OWNERS):
+        file = Path(shutil.copy(tmp_path / "all.db", tmp_path / "one.db"))
+        with closing(sqlite3.connect(file, isolation_level=None)) as connection:
+            connection.execute("PRAGMA secure_delete = ON")
+            connection.execute("DELETE FROM kept WHERE owner = ?", (owner,))
+            others = connection.execute("SELECT * FROM kept ORDER BY owner, number").fetchall()
+        left_by_sqlite += file.read_bytes().count(b"owner%03d" % owner)
+        clear_remnants(file)
+        content = file.read_bytes()
+        assert b"owner%03d" % owner not in content
+        assert b"owner000" not in content
+        with closing(sqlite3.connect(file)) as connection:
+            assert connection.execute("SELECT * FROM kept ORDER BY owner, number").fetchall() == others
+            assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+    assert left_by_sqlite > 0 or page_bytes == 65536
+
+
+@pytest.mark.parametrize("at", [3, 5], ids=["number of rows", "start of the content"])
+def test_a_damaged_page_is_not_called_clear(tmp_path: Path, at: int) -> None:
+    file = tmp_path / "one.db"
+    written(file, TABLES["rows and an index"], 512, seed=1)
+    content = bytearray(file.read_bytes())
+    content[512 + at : 512 + at + 2] = b"\xff\xff"
+    file.write_bytes(content)
+    with pytest.raises(ValueError, match="page 2 is damaged"):
+        clear_remnants(file)
+
+
+def test_a_file_that_sqlite_makes_smaller_by_itself_is_left_alone(tmp_path: Path) -> None:
+    file = tmp_path / "one.db"
+    with closing(sqlite3.connect(file)) as connection:
+        connection.execute("PRAGMA auto_vacuum = FULL")
+        connection.execute("CREATE TABLE kept (what TEXT)")
+    before = file.read_bytes()
+    clear_remnants(file)
+    assert file.read_bytes() == before
