@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from datetime import datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 from statistics import median
 
@@ -122,7 +122,7 @@ def _sections(report: DayReport) -> Iterator[tuple[str, str, str]]:
         "Dropouts",
         _table(
             ("Session", "Ended at", "How", "In", "After (min:s)"),
-            ((str(each.number), f"{_end(each):%H:%M}", *_ending(each), as_minutes(each.duration_ms)) for each in early),
+            ((str(each.number), f"{each.ended:%H:%M}", *_ending(each), as_minutes(each.duration_ms)) for each in early),
         ),
     )
     yield "faults", "Faults", _table(("Session", "At", "What"), _happenings(report, lambda each: each.faults))
@@ -213,10 +213,6 @@ def _table(heads: Sequence[str], rows: Iterable[tuple[str, ...]]) -> str:
 def _ending(session: DaySession) -> tuple[str, str]:
     how = session.status.value if session.status else "under way"
     return how, _named(session.last_stage) if session.last_stage else "no stage"
-
-
-def _end(session: DaySession) -> datetime:
-    return session.began + timedelta(milliseconds=session.duration_ms)
 
 
 def _named(stage: Stage) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from datetime import date, datetime, time, timedelta, tzinfo
+from datetime import UTC, date, datetime, time, timedelta, tzinfo
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -58,6 +58,8 @@ class DaySession:
     name: str
     kind: SessionKind
     began: datetime
+    ended: datetime
+    """Its last event; by the zone's offset at that time, which may not be that of its beginning."""
     status: Status | None
     spans: tuple[StageSpan, ...]
     faults: tuple[Happening, ...]
@@ -211,12 +213,12 @@ def _midnight(day: date, zone: tzinfo | None) -> datetime:
 
 
 def _session(record: SessionRecord, zone: tzinfo | None) -> DaySession:
-    state, began = record.state, datetime.fromisoformat(record.row["started_at"]).astimezone(zone)
+    state, began = record.state, datetime.fromisoformat(record.row["started_at"]).astimezone(UTC)
     first_ms = record.records[0].at_ms if record.records else 0
     last_ms = record.records[-1].at_ms if record.records else 0
 
     def at(at_ms: int) -> datetime:
-        return began + timedelta(milliseconds=at_ms - first_ms)
+        return (began + timedelta(milliseconds=at_ms - first_ms)).astimezone(zone)
 
     attempts = [attempt for said in state.sentences for attempt in said.attempts]
     counted = count_speech(state)
@@ -224,7 +226,8 @@ def _session(record: SessionRecord, zone: tzinfo | None) -> DaySession:
         number=record.id,
         name=record.name,
         kind=record.kind,
-        began=began,
+        began=at(first_ms),
+        ended=at(last_ms),
         status=record.status,
         spans=tuple(_spans(state, first_ms, last_ms)),
         faults=tuple(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from datetime import UTC, date, datetime, timedelta
+from datetime import UTC, date, datetime, timedelta, tzinfo
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Self
+from zoneinfo import ZoneInfo
 
 import pytest
 from click.testing import CliRunner
@@ -16,9 +18,13 @@ from kiosk.cli.main import recollect
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.session_config import SessionKind
+from kiosk.export.columns import ExportOption
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
 from kiosk.store.day_report import DayNote, DayReport, DaySession, Happening, StageSpan, quantile, read_day_report
 from kiosk.store.recorder import Recorder
-from tests.export.visitors import store, visitors
+from tests.export.conftest import rows_of
+from tests.export.visitors import store, visitor, visitors
 
 DAY = date(2026, 5, 1)
 BEGAN = datetime(2026, 5, 1, 9, tzinfo=UTC)
@@ -32,6 +38,7 @@ def session(number: int, **different: object) -> DaySession:
         name=f"P{number:04}",
         kind=SessionKind.STUDY,
         began=BEGAN + timedelta(minutes=15 * number),
+        ended=BEGAN + timedelta(minutes=15 * number + 10),
         status=Status.COMPLETED,
         spans=(StageSpan(Stage.ABOUT, 0, 60_000), StageSpan(Stage.GAME, 60_000, 600_000)),
         faults=(),
@@ -151,6 +158,40 @@ def test_the_stored_sessions_of_a_day_are_read_and_no_other_days(data: Path) -> 
     assert [each.kind for each in report.notes] == [AuditEvent.BACKUP_MADE, AuditEvent.CONDITION_CHOSEN]
     yesterday = read_day_report(data, today - timedelta(days=1), PEOPLE)
     assert (yesterday.sessions, yesterday.notes) == ((), ())
+
+
+@pytest.mark.parametrize(
+    ("began", "wall"),
+    [
+        ("2026-03-29T00:58:00.000+00:00", ("01:58 +0100", "03:0")),
+        ("2026-10-25T00:58:00.000+00:00", ("02:58 +0200", "02:0")),
+    ],
+)
+def test_a_session_over_a_change_of_the_clock_has_the_right_times_lengths_and_day(
+    began: str, wall: tuple[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Clock(datetime):
+        @classmethod
+        def now(cls, tz: tzinfo | None = None) -> Self:
+            return cls.fromisoformat(began).astimezone(tz)
+
+    driver = visitor(1)
+    took = timedelta(milliseconds=driver.events[-1].at_ms - driver.events[0].at_ms)
+    assert timedelta(minutes=2) < took < timedelta(minutes=12)
+    monkeypatch.setattr("kiosk.store.recorder.datetime", Clock)
+    monkeypatch.setattr("kiosk.store.recorder.now_ms", lambda: int(Clock.now(UTC).timestamp() * 1000))
+    store(tmp_path / "data", [(driver, 1)])
+    day = datetime.fromisoformat(began).date()
+    (session,) = read_day_report(tmp_path / "data", day, PEOPLE, ZoneInfo("Europe/Rome")).sessions
+    assert f"{session.began:%H:%M %z}" == wall[0]
+    assert f"{session.ended:%H:%M}".startswith(wall[1])
+    assert session.ended.astimezone(UTC) - session.began.astimezone(UTC) == took
+    assert session.duration_ms == took // timedelta(milliseconds=1)
+    assert all(session.began.astimezone(UTC) <= each.at.astimezone(UTC) for each in session.changes)
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs, frozenset({ExportOption.DATES}))
+    (row,) = rows_of(tmp_path / "out", "participants")
+    assert row["started_at"] == began
+    assert int(row["duration_ms"]) == session.duration_ms
 
 
 def test_the_page_is_whole_asks_for_nothing_and_tells_no_condition_code_or_answer(data: Path, tmp_path: Path) -> None:

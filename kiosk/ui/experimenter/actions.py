@@ -7,7 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from functools import partial
 from typing import Any
 
@@ -356,7 +356,7 @@ class ActionController:
     def _break(self, choice: str, _reason: str) -> None:
         """Show when the people at the table are back, in so many minutes; without a choice the break ends."""
         runner, minutes = self._booth.runner, int(choice or 0)
-        back = datetime.now().astimezone() + timedelta(minutes=minutes)
+        back = (datetime.now(UTC) + timedelta(minutes=minutes)).astimezone()
         if self.resting:
             # A session records its pauses itself. Between sessions, this tells a kiosk that starts again.
             began = {"minutes": minutes, "back_ms": int(back.timestamp() * MS_PER_SECOND)}
