@@ -29,7 +29,7 @@ _COUNTS_OF_ANALYZE = ("sqlite_stat1", "sqlite_stat4")
 def schema_flaws(connection: sqlite3.Connection) -> Iterator[tuple[str, str, str]]:
     """Hold the schema against that of a database made on the spot; yield kind, name and what is wrong."""
     expected, there = _made(connection.execute("PRAGMA user_version").fetchone()[0]), _parts(connection)
-    for kind, name in sorted({*expected, *there}):
+    for kind, name in sorted({*expected, *there}, key=lambda part: (part[0] not in READ_FROM, part)):
         if (kind, name) not in there:
             yield kind, name, "is missing"
         elif (kind, name) not in expected:
@@ -88,7 +88,8 @@ def _made(steps: int) -> _Parts:
 def _parts(connection: sqlite3.Connection) -> _Parts:
     rows = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_master").fetchall()
     return {
-        (kind, name): (table, " ".join((sql or "").split()))
+        # Damaged bytes are no text.
+        (str(kind), str(name)): (str(table), " ".join(str(sql or "").split()))
         for kind, name, table, sql in rows
         if not (kind == "table" and name in _COUNTS_OF_ANALYZE)
     }

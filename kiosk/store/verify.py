@@ -248,7 +248,27 @@ def _participants(connection: sqlite3.Connection) -> _Found:
     if not connection.execute("SELECT EXISTS (SELECT 1 FROM code_key)").fetchone()[0]:
         yield "the codes", "have no key, so that none of them can be checked"
     yield from _alike(connection)
+    yield from _counters(connection)
     yield from _visits(connection)
+
+
+def _counters(connection: sqlite3.Connection) -> _Found:
+    """Find numbers that SQLite would give twice, or would skip, because its own count of them was changed."""
+    given = dict(connection.execute("SELECT name, seq FROM sqlite_sequence"))
+    for table, numbers in _NUMBERED.items():
+        (last,) = connection.execute(f"SELECT max(number) FROM ({numbers})").fetchone()  # noqa: S608 - ours
+        count = given.pop(table, None)
+        if (count or 0) != (last or 0):
+            yield f"the count of {table}", f"is {count}, and the last number is {last}"
+    for name in given:
+        yield f"the count of {name}", "is none of ours"
+
+
+_NUMBERED = {
+    "session": "SELECT id AS number FROM session UNION ALL SELECT session FROM tombstone",
+    **{table: f"SELECT id AS number FROM {table}" for table in ("allocation_list", "visit", "audit_event")},  # noqa: S608
+}
+"""The tables that SQLite numbers, each with the query of its numbers."""
 
 
 def _alike(connection: sqlite3.Connection) -> _Found:
