@@ -123,6 +123,11 @@ leaves_option = click.option(
     help="With --headless --shots: save the pictures and contact sheets of this layout only; with both, save the "
     "single pictures of each layout in a folder of its own.",
 )
+@click.option(
+    "--returning",
+    is_flag=True,
+    help="The visitor agrees to come back, and does so at once with the code of their card, in a second session.",
+)
 @rehearsal_data_option
 @study_option
 @robot_host_option
@@ -144,6 +149,7 @@ def rehearse(
     robot_host: str | None,
     robot_port: int | None,
     *,
+    returning: bool,
     headless: bool,
     as_json: bool,
 ) -> None:
@@ -155,6 +161,7 @@ def rehearse(
     prepared = read_study(read_settings(study, robot_host, robot_port))
     check_robot(prepared.settings)
     _check(prepared, speed, language)
+    _check_returning(prepared, visitor, sessions, returning=returning)
     mode = _mode(speed, headless=headless)
     check_screen(mode.display)
     memories = _memories(people, seed, HESITATES if prepared.settings.assistance.hesitation_max else 0.0)
@@ -166,8 +173,10 @@ def rehearse(
     folders = _make_folders(shots, layout if headless else None)
     sheets = _sheets(prepared, language, layout) if shots is not None and headless else ()
     language = language or prepared.languages[0]
-    character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories))
-    fixed = prepared.condition(condition or prepared.settings.assistance.condition)
+    character = BehaviourProfile(BehaviourKind(visitor), Stage(leaves_in), language, next(memories), links=returning)
+    # Where the visitor comes back, the list decides, and after it what the first visit was.
+    listed = returning and condition is None
+    fixed = None if listed else prepared.condition(condition or prepared.settings.assistance.condition)
     origin = RunContext(code_commit(), kind=SessionKind.SIMULATED, seed=lambda: seed, condition=fixed)
     with (
         guarded() as beat,
@@ -175,9 +184,8 @@ def rehearse(
         App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app,
     ):
         pictures = _pictures(app, mode, shots, layout if headless and layout != BOTH else None, folders)
-        rehearsal = Rehearsal(app, seed, pictures, character)
         with _stuck_in_words():
-            rehearsal.run()
+            rehearsal = _visit(app, seed, pictures, character)
         if app.stop_requested:
             raise click.Abort
         begun = recorder.sessions_begun
@@ -191,6 +199,24 @@ def rehearse(
             _shoot_sheet(prepared, mode, origin, replace(character, language=other), how, shots, seed, folder)
     told = _last_session(data, rehearsal.pulse.longest_ms if _has_robot(prepared) else None) if begun else {"stored": 0}
     _tell(told, data, shots, as_json=as_json)
+
+
+def _check_returning(study: StudyConfig, visitor: str, sessions: int, *, returning: bool) -> None:
+    """Raise UserInputError if a visitor is to come back, and cannot."""
+    if returning and not study.settings.returning.enabled:
+        raise UserInputError("--returning needs a study that lets visitors come back: returning.enabled = true")
+    if returning and (sessions > 1 or visitor != BehaviourKind.COMPLETES.value):
+        raise UserInputError("--returning is about one visitor who completes; leave out --sessions and --visitor")
+
+
+def _visit(app: App, seed: int, pictures: Screenshots | None, character: BehaviourProfile) -> Rehearsal:
+    """Have a visitor come, and come back at once if they agree that visits are linked; returns the last visit."""
+    rehearsal = Rehearsal(app, seed, pictures, character)
+    rehearsal.run()
+    if character.links and not app.stop_requested:
+        rehearsal = Rehearsal(app, seed, pictures, replace(character, code=rehearsal.code))
+        rehearsal.run()
+    return rehearsal
 
 
 def _make_folders(shots: Path | None, layout: str | None) -> dict[str, Path]:

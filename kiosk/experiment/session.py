@@ -27,7 +27,7 @@ from kiosk.experiment.game_stage import (
     PracticeStage,
     SampleHints,
 )
-from kiosk.experiment.information import POINTER
+from kiosk.experiment.information import POINTER, RETURNING
 from kiosk.experiment.page_stages import (
     AboutStage,
     AgeStage,
@@ -360,6 +360,13 @@ class Session:
         """Whether the way of the pointer may be recorded: the study asks for it, and the visitor agreed to it."""
         return self._plan.settings.privacy.pointer_trace and any(
             isinstance(event, happened.ConsentGiven) and POINTER in event.purposes for event in self._log
+        )
+
+    @property
+    def may_return(self) -> bool:
+        """Whether the visitor can come back with their code: the study lets them, and they agreed to it."""
+        return self._plan.settings.returning.enabled and any(
+            isinstance(event, happened.ConsentGiven) and RETURNING in event.purposes for event in self._log
         )
 
     def _react(self, event: WorldEvent, outcome: OutcomeBuilder) -> None:

@@ -575,7 +575,7 @@ class _Look:
         settings = self._settings
         if not settings.returning.enabled:
             return
-        lacking = [stage for stage in ("about", "consent") if stage not in settings.stages]
+        lacking = [stage for stage in ("about", "consent", "debrief") if stage not in settings.stages]
         if lacking:
             self._blame("returning.enabled", f"visitors can come back only in a study with the stage {lacking[0]!r}")
         for language, sheet in sheets.items():

@@ -122,6 +122,7 @@ class App:
         undo.callback(self._loop.close)
         virtual = mode.pace is ClockMode.VIRTUAL
         self._work, self._slow = (InlineExecutor() if virtual else ThreadExecutor(self._landing) for _ in range(2))
+        self.runner.returns.work = self._work
         now_ms = partial(_virtual_wall_ms, self.clock) if virtual else wall_ms
         self.experimenter = ExperimenterConsole(self._reached(recorder), self.window, self._work, self._slow, now_ms)
         self._publisher = self._publish(settings, recorder, undo) if not virtual else None

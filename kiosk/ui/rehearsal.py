@@ -25,7 +25,9 @@ from kiosk.config import STAGES
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Effect, Outcome
 from kiosk.experiment.events import Stage, WorldEvent
+from kiosk.experiment.information import RETURNING
 from kiosk.experiment.questionnaire import Item
+from kiosk.store.codes import ALPHABET
 from kiosk.ui.app import App
 from kiosk.ui.event_loop import Clock
 from kiosk.ui.simulated_visitor import (
@@ -289,6 +291,11 @@ class Rehearsal:
         self._app = app
         self._manner = visitor.manner
         self._leaves_in = visitor.leaves_in if visitor.manner is BehaviourKind.LEAVES else None
+        self._links = visitor.links
+        self._code = [each for each in visitor.code.upper() if each in ALPHABET]
+        """What they still have to type of their code."""
+        self.code = ""
+        """What the visitor can come back with, once they saw it."""
         self._language = visitor.language or app.screens.resting.language
         chance = Random(f"{seed}/visitor")
         self._chance = chance
@@ -377,6 +384,10 @@ class Rehearsal:
     def _answer_the_cover(self) -> None:
         if self._hand.is_visible("still-here"):
             self._click("still-here")
+        elif self._hand.is_visible("return-on"):
+            self._click("return-on")
+        elif self._hand.is_visible("return-go"):
+            self._click(f"code-{self._code.pop(0)}" if self._code else "return-go")
 
     def _go_on(self, shown: str) -> None:
         match shown:
@@ -384,7 +395,7 @@ class Rehearsal:
                 self._began = True
                 self._click(f"start-{self._language}")
             case "about" | "introduction" | "result" | "debrief":
-                self._click("continue")
+                self._click(self._way_on)
             case "thanks" if self._visitor.tosses():
                 self._click("continue")
             case "consent":
@@ -396,6 +407,11 @@ class Rehearsal:
             case "practice" | "game":
                 self._play(shown)
 
+    @property
+    def _way_on(self) -> str:
+        """The button that a visitor goes on with, who types a code first if they have one."""
+        return "return-offer" if self._code and self._hand.is_visible("return-offer") else "continue"
+
     def _decide(self) -> None:
         """Agree, once all that has to be is ticked; the hasty try it before."""
         consent = self._app.screens.consent
@@ -406,6 +422,10 @@ class Rehearsal:
             self._click("agree")
         elif consent.needed:
             self._click(f"purpose-{min(consent.needed)}")
+        elif self._links:
+            self._links = False
+            if self._hand.is_visible(f"purpose-{RETURNING}") and RETURNING not in consent.ticked_purposes:
+                self._click(f"purpose-{RETURNING}")
         else:
             if self._shots is not None:
                 with self.pulse.aside():
@@ -466,6 +486,7 @@ class Rehearsal:
                 self._shots.watch(outcome.effects, stage)
                 if stage is Stage.GAME and _found_a_pair(outcome) and not self._app.screens.board.closed:
                     self._shots.take("last-pair")
+        self.code = self._app.screens.debrief.shown_code or self.code
         if stage is Stage.OVER:
             self._over = True
             self._app.quit()

@@ -13,7 +13,7 @@ from typing import Any, Self
 from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
+from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition, condition_of_return
 from kiosk.experiment.effects import Outcome
 from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Stage, Timer, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
@@ -21,10 +21,11 @@ from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionKind, StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.robots.embodiment import EmbodimentSelector
-from kiosk.store.participants import Participant
+from kiosk.store.participants import Participant, ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.renderer import Renderer, SoundEffect, sound_for
+from kiosk.ui.returning import ReturnDesk
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.units import MS_PER_SECOND
 
@@ -89,20 +90,33 @@ class ConditionAssigner:
         self._recorder.add_audit_event(AuditEvent.CONDITION_CHOSEN.value, {"condition": name, "reason": reason})
         self._choice = None if condition is None else _Choice(condition)
 
-    def next_session(self, language: str) -> Provenance:
-        """Return what the next session is to follow; raises StorageError."""
+    def next_session(self, language: str, returning: ReturningVisitor | None = None) -> Provenance:
+        """Return what the session of a new participant, or of one who comes back, follows; raises StorageError."""
         self._followed = self._choice
-        slot = self._next_slot() if self._listed and self._choice is None else None
-        condition = self.chosen or (slot.condition if slot else self._origin.condition)
+        earlier = self._by_earlier_visits(returning) if returning else None
+        slot = self._next_slot() if self._listed and self._choice is None and earlier is None else None
+        condition = self.chosen or earlier or (slot.condition if slot else self._origin.condition)
+        plan = self.study.plan(language, condition)
         return Provenance(
-            self.study.plan(language, condition),
+            plan if returning is None else replace(plan, visit=returning.visit),
             self._origin.seed(),
             str(EmbodimentName.AVATAR),
             self._origin.code_commit,
             kind=self._origin.kind,
             slot=slot,
-            allocation_source=self._allocation_source(slot),
+            allocation_source=AllocationSource.RETURNING if earlier else self._allocation_source(slot),
+            returning=returning,
         )
+
+    def _by_earlier_visits(self, returning: ReturningVisitor) -> Condition | None:
+        """Return the condition that follows from earlier visits; None if it is found as for a new participant."""
+        if self._choice is not None or self._origin.condition is not None:
+            return None
+        settings = self.study.settings
+        listed = [Condition(name) for name in settings.randomisation.target_n]
+        condition = condition_of_return(settings.returning.condition, returning.conditions, listed)
+        # The study may have dropped a condition since.
+        return condition if condition is not None and condition.name in settings.all_conditions else None
 
     def confirm_recorded(self, provenance: Provenance) -> None:
         """Note that a session is on record: what was chosen for it does not hold for the one after."""
@@ -292,6 +306,9 @@ class SessionRunner:
         self._clock = clock
         self._assigner = assigner
         self._renderer = Renderer(screens, clock, self._timer_expired)
+        self.returns = ReturnDesk(recorder, screens.returning, screens.kiosk)
+        self.returns.on_found = self._come_back
+        self.returns.on_failure = self._give_way
         self._queue: deque[WorldEvent] = deque()
         self._unwritten: _Handled | None = None
         self._busy = BusyWait(clock, recorder.wait_ms, lambda waits: screens.kiosk.wait(waits=waits))
@@ -332,12 +349,12 @@ class SessionRunner:
         if self._session is None and not self._busy.under_way and self._renderer.screens.kiosk.shown == "attract":
             self._start(language, self._clock.now_ms())
 
-    def _start(self, language: str, tapped_at: int) -> None:
+    def _start(self, language: str, tapped_at: int, returning: ReturningVisitor | None = None) -> None:
         try:
-            provenance = self._with_body(self._assigner.next_session(language))
+            provenance = self._with_body(self._assigner.next_session(language, returning))
             setup = self._setup()
         except StoreBusy as busy:
-            self._try_again(partial(self._start, language, tapped_at), busy)
+            self._try_again(partial(self._start, language, tapped_at, returning), busy)
             return
         except StorageError as failure:
             self._give_way(failure)
@@ -349,7 +366,17 @@ class SessionRunner:
         self.dispatch(happened.SessionStarted(at_ms=0, setup=setup))
         for choice in chosen:
             self.dispatch(choice)
-        self._tell_begun()
+        if returning is None:
+            self._tell_begun()
+
+    def _come_back(self, visitor: ReturningVisitor) -> None:
+        """Begin anew, as a session of this participant; nothing is recorded yet, so nothing is lost."""
+        if self._session is None or self._session.stage is not Stage.ABOUT:
+            return
+        self._queue.clear()
+        self._start(self._renderer.screens.kiosk.spoken_language, self._clock.now_ms(), visitor)
+        if self._session is not None:
+            self._renderer.screens.kiosk.ask("welcome")
 
     def _setup(self) -> SessionSetup | None:
         """Return what a session begins with, and when in the day; raises StorageError."""
@@ -488,6 +515,8 @@ class SessionRunner:
         self._record = record
         self._begun_at = begun_at
         self._renderer.begin(provenance.plan)
+        offered = provenance.plan.settings.returning.enabled and provenance.plan.visit == 1
+        self.returns.begin(provenance.kind, offered=offered)
 
     def _with_body(self, provenance: Provenance) -> Provenance:
         """Return the session with the body that it begins with, whichever was meant."""
@@ -499,6 +528,7 @@ class SessionRunner:
         self._busy.end()
         self._queue.clear()
         self._session = self._record = self._unwritten = None
+        self.returns.end()
         self._renderer.reset("pause" if self._shut or self._on_break else screen)
         self.on_idle()
 
@@ -528,20 +558,20 @@ class SessionRunner:
                 self._unwritten = None
                 if self._record.is_kept:
                     self.on_recorded(self._record.participant, (handled.event, *handled.outcome.events))
-                self._before_effects(handled.outcome, self._record.code)
+                self._before_effects(handled.outcome, self._record.code, returns=session.may_return)
                 self._renderer.screens.kiosk.reach(session.stage.value)
                 self._renderer.perform(handled.outcome.effects)
                 self._after_effects(handled, session.stage)
         finally:
             self._working = False
 
-    def _before_effects(self, outcome: Outcome, code: str) -> None:
+    def _before_effects(self, outcome: Outcome, code: str, *, returns: bool) -> None:
         self._screen_changed = False
         started = _timers(outcome)
         for timer in (Timer.IDLE, Timer.HESITATION):
             if started.get(timer):
                 self._waiting_since[timer] = self._clock.now_ms()
-        self._renderer.screens.debrief.give_code(code)
+        self._renderer.screens.debrief.give_code(code, returns=returns)
         self._renderer.screens.kiosk.give_code(code)
 
     def _after_effects(self, handled: _Handled, stage: Stage) -> None:

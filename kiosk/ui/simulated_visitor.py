@@ -310,6 +310,10 @@ class BehaviourProfile:
     leaves_in: Stage = Stage.GAME
     language: str = ""
     memory: MemoryTraits = MemoryTraits()
+    links: bool = False
+    """Whether they agree that their visits are linked, where the study asks for it."""
+    code: str = ""
+    """The code of an earlier visit, which they type where they can."""
 
 
 @dataclass(frozen=True)

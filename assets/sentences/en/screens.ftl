@@ -19,6 +19,17 @@ attract-greeting =
 
 about-continue = Continue
 
+# Visitors who were here before, in a study that lets them come back.
+return-offer = I have been here before
+return-title = Type the code from your card
+return-line = Ten letters and digits, as they stand on the card of your last visit.
+return-mistyped = A letter or a digit of this code is not right. Please compare it with your card.
+return-unknown = This code is not known here. Please compare it with your card, or go on as a new player.
+return-go = Go on
+return-new = I am new here
+return-welcome = Welcome back! Everything is ready for your next visit.
+return-as-new = This code is not known here. You can play all the same, as a new player.
+
 ## Consent
 
 consent-required = needed to take part
@@ -134,6 +145,7 @@ debrief-take-home = To take home: photograph this card
 debrief-code = Your code
 debrief-withdraw-by-mail = To have your data deleted, send this code to { $contact }
 debrief-withdraw-here = To have your data deleted, tell this code to the people at this table.
+debrief-return = With this code you can come back another day.
 debrief-questions = Questions about the study: { $contact }
 debrief-subject = Please delete my data: { $code }
 debrief-continue = Continue

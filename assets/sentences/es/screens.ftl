@@ -20,6 +20,17 @@ attract-greeting =
 
 about-continue = Continuar
 
+# Visitors who were here before, in a study that lets them come back.
+return-offer = Ya he estado aquí
+return-title = Escribe el código de tu tarjeta
+return-line = Diez letras y cifras, como están en la tarjeta de tu última visita.
+return-mistyped = Una letra o una cifra de este código no es correcta. Compáralo con tu tarjeta.
+return-unknown = Aquí no se conoce este código. Compáralo con tu tarjeta o sigue como si fuera la primera vez.
+return-go = Seguir
+return-new = Es mi primera vez
+return-welcome = ¡Qué bien que has vuelto! Podemos empezar tu nueva visita.
+return-as-new = Aquí no se conoce este código. Puedes jugar igualmente, como si fuera la primera vez.
+
 ## Consent
 
 consent-required = necesario para participar
@@ -135,6 +146,7 @@ debrief-take-home = Para llevar a casa: haz una foto de esta tarjeta
 debrief-code = Tu código
 debrief-withdraw-by-mail = Para que borremos tus datos, envía este código a { $contact }
 debrief-withdraw-here = Para que borremos tus datos, di este código a las personas de esta mesa.
+debrief-return = Con este código puedes volver otro día.
 debrief-questions = Preguntas sobre el estudio: { $contact }
 debrief-subject = Por favor, borren mis datos: { $code }
 debrief-continue = Continuar

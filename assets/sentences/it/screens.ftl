@@ -20,6 +20,17 @@ attract-greeting =
 
 about-continue = Continua
 
+# Visitors who were here before, in a study that lets them come back.
+return-offer = Non è la mia prima volta qui
+return-title = Scrivi il codice della tua scheda
+return-line = Dieci lettere e cifre, come sulla scheda della tua ultima visita.
+return-mistyped = Una lettera o una cifra di questo codice non è giusta. Confrontalo con la tua scheda.
+return-unknown = Qui questo codice non è conosciuto. Confrontalo con la tua scheda, oppure continua come se fosse la prima volta.
+return-go = Continua
+return-new = È la prima volta
+return-welcome = Che bello rivederti! Possiamo cominciare la tua nuova visita.
+return-as-new = Qui questo codice non è conosciuto. Puoi giocare lo stesso, come se fosse la prima volta.
+
 ## Consent
 
 consent-required = necessario per partecipare
@@ -139,6 +150,7 @@ debrief-take-home = Da portare a casa: fotografa questa scheda
 debrief-code = Il tuo codice
 debrief-withdraw-by-mail = Per far cancellare i tuoi dati, manda questo codice a { $contact }
 debrief-withdraw-here = Per far cancellare i tuoi dati, di' questo codice alle persone a questo tavolo.
+debrief-return = Con questo codice puoi tornare un altro giorno.
 debrief-questions = Domande sullo studio: { $contact }
 debrief-subject = Per favore, cancellate i miei dati: { $code }
 debrief-continue = Continua

@@ -8,9 +8,13 @@ PageFrame {
     id: view
 
     required property AboutScreen about
+    required property ReturnScreen returning
 
     title: about.title
     label: words["about-continue"]
+    other: returning.offered ? words["return-offer"] : ""
+    way.otherName: "return-offer"
+    onTurnedDown: kiosk.ask("code")
     onWent: about.proceed()
     // Whatever the last visitor's keyboard was at, the next one's is at the button.
     onVisibleChanged: way.focus = true

@@ -151,6 +151,15 @@ PageFrame {
                     color: Theme.ink
                 }
                 PlainText {
+                    objectName: "returning"
+                    width: parent.width
+                    visible: text !== ""
+                    text: view.debrief.returning
+                    font.pixelSize: Theme.small
+                    wrapMode: Text.Wrap
+                    color: Theme.ink
+                }
+                PlainText {
                     objectName: "questions"
                     width: parent.width
                     visible: text !== ""

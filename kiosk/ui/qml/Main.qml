@@ -20,6 +20,7 @@ Window {
     required property ResultScreen result
     required property DebriefScreen debrief
     required property ThanksScreen thanks
+    required property ReturnScreen returning
     required property AvatarScreen avatar
     required property ExperimenterScreen experimenter
     required property url cardBack
@@ -136,6 +137,7 @@ Window {
             sourceComponent: AboutView {
                 focus: true
                 about: root.about
+                returning: root.returning
                 kiosk: root.kiosk
                 words: root.words
             }
@@ -336,6 +338,32 @@ Window {
         choices: root.attract.ways.filter(way => root.kiosk.languages.includes(way.language))
             .map(way => ({ name: `language-${way.language}`, words: way.name, quiet: way.language !== root.kiosk.language }))
         onChosen: name => root.kiosk.selectLanguage(name.slice("language-".length))
+        Keys.onEscapePressed: root.kiosk.ask("")
+    }
+    Loader {
+        anchors.fill: parent
+        active: root.kiosk.asks === "code"
+        visible: active && !root.kiosk.paused && !root.kiosk.waits
+        focus: visible
+        enabled: root.kiosk.takesInput
+        sourceComponent: CodeCard {
+            focus: true
+            returning: root.returning
+            words: root.words
+            onWentAway: {
+                root.kiosk.ask("")
+                root.returning.clear()
+            }
+        }
+    }
+    CalmCard {
+        anchors.fill: parent
+        visible: ["welcome", "unknown"].includes(root.kiosk.asks) && !root.kiosk.paused && !root.kiosk.waits
+        focus: visible
+        enabled: root.kiosk.takesInput
+        title: root.words[root.kiosk.asks === "unknown" ? "return-as-new" : "return-welcome"]
+        choices: [{ name: "return-on", words: root.words["about-continue"] }]
+        onChosen: root.kiosk.ask("")
         Keys.onEscapePressed: root.kiosk.ask("")
     }
     CalmCard {

@@ -190,6 +190,7 @@ class DebriefScreen(PageScreen):
         super().__init__(parent)
         self._catalogue = catalogue
         self._code = self._contact = self._summary = ""
+        self._returns = False
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
@@ -206,17 +207,26 @@ class DebriefScreen(PageScreen):
         self._summary = summary
         self.given.emit()
 
-    def give_code(self, code: str) -> None:
-        """Show this code; with an empty one nothing is said about withdrawing."""
-        if code != self._code:
-            self._code = code
+    def give_code(self, code: str, *, returns: bool = False) -> None:
+        """Show this code; with an empty one nothing is said about withdrawing.
+
+        With ``returns``, it is also said that the visitor can come back with it.
+        """
+        if (code, returns) != (self._code, self._returns):
+            self._code, self._returns = code, returns
             self.given.emit()
 
     def clear(self) -> None:
         """Show no page and no code."""
         self._code = self._contact = self._summary = ""
+        self._returns = False
         self.given.emit()
         super().clear()
+
+    @property
+    def shown_code(self) -> str:
+        """The code on the card; empty if there is none."""
+        return self._code
 
     @property
     def payload(self) -> str:
@@ -247,6 +257,11 @@ class DebriefScreen(PageScreen):
         if not self._contact:
             return self._catalogue.text("debrief-withdraw-here")
         return self._catalogue.text("debrief-withdraw-by-mail", contact=self._contact)
+
+    @Property(str, notify=given)
+    def returning(self) -> str:
+        """Return that the visitor can come back with the code; empty if they cannot."""
+        return self._catalogue.text("debrief-return") if self._code and self._returns else ""
 
     @Property(str, notify=given)
     def questions(self) -> str:
@@ -331,6 +346,11 @@ class ConsentScreen(QObject):
     def offered(self) -> tuple[str, ...]:
         """The purposes that are shown, as anybody in front of the screen can see."""
         return () if self._page is None else tuple(purpose.id for purpose in self._page.purposes)
+
+    @property
+    def ticked_purposes(self) -> frozenset[str]:
+        """The purposes that have a tick."""
+        return self._ticks
 
     @property
     def needed(self) -> frozenset[str]:

@@ -27,6 +27,7 @@ from kiosk.ui.screens.pages import (
     ThanksScreen,
 )
 from kiosk.ui.screens.questionnaire import FormScreen
+from kiosk.ui.screens.returning import ReturnScreen
 from kiosk.ui.screens.shell import KioskScreen
 
 
@@ -69,6 +70,7 @@ class ScreenSet:
     result: ResultScreen
     debrief: DebriefScreen
     thanks: ThanksScreen
+    returning: ReturnScreen
     avatar: AvatarScreen
     experimenter: ExperimenterScreen
 
@@ -94,6 +96,7 @@ class ScreenSet:
             result=ResultScreen(first, owner),
             debrief=DebriefScreen(first, owner),
             thanks=ThanksScreen(owner),
+            returning=ReturnScreen(first, owner),
             avatar=avatar,
             experimenter=ExperimenterScreen(owner),
         )
@@ -110,7 +113,7 @@ class ScreenSet:
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Show everything in this language."""
-        for screen in (self.kiosk, self.age, self.form, self.board, self.result, self.debrief):
+        for screen in (self.kiosk, self.age, self.form, self.board, self.result, self.debrief, self.returning):
             screen.set_language(catalogue)
 
     def clear(self) -> None:
@@ -127,6 +130,7 @@ class ScreenSet:
             self.result,
             self.debrief,
             self.thanks,
+            self.returning,
             self.avatar,
         ):
             screen.clear()

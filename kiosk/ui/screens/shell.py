@@ -13,6 +13,12 @@ from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
 
 FIXED = (
     "about-continue",
+    "return-offer",
+    "return-title",
+    "return-go",
+    "return-new",
+    "return-welcome",
+    "return-as-new",
     "consent-required",
     "consent-optional",
     "consent-missing",
@@ -266,6 +272,11 @@ class KioskScreen(QObject):
         return self._screen
 
     @property
+    def spoken_language(self) -> str:
+        """The code of the language that is shown."""
+        return self._language
+
+    @property
     def takes_input(self) -> bool:
         """Whether what is shown can be tapped."""
         return self._takes_input
@@ -354,7 +365,7 @@ class KioskScreen(QObject):
 
     @Property(str, notify=controls)
     def asks(self) -> str:
-        """Return what the corner asks over the screen: ``stop``, ``language``, or nothing."""
+        """Return what the corner asks over the screen: ``stop``, ``language``, ``code``, or nothing."""
         return self._asks
 
     @Property(float, notify=controls)

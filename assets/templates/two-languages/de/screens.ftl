@@ -19,6 +19,17 @@ attract-greeting =
 
 about-continue = Weiter
 
+# Visitors who were here before, in a study that lets them come back.
+return-offer = Ich war schon einmal hier
+return-title = Tippe den Code von deiner Karte ein
+return-line = Zehn Buchstaben und Ziffern, so wie sie auf der Karte deines letzten Besuchs stehen.
+return-mistyped = Ein Buchstabe oder eine Ziffer dieses Codes stimmt nicht. Bitte vergleiche ihn mit deiner Karte.
+return-unknown = Diesen Code kennen wir hier nicht. Bitte vergleiche ihn mit deiner Karte, oder spiele wie beim ersten Mal.
+return-go = Weiter
+return-new = Ich bin neu hier
+return-welcome = Schön, dass du wieder da bist! Für deinen nächsten Besuch ist alles bereit.
+return-as-new = Diesen Code kennen wir hier nicht. Du kannst trotzdem spielen, wie beim ersten Mal.
+
 ## Consent
 
 consent-required = nötig, um teilzunehmen
@@ -134,6 +145,7 @@ debrief-take-home = Zum Mitnehmen: Fotografiere diese Karte
 debrief-code = Dein Code
 debrief-withdraw-by-mail = Um deine Daten löschen zu lassen, sende diesen Code an { $contact }
 debrief-withdraw-here = Um deine Daten löschen zu lassen, nenne diesen Code den Leuten an diesem Tisch.
+debrief-return = Mit diesem Code kannst du an einem anderen Tag wiederkommen.
 debrief-questions = Fragen zur Studie: { $contact }
 debrief-subject = Bitte meine Daten löschen: { $code }
 debrief-continue = Weiter
