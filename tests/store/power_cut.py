@@ -289,14 +289,17 @@ def cut_power(times: int, rounds: int, seed: int, folder: Path) -> Tally:
     tally.writes = sum(entry.kind is Kind.WRITE for entry in log)
     tally.flushes = sum(entry.kind is Kind.FLUSH for entry in log)
     tally.acknowledged = sum(entry.kind is Kind.ACKNOWLEDGED for entry in log)
-    disk, place, after = Disk(empty, log), folder / "after", folder / "after.img"
+    disk, place = Disk(empty, log), folder / "after"
     points = cut_points(log, times, chance)
     for number, point in track(list(enumerate(points)), description="cuts", disable=not sys.stderr.isatty()):
         disk.go_on_to(point)
+        # A new file each time: the loop device of the last one may still be there, and would show what it remembers.
+        after = folder / f"after-{number}"
         after.write_bytes(after_a_cut(disk.flushed, disk.unflushed, chance))
         tally.cuts += 1
         with mounted(after, place):
             tally.faults += [f"cut {number} at {point}: {fault}" for fault in _looked_at(place, disk.promised, tally)]
+        after.unlink()
     return tally
 
 

@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from tests.ui.monkey.verdict import ANSWER_S, STEEPEST, WARM_S, Seen, Weighed, slope_mib_per_hour, troubles
+from tests.ui.monkey.verdict import ANSWER_S, LEAST_S, STEEPEST, WARM_S, Seen, Weighed, slope_mib_per_hour, troubles
 
 HOUR_S = 3600
 
@@ -34,7 +34,7 @@ def test_processes_of_different_height_share_one_slope() -> None:
 
 
 def test_a_process_that_did_not_last_says_nothing() -> None:
-    assert slope_mib_per_hour(weighed(1, 100, 900, for_s=int(WARM_S) + 60)) is None
+    assert slope_mib_per_hour(weighed(1, 100, 900, for_s=int(WARM_S + LEAST_S) - 10)) is None
 
 
 def test_a_run_without_trouble_has_no_fault() -> None:

@@ -40,7 +40,7 @@ from tests.ui.exits.hands import Devices
 from tests.ui.fault_matrix import Robot
 from tests.ui.monkey.kiosk import ANSWERS
 from tests.ui.monkey.paws import Monkey
-from tests.ui.monkey.verdict import Seen, Weighed, slope_mib_per_hour, troubles
+from tests.ui.monkey.verdict import BY_ITSELF, Seen, Weighed, slope_mib_per_hour, troubles
 
 INPUTS_PER_S = 50
 LOOK_S = 0.5
@@ -144,6 +144,7 @@ class Watcher:
         self._answers.bind(str(folder / ANSWERS))
         self._began = monotonic()
         self._up = False
+        self._stage = ""
         self._lost_at: float | None = monotonic()
         self._answered_at = monotonic()
 
@@ -151,9 +152,12 @@ class Watcher:
         """Take in what has come meanwhile."""
         with suppress(BlockingIOError):
             while True:
-                event = self._answers.recv(256).decode()
+                event, stage = self._answers.recv(256).decode().rsplit(" ", 1)
                 self.seen.answers[event] += 1
-                if event not in {"TimerExpired", "SpeechFailed", "RobotDisconnected", "SpeechStarted"}:
+                if stage != self._stage:
+                    self._stage = stage
+                    self.seen.stages[stage] += 1
+                if event not in BY_ITSELF:
                     self._answered()
                 monkey.learn(self.shown, event)
         with suppress(queue.Empty):
@@ -289,6 +293,7 @@ def lines(seen: Seen, data: Path) -> Iterator[str]:
         statuses = [str(each.status.value if each.status else None) for each in stored.sessions()]
         yield "sessions: " + _counts({each: statuses.count(each) for each in sorted({*statuses})})
     yield f"inputs: {sum(seen.inputs.values())} ({_counts(seen.inputs)})"
+    yield f"stages: {_counts(seen.stages)}"
     yield f"screens: {_counts(seen.screens)}"
     yield f"handled: {_counts(seen.answers)}"
     yield f"robot: {_counts(seen.robot)}"

@@ -1,8 +1,8 @@
 """``recollect`` with fingers: ``python -m tests.ui.monkey.kiosk FOLDER`` and then recollect's own arguments.
 
 A virtual screen has no touch device, so the monkey sends what its fingers do as datagrams to FOLDER/fingers, and the
-kiosk makes Qt's own touch events of them. In return it sends the name of every event that the session has handled to
-FOLDER/answers.
+kiosk makes Qt's own touch events of them. In return it sends to FOLDER/answers every event that the session has
+handled, by its name, and the stage that followed.
 """
 
 from __future__ import annotations
@@ -12,16 +12,18 @@ import socket
 import sys
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 from unittest.mock import patch
 
 from PySide6.QtCore import QPoint, QSocketNotifier
 from PySide6.QtTest import QTest
 
 from kiosk.cli.main import main
+from kiosk.experiment.effects import Outcome
+from kiosk.experiment.events import AgeConfirmed, Event, Stage
 from kiosk.ui.app import App
 
 FINGERS, ANSWERS = "fingers", "answers"
+UNDER_AGE = "AgeConfirmed: too young"
 LONGEST = 4096
 
 
@@ -42,10 +44,11 @@ class Reached:
         self._notifier.activated.connect(self._feel)
         app.runner.on_event = self._tell
 
-    def _tell(self, event: Any, _outcome: Any, _stage: Any) -> None:
+    def _tell(self, event: Event, _outcome: Outcome, stage: Stage) -> None:
+        name = UNDER_AGE if isinstance(event, AgeConfirmed) and not event.adult else type(event).__name__
         # The monkey may be gone, or behind.
         with suppress(OSError):
-            self._told.sendto(type(event).__name__.encode(), self._told_at)
+            self._told.sendto(f"{name} {stage.value}".encode(), self._told_at)
 
     def _feel(self) -> None:
         with suppress(BlockingIOError):

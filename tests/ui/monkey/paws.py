@@ -27,8 +27,8 @@ EXPERIMENTERS = tuple(shortcut.lower() for shortcut in Keys().model_dump().value
 RETURNS = (*EXPERIMENTERS, "Return", "Escape", "Tab", "space")
 KEPT_PLACES = 40
 """So many places that led on are remembered for each screen and kind of event."""
-ON_PURPOSE = 0.5
-"""How often a press goes to one of them."""
+ON_PURPOSE = (0.0, 0.5, 0.75)
+"""How often a press goes to one of them, by how many kinds of events are known on the screen."""
 LEADS_ON = frozenset(
     (
         *("SessionStarted", "ContinuePressed", "ConsentPurposeToggled", "ConsentSubmitted"),
@@ -99,7 +99,7 @@ class Monkey:
 
     def _place(self, screen: str) -> Place:
         learnt = [*self._learnt[screen].values()]
-        purpose = learnt and self._chance.random() < ON_PURPOSE
+        purpose = self._chance.random() < ON_PURPOSE[min(len(learnt), len(ON_PURPOSE) - 1)]
         self._pressed = self._chance.choice(self._chance.choice(learnt)) if purpose else self._anywhere()
         return self._pressed
 

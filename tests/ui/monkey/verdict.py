@@ -11,9 +11,11 @@ ANSWER_S = 60.0
 """A kiosk that is up and answers no input for so long is wedged: "still there?" alone would end a session before."""
 BACK_S = 30.0
 """From the end of a kiosk to the first frame of the next one, on a machine that has other things to do."""
-WARM_S = 90.0
+BY_ITSELF = frozenset(("TimerExpired", "SpeechStarted", "SpeechFinished", "SpeechFailed", "RobotDisconnected"))
+"""Events that are no answer to an input."""
+WARM_S = 150.0
 """Fonts, pictures and pages are loaded when they are first needed."""
-LEAST_S = 120.0
+LEAST_S = 240.0
 """A slope over less says nothing."""
 DAY_H = 12
 FREE_MIB = 1024 - 160
@@ -54,6 +56,8 @@ class Seen:
 
     screens: Counter[str] = field(default_factory=Counter)
     """How often each screen came."""
+    stages: Counter[str] = field(default_factory=Counter)
+    """How often each stage of a session was reached."""
     answers: Counter[str] = field(default_factory=Counter)
     """How often the session has handled an event of each kind."""
     inputs: Counter[str] = field(default_factory=Counter)
