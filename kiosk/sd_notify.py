@@ -15,7 +15,9 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
@@ -65,6 +67,22 @@ class Notifier:
         elif self._pipe is not None:
             os.close(self._pipe)
         self._socket = self._pipe = None
+
+
+class Presence:
+    """Whether those who heard a program are still there, by what became of its signs of life."""
+
+    def __init__(self, patience: int) -> None:
+        """They are lost after so many signs in a row that were not heard."""
+        self._patience = patience
+        self._was_heard = False
+        self._unheard = 0
+
+    def lost(self, *, heard: bool) -> bool:
+        """Take in what became of the latest sign; those who never heard any cannot be lost."""
+        self._was_heard = self._was_heard or heard
+        self._unheard = 0 if heard else self._unheard + 1
+        return self._was_heard and self._unheard >= self._patience
 
 
 def _one_line(value: object) -> str:
@@ -173,14 +191,19 @@ def parse_notification(notice: bytes) -> Notice:
 
 
 RELAY_TICK_S = 0.2
+RELAY_PATIENCE = 2 / 3
+"""The part of systemd's own patience after which a command that fell silent is ended."""
+_US_PER_S = 1_000_000
 
 
 def relay(command: Sequence[str], environment: Mapping[str, str] = os.environ) -> int:
     """Run a command, send its notices on as one's own, and return its exit code, negative for a signal.
 
     systemd drops notices from processes that a login session has taken out of their service, but not those of the
-    service's main process. A request to end goes to all of the process group.
+    service's main process. It does not end them either. So where it wants signs of life, a command that falls silent
+    after its first one is ended here, with all that it has started. A request to end goes to all of the process group.
     """
+    patience_s = int(environment.get(BEAT_WITHIN, 0)) / _US_PER_S * RELAY_PATIENCE or float("inf")
     above = Notifier(environment)
     with tempfile.TemporaryDirectory(prefix="recollect-relay-") as folder:
         listener = notify_listener(Path(folder))
@@ -196,9 +219,12 @@ def relay(command: Sequence[str], environment: Mapping[str, str] = os.environ) -
 
         before = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
         try:
+            silence = _Silence(patience_s)
             while child.poll() is None:
                 if notice := listener.hear(RELAY_TICK_S):
                     above.tell(**notice)
+                if silence.is_too_long(notice):
+                    _kill_tree(child.pid)
             while last_words := listener.hear(0):
                 above.tell(**last_words)
         finally:
@@ -207,3 +233,34 @@ def relay(command: Sequence[str], environment: Mapping[str, str] = os.environ) -
             listener.close()
             above.close()
     return child.returncode
+
+
+class _Silence:
+    """How long a command has given no sign of life, since its first one."""
+
+    def __init__(self, patience_s: float) -> None:
+        self._patience_s = patience_s
+        self._silent_s: float | None = None
+        self._looked_at = time.monotonic()
+
+    def is_too_long(self, notice: Notice) -> bool:
+        """Take in what was heard within a tick, and return whether the command is to be given up."""
+        now = time.monotonic()
+        if {"READY", "WATCHDOG"} & notice.keys():
+            self._silent_s = 0.0
+        elif self._silent_s is not None:
+            # Time in which the whole machine stood still is no silence.
+            self._silent_s += min(now - self._looked_at, 2 * RELAY_TICK_S)
+        self._looked_at = now
+        return self._silent_s is not None and self._silent_s > self._patience_s
+
+
+def _kill_tree(root: int) -> None:
+    """Kill a process and all that it has started, also what is in another group or session."""
+    import psutil  # noqa: PLC0415 - the calm window, which tells notices as well, is to load fast
+
+    with suppress(psutil.NoSuchProcess):
+        process = psutil.Process(root)
+        for each in (process, *process.children(recursive=True)):
+            with suppress(psutil.NoSuchProcess):
+                each.kill()

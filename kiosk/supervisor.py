@@ -21,7 +21,7 @@ from typing import NoReturn, Protocol
 import psutil
 
 from kiosk import why
-from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET, Notice, Notifier, notify_listener
+from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET, Notice, Notifier, Presence, notify_listener
 
 
 @dataclass(frozen=True)
@@ -366,6 +366,8 @@ LEFT, REFUSED = 0, 2
 US_PER_S = 1_000_000
 BEAT_S = 1.0
 """How often the supervisor sends a sign of life to its own watcher."""
+UNHEARD_SIGNS = 5
+"""A watcher that was there and does not get so many in a row is gone."""
 
 
 class SupervisorEventKind(Enum):
@@ -420,6 +422,7 @@ class Supervisor:
         self._began = time.monotonic()
         self._calm: ProcessGroup | None = None
         self._above = Notifier(os.environ)
+        self._watcher = Presence(UNHEARD_SIGNS)
         self._beats_at = 0.0
         self._lost_at: float | None = None
         self._starts = self._died_young = 0
@@ -502,7 +505,9 @@ class Supervisor:
         now = time.monotonic()
         if now >= self._beats_at:
             self._beats_at = now + BEAT_S
-            self._above.tell(WATCHDOG=1)
+            if self._watcher.lost(heard=self._above.tell(WATCHDOG=1)):
+                # What watched it will be started again, and starts another supervisor for the same data.
+                self.end()
             if self._calm is not None:
                 # Its notices are not needed any more, but a pipe must not fill up.
                 self._calm.hear(0)

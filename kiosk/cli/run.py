@@ -30,6 +30,7 @@ from kiosk.experiment.events import Event
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionConfig, kind_of
 from kiosk.robots.registry import check_robot
+from kiosk.store.database import wait_until_free
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
@@ -44,6 +45,9 @@ from kiosk.ui.window import ClockMode, RunMode, WindowMode, check_screen
 
 SEED_BITS = 63
 """As many as the column holds. Boards are published: seeds, and so codes, must not be found by trying."""
+
+LEFTOVER_S = 15.0
+"""How long a supervised kiosk waits for one before it whose supervisor was lost: that one ends by itself."""
 
 
 @click.command("run")
@@ -116,6 +120,8 @@ def _open(
     origin = RunContext(code_commit(), kind=kind_of(prepared.settings), seed=lambda: chance.getrandbits(SEED_BITS))
     mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN)
     check_screen(mode.display)
+    if unattended:
+        wait_until_free(data, LEFTOVER_S)
     with Recorder(data, site) as recorder:
         log_into(data)
         with App(mode, recorder, ConditionAssigner(prepared, recorder, origin), beat=beat) as app:

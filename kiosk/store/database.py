@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import sqlite3
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -368,6 +368,14 @@ def in_use(folder: Path) -> bool:
     except OSError:
         # Where the lock cannot even be looked at, no process can be writing.
         return False
+
+
+def wait_until_free(folder: Path, within_s: float) -> None:
+    """Wait so long, and no longer, for another program that is writing in a data folder."""
+    if not in_use(folder):
+        return
+    with suppress(Timeout, OSError), FileLock(folder / LOCK, timeout=within_s):
+        pass
 
 
 def open_for_writing(folder: Path) -> Connection:

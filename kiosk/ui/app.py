@@ -175,7 +175,7 @@ class App:
 
     def run(self) -> None:
         """Run until the kiosk is left."""
-        with heartbeat(self.window, self.screens.kiosk):
+        with heartbeat(self.window, self.screens.kiosk, alone=self._leave_alone):
             self._loop.run()
 
     def quit(self) -> None:
@@ -204,6 +204,11 @@ class App:
         _log.critical("a fault in Recollect", exc_info=(kind, fault, at))
         self.runner.pause()
         self.on_fault(fault)
+
+    def _leave_alone(self) -> None:
+        """End where the supervisor is gone: a new one could not open a kiosk on the same data."""
+        _log.error("the supervisor is gone, so the kiosk ends")
+        self.quit()
 
     def _show(self, settings: Settings, mode: RunMode) -> KioskWindow | None:
         """Show the window; over the full screen it is one that visitors cannot leave."""

@@ -20,7 +20,7 @@ from typing import Protocol, TypeVar
 from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer, Signal
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET, Notifier
+from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET, Notifier, Presence
 from kiosk.ui.screens.shell import KioskScreen
 from kiosk.units import MS_PER_SECOND
 
@@ -241,22 +241,41 @@ def _raise(fault: Exception) -> None:
 US_PER_MS = 1000
 
 
+UNHEARD_BEATS = 2
+"""A supervisor that was there and does not get so many beats in a row is gone."""
+
+
 @contextmanager
-def heartbeat(window: QQuickWindow, kiosk: KioskScreen, environment: Mapping[str, str] = os.environ) -> Iterator[None]:
-    """Tell that the kiosk lives, for as long as its loop runs in here."""
+def heartbeat(
+    window: QQuickWindow,
+    kiosk: KioskScreen,
+    environment: Mapping[str, str] = os.environ,
+    alone: Callable[[], None] = lambda: None,
+) -> Iterator[None]:
+    """Tell that the kiosk lives, for as long as its loop runs in here.
+
+    ``alone`` is called once if the supervisor that heard it is gone.
+    """
     if not {SOCKET, PIPE} & environment.keys():
         yield
         return
     notifier = Notifier(environment)
     beat = QTimer()
     beat.setInterval(int(environment.get(BEAT_WITHIN, 0)) // US_PER_MS // 2)
-    beat.timeout.connect(lambda: notifier.tell(WATCHDOG=1))
+    presence = Presence(UNHEARD_BEATS)
+
+    def tell_life() -> None:
+        if presence.lost(heard=notifier.tell(WATCHDOG=1)):
+            beat.stop()
+            alone()
+
+    beat.timeout.connect(tell_life)
 
     def tell_screen() -> None:
         notifier.tell(STATUS=kiosk.shown)
 
     def begin() -> None:
-        notifier.tell(READY=1, STATUS=kiosk.shown)
+        presence.lost(heard=notifier.tell(READY=1, STATUS=kiosk.shown))
         if beat.interval():
             beat.start()
 

@@ -6,6 +6,7 @@ import shutil
 import sqlite3
 import subprocess
 import sys
+import threading
 import zipfile
 from collections.abc import Callable
 from contextlib import closing
@@ -15,7 +16,18 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.store import database
-from kiosk.store.database import APPLICATION_ID, FILE, MIGRATIONS, SCHEMA, Migration, open_for_reading, open_for_writing
+from kiosk.store.database import (
+    APPLICATION_ID,
+    FILE,
+    MIGRATIONS,
+    SCHEMA,
+    Migration,
+    in_use,
+    lock_folder,
+    open_for_reading,
+    open_for_writing,
+    wait_until_free,
+)
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Recorder
 
@@ -265,3 +277,33 @@ def test_what_a_kiosk_reads_of_its_database_never_lets_another_program_take_its_
         subprocess.run([sys.executable, "-c", look, folder / FILE], check=True)
 
         assert folder.joinpath(f"{FILE}-wal").exists()
+
+
+def test_a_folder_that_another_program_leaves_meanwhile_is_waited_for_and_no_longer_than_allowed(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wait_until_free(folder, 0)
+    assert not folder.exists()
+    held, seen = threading.Event(), threading.Event()
+
+    def hold() -> None:
+        lock = lock_folder(folder)
+        held.set()
+        seen.wait()
+        lock.release()
+
+    holding = threading.Thread(target=hold)
+    holding.start()
+    held.wait()
+    wait_until_free(folder, 0)
+    assert in_use(folder)
+
+    def look(_: Path) -> bool:
+        """Say that it is in use, and have it left."""
+        seen.set()
+        return True
+
+    monkeypatch.setattr(database, "in_use", look)
+    wait_until_free(folder, 60)
+    holding.join()
+    assert not in_use(folder)

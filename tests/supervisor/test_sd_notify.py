@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 
 from kiosk.sd_notify import (
@@ -16,6 +19,7 @@ from kiosk.sd_notify import (
     NotifyListener,
     NotifyPipeListener,
     NotifySocketListener,
+    Presence,
     parse_notification,
     relay,
 )
@@ -112,6 +116,40 @@ def test_the_notices_of_a_command_are_sent_on_by_the_process_that_systemd_listen
         words, passed, _, _ = systemd.recvmsg(1000, socket.CMSG_SPACE(12))
     assert parse_notification(words) == {"READY": "1", "MAINPID": str(os.getpid())}
     assert int.from_bytes(passed[0][2][:4], sys.byteorder) == os.getpid()
+
+
+HANGS = """
+import os, signal, subprocess, sys
+from kiosk.sd_notify import Notifier
+with subprocess.Popen([sys.executable, "-c", "import signal; signal.pause()"], start_new_session=True) as company:
+    open(sys.argv[1], "w").write(str(company.pid))
+    Notifier(os.environ).tell(READY=1)
+    os.kill(os.getpid(), signal.SIGSTOP)
+"""
+
+
+def test_a_command_that_falls_silent_is_ended_by_the_relay_with_all_that_it_started(tmp_path: Path) -> None:
+    """As with a supervisor under cage: a login session has it, so systemd would leave it there."""
+    environment = {**os.environ, "WATCHDOG_USEC": "300000"}
+    assert relay([sys.executable, "-c", HANGS, str(tmp_path / "company")], environment) == -signal.SIGKILL
+    company = int((tmp_path / "company").read_text())
+    end = time.monotonic() + LONG
+    while psutil.pid_exists(company) and psutil.Process(company).status() != psutil.STATUS_ZOMBIE:
+        assert time.monotonic() < end
+
+
+@pytest.mark.parametrize(
+    ("signs", "lost"),
+    [
+        ((False, False, False), False),
+        ((True, False), False),
+        ((True, False, False), True),
+        ((True, False, True), False),
+    ],
+)
+def test_those_who_heard_and_hear_no_more_are_gone(signs: tuple[bool, ...], lost: bool) -> None:  # noqa: FBT001
+    presence = Presence(2)
+    assert [presence.lost(heard=heard) for heard in signs][-1] is lost
 
 
 def test_a_command_that_is_asked_to_end_by_way_of_the_relay_ends_in_order() -> None:

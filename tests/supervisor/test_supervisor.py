@@ -229,3 +229,21 @@ def test_whoever_watches_the_supervisor_is_told_what_the_kiosk_tells(
         heard |= notice
     above.close()
     assert heard == {"WATCHDOG": "1", "READY": "1", "STATUS": "attract", "STOPPING": "1"}
+
+
+def test_a_supervisor_whose_watcher_is_gone_takes_the_kiosk_with_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else what is started in its place would find the data in use."""
+    monkeypatch.setattr("kiosk.supervisor.BEAT_S", 0.02)
+    above = NotifySocketListener(tmp_path)
+    monkeypatch.setenv("NOTIFY_SOCKET", above.environment["NOTIFY_SOCKET"])
+
+    def leave(_: Supervisor, happening: SupervisorEvent) -> None:
+        if happening.what is SupervisorEventKind.READY:
+            above.close()
+
+    night = keep(tmp_path, "stay", listening=leave)
+    assert night.code == LEFT
+    assert night.what()[-1] == "told to end"
+    assert not any(runs(process) for process in (*night.starts("kiosk"), *night.starts("calm")))

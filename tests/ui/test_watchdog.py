@@ -94,6 +94,22 @@ def test_without_a_wish_for_beats_there_are_none(
         assert heard(listener) == []
 
 
+def test_a_kiosk_whose_supervisor_is_gone_is_told_once(
+    qtbot: QtBot, window: QQuickWindow, listener: NotifySocketListener
+) -> None:
+    left: list[str] = []
+    environment = listener.environment | EVERY_40_MS
+    with heartbeat(window, KioskScreen(ENGLISH), environment, alone=lambda: left.append("alone")):
+        window.show()
+        # It may be lost before the first beat.
+        qtbot.waitUntil(lambda: ("READY", "1") in heard(listener))
+        assert left == []
+        listener.close()
+        qtbot.waitUntil(lambda: left != [])
+        qtbot.wait(100)
+    assert left == ["alone"]
+
+
 class Told:
     """Keeps the notices: a socket that is never emptied takes only so much."""
 
