@@ -59,8 +59,11 @@ def test_a_generated_page_is_as_the_code_gives_it(name: str) -> None:
 
 
 def typed_commands(page: str) -> list[str]:
-    """Return the lines of a page's code blocks that call ``recollect``, without what follows a pipe or a comment."""
-    code = re.sub(r"\\\n\s*", "", page)
+    """Return the lines of a page's code blocks that call ``recollect``, without what follows a pipe or a comment.
+
+    A variable of the shell is 1.
+    """
+    code = re.sub(r"\$[A-Za-z_]+", "1", re.sub(r"\\\n\s*", "", page))
     lines = re.findall(r"^ *(?:\$ )?recollect (.*)$", code, flags=re.M)
     return [re.split(r"\s+(?:#|\||>|&&)\s?", line)[0].strip() for line in lines]
 

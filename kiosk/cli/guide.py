@@ -32,7 +32,7 @@ class Guide:
 
 GUIDES = {
     "study new": Guide(
-        "how-to/new-study.md", ("study new my-study", "study new my-study --template fair --language it")
+        "how-to/new-study.md", ("study new my-study", "study new fair-study --template fair --language it")
     ),
     "study check": Guide("reference/study-file.md", ("study check study.toml", "study check study.toml --pages")),
     "study preview": Guide("how-to/preview.md", ("study preview study.toml",), "It shows a window."),
@@ -41,7 +41,7 @@ GUIDES = {
     ),
     "study translations": Guide(
         "how-to/add-a-language.md",
-        ("study translations study.toml", "study translations study.toml --language it --write italian.csv"),
+        ("study translations study.toml", "study translations study.toml --language it --write italian.po"),
     ),
     "study wording draft": Guide(
         "how-to/wording.md",
@@ -54,7 +54,7 @@ GUIDES = {
     "study import": Guide(
         "how-to/import.md", ("study import items.csv --id trust --version 1 --out questionnaires/trust.toml",)
     ),
-    "study dossier": Guide("how-to/dossier.md", ("study dossier study.toml --out dossier.pdf",)),
+    "study dossier": Guide("how-to/dossier.md", ("study dossier study.toml --out study.pdf",)),
     "study diff": Guide("how-to/one-file.md", ("study diff pilot.toml study.toml",)),
     "study pack": Guide("how-to/one-file.md", ("study pack study.toml --out study.recollect",)),
     "study set-pin": Guide("how-to/experimenter.md", ("study set-pin",)),
@@ -69,7 +69,7 @@ GUIDES = {
     "plan show": Guide("how-to/plan.md", ("plan show plan.toml",)),
     "plan freeze": Guide("how-to/plan.md", ("plan freeze plan.toml",)),
     "plan look": Guide("how-to/plan.md", ("plan look plan.toml",)),
-    "plan simulate": Guide("how-to/plan.md", ("plan simulate plan.toml --out simulated --people 40",)),
+    "plan simulate": Guide("how-to/plan.md", ("plan simulate plan.toml --out simulated --people people.json",)),
     "voice render": Guide("how-to/voice.md", ("voice render", "voice render --study study.toml --language it")),
     "voice script": Guide("how-to/voice.md", ("voice script --study study.toml --language it",)),
     "voice import": Guide("how-to/voice.md", ("voice import recordings --out voices/anna --speaker Anna",)),
@@ -95,7 +95,7 @@ GUIDES = {
     "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
     "replay": Guide(
         "explanation/how-it-works.md",
-        ("replay 1", "replay 1 --headless --frames pictures", "replay 1 --film session.webm"),
+        ("replay 1", "replay 1 --headless --frames pictures", "replay 12 --film session.webm"),
     ),
     "explain": Guide(
         "explanation/mentaliser.md", ("explain 1 --picture boards.svg", "explain 1 --flip 14", "explain case.json")
