@@ -185,6 +185,10 @@ class Timing(ConfigModel):
     ] = True
     mood_ms: Annotated[Milliseconds, Field(description="How long the assistant looks happy, confused or sad.")] = 2500
     finish_ms: Annotated[Milliseconds, Field(description="From the last pair to the result.")] = 1800
+    gaze_ms: Annotated[
+        Milliseconds,
+        Field(description="How long a hint that is only a look holds the board, where `gaze_only` is set."),
+    ] = 2000
     thanks_ms: Annotated[Milliseconds, Field(description="How long the thanks stay unless they are tapped away.")] = (
         12_000
     )
@@ -268,6 +272,13 @@ class ConditionConfig(ConfigModel):
         bool,
         Field(description="Whether a hint says where to look; without it, it only reminds of the pair."),
     ] = True
+    gaze_only: Annotated[
+        bool,
+        Field(
+            description="Whether a hint is only a look toward its place, with head and eyes: nothing is said, and "
+            "nothing is marked on the board."
+        ),
+    ] = False
     policy: Annotated[
         str, Field(description="Another Q-table than that of [assistance], by its name or path; empty: the same.")
     ] = ""
@@ -302,6 +313,11 @@ class ConditionConfig(ConfigModel):
         return self.target_rule != "none"
 
     @property
+    def marks(self) -> bool:
+        """Whether the place of a hint is marked on the board."""
+        return self.location and not self.gaze_only
+
+    @property
     def reminds(self) -> bool:
         """Whether its hints name no place."""
         return self.helps and not self.location
@@ -319,6 +335,10 @@ class ConditionConfig(ConfigModel):
     def _say_something(self) -> Self:
         if self.helps and not (self.explanation or self.location):
             raise ValueError("a hint without an explanation and without a location says nothing; set one of them")
+        if self.gaze_only and (self.explanation or not (self.helps and self.location)):
+            raise ValueError(
+                "gaze_only needs a location and no explanation: a look shows a place, and explains nothing"
+            )
         return self
 
 
@@ -444,7 +464,7 @@ class AssistanceConfig(ConfigModel):
             description="With timing 'model': a second card gets help if the chance that its mate is recalled is below "
             "this.",
         ),
-    ] = 0.15
+    ] = 0.2
     threshold_card: Annotated[
         float,
         Field(
@@ -453,7 +473,16 @@ class AssistanceConfig(ConfigModel):
             description="With timing 'model': the mate of an open card is pointed to itself if it was seen, and the "
             "chance that it is recalled is below this; 0 never.",
         ),
-    ] = 0.02
+    ] = 0.05
+    threshold_flips: Annotated[
+        int,
+        Field(
+            ge=0,
+            le=1000,
+            description="With timing 'model': no help before so many flips, so that help goes to long games; 0 helps "
+            "in all.",
+        ),
+    ] = 24
     explore: Annotated[
         float,
         Field(

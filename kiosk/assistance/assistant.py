@@ -61,6 +61,8 @@ class Decision:
     """What the timing by that model comes to; None where the table is asked."""
     probability: float = 1.0
     """The chance of this action, before chance decided."""
+    flips: int = 0
+    """How many flips had been made."""
 
     @property
     def greedy(self) -> ActionSpec:
@@ -99,7 +101,7 @@ class DecisionRules:
     def of(cls, config: AssistanceConfig) -> DecisionRules:
         """Return the rules that a study file declares."""
         thresholds = (config.threshold_first, config.threshold_second, config.threshold_card)
-        timing = MemoryTiming(*thresholds) if config.timing == "model" else None
+        timing = MemoryTiming(*thresholds, config.threshold_flips) if config.timing == "model" else None
         return cls(timing, config.explore, config.models_memory)
 
     def probability(self, action: ActionSpec, greedy: ActionSpec, actions: tuple[ActionSpec, ...]) -> float:
@@ -131,7 +133,7 @@ def decide(  # noqa: PLR0913 - what a decision is made from
     need ``memory``; ``rng`` is asked only by rules that explore.
     """
     state, verdict = State.of(game, last), policy.gate.decide(game)
-    by_memory = rules.timing.action(memory) if rules.timing and memory else None
+    by_memory = rules.timing.action(memory, game.flips) if rules.timing and memory else None
     q = policy.row(state) if by_memory is None else ()
     greedy, probability = ActionSpec.NO_HELP, 1.0
     if verdict.is_open:
@@ -145,7 +147,7 @@ def decide(  # noqa: PLR0913 - what a decision is made from
     if action.needs_target:
         target = point(game)
         hint = Hint(action, FlipInMove.coming(game), target, game.board.card(target.position))
-    return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability)
+    return Decision(state, verdict, q, action, hint, policy.actions, memory, by_memory, probability, game.flips)
 
 
 class Assistant:

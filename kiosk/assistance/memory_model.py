@@ -61,19 +61,23 @@ class MemoryTiming:
     """Help by what the player remembers: where a match is recalled with a lower chance than a threshold.
 
     ``first`` is the threshold for a recalled pair before a first card, ``second`` that for the mate of the open card.
-    Below ``card``, a mate that was seen is pointed to itself; 0 never does so.
+    Below ``card``, a mate that was seen is pointed to itself; 0 never does so. All hold from ``flips`` on, so that help
+    goes to long games.
     """
 
     first: float
     second: float
     card: float = 0.0
+    flips: int = 0
 
     def threshold(self, memory: MemoryEstimate) -> float:
         """Return the threshold for the coming card, which is a second one if a flip can complete a pair."""
         return self.first if memory.completes is None else self.second
 
-    def action(self, memory: MemoryEstimate) -> ActionSpec:
-        """Return the help with the coming flip: a column below the threshold, or the card itself, else none."""
+    def action(self, memory: MemoryEstimate, flips: int) -> ActionSpec:
+        """Return the help after so many flips: a column below the threshold, or the card itself, else none."""
+        if flips < self.flips:
+            return ActionSpec.NO_HELP
         if self._names(memory):
             return ActionSpec.SUG_CARD
         return ActionSpec.SUG_COL if memory.match_recalled < self.threshold(memory) else ActionSpec.NO_HELP
@@ -82,8 +86,10 @@ class MemoryTiming:
         """Whether the mate of the open card was seen, and is as good as forgotten."""
         return memory.completes is not None and 0 < memory.match_recalled < self.card
 
-    def told(self, memory: MemoryEstimate) -> str:
-        """Say what the decision follows from."""
+    def told(self, memory: MemoryEstimate, flips: int) -> str:
+        """Say what the decision after so many flips follows from."""
+        if flips < self.flips:
+            return f"{flips} flips were made; the model gives no help before {self.flips}"
         what = "a pair is" if memory.completes is None else "the mate of the open card is"
         if self._names(memory):
             chance = f"{memory.match_recalled:.4f}, below {self.card:g}"

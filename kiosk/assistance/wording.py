@@ -339,6 +339,9 @@ class Wording:
 class PlainSentences:
     """Says where, and gives no reason."""
 
+    speaks = True
+    """Whether hints are said; without words, the helper looks toward the place."""
+
     def __init__(self, wording: Wording) -> None:
         """Speak with this wording."""
         self._wording = wording
@@ -386,6 +389,20 @@ class ReminderSentences(PlainSentences):
         """Return all that could be said with a hint."""
         catalogue = self._wording.catalogue
         return catalogue.wordings(reminding(hint), **catalogue.card(hint.name))
+
+
+class NoSentences(PlainSentences):
+    """Says nothing with a hint, which is a look; remarks are said."""
+
+    speaks = False
+
+    def sentence(self, hint: Hint) -> str:  # noqa: ARG002 - a look has no words
+        """Return the empty text."""
+        return ""
+
+    def all_wordings(self, hint: Hint) -> tuple[str, ...]:  # noqa: ARG002 - as above
+        """Return nothing, as nothing could be said."""
+        return ()
 
 
 def reminding(hint: Hint) -> str:

@@ -426,13 +426,15 @@ def _lines(explanation: Explanation, *, brief: bool = False) -> Iterator[str]:
     if decision.memory is not None:
         yield from _memory(decision.memory, explanation.board)
     if explanation.rules.timing and decision.by_memory and decision.memory:
-        yield _line("timing", explanation.rules.timing.told(decision.memory))
+        yield _line("timing", explanation.rules.timing.told(decision.memory, decision.flips))
     yield from _taken(explanation)
     yield _line("targets", _places(explanation))
     if decision.hint is not None:
         yield from _pointing(decision.hint, explanation.board)
     if explanation.spoken:
         yield _line("said", explanation.spoken)
+    elif decision.hint is not None and not explanation.sentences:
+        yield _line("said", "nothing: the helper looks toward the place")
     for number, sentence in enumerate(() if brief else explanation.sentences):
         yield _line("" if number else "sentences", sentence)
 

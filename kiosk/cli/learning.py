@@ -29,6 +29,7 @@ from kiosk.training import policies, simulation
 from kiosk.training.learning import RECIPES, Averaging, Decisions, Exploration, Learner, LearningRate, Recipe
 from kiosk.training.memory_timing import (
     CARD_THRESHOLDS,
+    STARTS,
     THRESHOLDS,
     best_timing,
     checked_timing,
@@ -220,9 +221,10 @@ def _tune_thresholds(out: Path, games: int | None, limits: tuple[float, float], 
     gate, target = GATES[options["gate"] or "on"], TargetRule(options["target"] or TargetRule.MOST_FLIPPED.value)
     games = GAMES_TO_TUNE if games is None else games
     check_writable(out)
-    total = len(THRESHOLDS) ** 2 * len(CARD_THRESHOLDS) * games
+    grid = (THRESHOLDS, CARD_THRESHOLDS, STARTS)
+    total = len(THRESHOLDS) ** 2 * len(CARD_THRESHOLDS) * len(STARTS) * games
     with progress_bar("tuning", total, hidden=json_) as progress:
-        tried = list(tune_timing(gate, player, target, games, options["seed"], THRESHOLDS, CARD_THRESHOLDS, progress))
+        tried = list(tune_timing(gate, player, target, games, options["seed"], *grid, progress))
     best = best_timing(tried, *limits)
     best_at = dict(zip(_THRESHOLDS, astuple(best.timing), strict=True))
     lines = "".join(f"{name} = {value:g}\n" for name, value in best_at.items())
@@ -233,7 +235,7 @@ def _tune_thresholds(out: Path, games: int | None, limits: tuple[float, float], 
     _say(
         told,
         f"{out}: help below {best.timing.first:g} and {best.timing.second:g}, a seen card is named below "
-        f"{best.timing.card:g}; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
+        f"{best.timing.card:g}, all from {best.timing.flips} flips on; {flips.mean:.1f} flips (SD {flips.sd:.1f}), "
         f"assistance {given:.3f} a flip",
         json_=json_,
     )
@@ -339,8 +341,9 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
     help="What decides when to help, as in a study file.",
 )
 @click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (0).")
-@click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.15).")
-@click.option("--threshold-card", type=float, help="With --timing model: name a seen second card below this (.02).")
+@click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.2).")
+@click.option("--threshold-card", type=float, help="With --timing model: name a seen second card below this (.05).")
+@click.option("--threshold-flips", type=int, help="With --timing model: no help before so many flips (24).")
 @as_json
 def simulate_command(
     name: str,
@@ -370,18 +373,19 @@ def simulate_command(
     _say(asked | {"condition": condition, "target": rule.value} | measures, _told(measures), json_=json_)
 
 
-_THRESHOLDS = ("threshold_first", "threshold_second", "threshold_card")
+_THRESHOLDS = ("threshold_first", "threshold_second", "threshold_card", "threshold_flips")
 
 
 def _timing(timing: str, *given: float | None) -> MemoryTiming | None:
     """Return the timing by memory that the options ask for; None for that by a table."""
     if timing == "table":
         if any(each is not None for each in given):
-            raise UserInputError("--threshold-first, -second and -card are for --timing model only")
+            raise UserInputError("--threshold-first, -second, -card and -flips are for --timing model only")
         return None
     usual = AssistanceConfig()
     thresholds = zip(_THRESHOLDS, given, strict=True)
-    return checked_timing(*(getattr(usual, name) if each is None else each for name, each in thresholds))
+    values: list[Any] = [getattr(usual, name) if each is None else each for name, each in thresholds]
+    return checked_timing(*values)
 
 
 def _told(measures: dict[str, Any]) -> str:

@@ -13,12 +13,17 @@ from typing import ClassVar, Literal, Protocol
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec
-from kiosk.assistance.wording import PlainSentences, ReasonedSentences, ReminderSentences, Wording
+from kiosk.assistance.wording import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
 
 
 class Sentences(Protocol):
     """What is said with a hint."""
+
+    @property
+    def speaks(self) -> bool:
+        """Whether hints are said; without words, the helper looks toward the place."""
+        ...
 
     def sentence(self, hint: Hint) -> str:
         """Return the sentence for one hint."""
@@ -102,6 +107,8 @@ def help_in(condition: ConditionConfig, rule: TargetRule, wording: Wording, rng:
     if followed is None:
         return None
     mentaliser = Mentaliser(followed, rng, locates=condition.location)
+    if condition.gaze_only:
+        return Help(mentaliser, NoSentences(wording))
     if not condition.location:
         return Help(mentaliser, ReminderSentences(wording))
     return Help(mentaliser, ReasonedSentences(wording) if condition.explanation else PlainSentences(wording))

@@ -134,8 +134,19 @@ class HighlightHint:
 
 
 @dataclass(frozen=True)
+class LookAt:
+    """Look toward a card, a row (no column) or a column (no row), counted from 0.
+
+    The board is not marked.
+    """
+
+    row: int | None
+    column: int | None
+
+
+@dataclass(frozen=True)
 class ClearHighlight:
-    """Take the mark away."""
+    """Take the mark away, and look at the visitor again."""
 
 
 @dataclass(frozen=True)
@@ -306,6 +317,7 @@ Effect = (
     | LockBoard
     | UnlockBoard
     | HighlightHint
+    | LookAt
     | ClearHighlight
     | Speak
     | StopSpeaking

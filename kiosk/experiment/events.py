@@ -149,6 +149,15 @@ class FallbackReason(Enum):
     """The robot was not found, or had failed."""
 
 
+class HintCue(Enum):
+    """How a hint is given."""
+
+    WORDS = "words"
+    """It is said; one that names a place is marked on the board as well."""
+    GAZE = "gaze"
+    """The helper looks toward the place, and says nothing."""
+
+
 class RemarkTrigger(Enum):
     """What a remark came from."""
 
@@ -583,7 +592,8 @@ class HintGiven(SessionEvent):
     """A hint for flip number ``flip``.
 
     ``row`` and ``column`` are what it gave away, from 0; None where it did not. ``allowed`` counts the cards that the
-    target rule could choose, each with the same chance: ``target_probability``.
+    target rule could choose, each with the same chance: ``target_probability``. A look (``cue``) has no sentence, and
+    its utterance is 0.
     """
 
     flip: int
@@ -600,6 +610,7 @@ class HintGiven(SessionEvent):
     column: int | None
     sentence: str
     utterance: int
+    cue: HintCue = HintCue.WORDS
 
 
 @dataclass(frozen=True, kw_only=True)

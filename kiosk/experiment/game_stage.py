@@ -20,7 +20,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Help, Sentences
 from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
-from kiosk.experiment.events import PracticeEnd, RemarkTrigger, Timer, WorldEvent
+from kiosk.experiment.events import HintCue, PracticeEnd, RemarkTrigger, Timer, WorldEvent
 from kiosk.experiment.page_stages import SpeechWriter, StageHandler
 from kiosk.game import CARDS_IN_A_PAIR, Board, Concentration, Flip, IllegalFlip, Position
 
@@ -80,6 +80,8 @@ class SampleHints:
         return self.actions[turn] if early == 0 and 0 <= turn < len(self.actions) else None
 
 
+_NO_UTTERANCE = 0
+"""The number of no sentence; those of a session count from 1."""
 _SAMPLE_EVERY = 3
 """From one hint of a practice to the next, in flips: an odd number, so that first and second cards take turns."""
 
@@ -94,6 +96,7 @@ class _Given:
     utterance: int
     sentence: str
     at_ms: int
+    cue: HintCue = HintCue.WORDS
     holds: bool = True
     """Whether it is still being said, or read; cards can be tapped meanwhile if the study says so."""
     is_read: bool = False
@@ -122,6 +125,7 @@ class _Given:
             column=hint.column,
             sentence=self.sentence,
             utterance=self.utterance,
+            cue=self.cue,
         )
 
 
@@ -198,7 +202,7 @@ class GameStage(StageHandler):
     def show_again(self, outcome: OutcomeBuilder) -> None:
         """Give the hint that stands in the language of now; a sentence that is being said starts anew."""
         given, sentences = self._given, self._sentences
-        if given is None or sentences is None:
+        if given is None or sentences is None or given.cue is HintCue.GAZE:
             return
         given.sentence = sentences.remark(given.action) if given.hint is None else sentences.sentence(given.hint)
         given.utterance = next(self._utterances)
@@ -350,6 +354,9 @@ class GameStage(StageHandler):
         comment: Comment | None = None,
     ) -> None:
         """Say a hint or a remark, and hold the board with it."""
+        if hint is not None and not sentences.speaks:
+            self._look(hint, outcome)
+            return
         sentence = sentences.remark(action) if hint is None else sentences.sentence(hint)
         given = _Given(hint, action, self.game.flips + 1, next(self._utterances), sentence, outcome.at_ms)
         given.held_long_enough = self._timing.hold_min_ms == 0
@@ -381,6 +388,24 @@ class GameStage(StageHandler):
         )
         if not given.held_long_enough:
             outcome.effect(do.StartTimer(Timer.HOLD, self._timing.hold_min_ms))
+
+    def _look(self, hint: Hint, outcome: OutcomeBuilder) -> None:
+        """Give a hint that is a look.
+
+        It holds the board for its own time, and then stays until the next flip.
+        """
+        given = _Given(hint, hint.action, self.game.flips + 1, _NO_UTTERANCE, "", outcome.at_ms, HintCue.GAZE)
+        # There is no voice to wait for, and nothing to mark.
+        given.is_read = given.marked = True
+        self._given, self._trailing = given, None
+        outcome.emit(given.hint_event(hint))
+        if self._timing.taps_wait:
+            outcome.effect(do.LockBoard(BoardWait.SPEAKING))
+        else:
+            outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
+            outcome.effect(do.UnlockBoard())
+        looks_ms = max(self._timing.gaze_ms, self._timing.hold_min_ms)
+        outcome.effect(do.LookAt(hint.row, hint.column), do.StartTimer(Timer.READING, looks_ms))
 
     def _await_hesitation(self, outcome: OutcomeBuilder) -> None:
         """Wait until the player would be hesitating, where hesitation is helped."""

@@ -30,7 +30,7 @@ from kiosk.assistance.wording import Catalogue, Wording
 from kiosk.config import ConditionConfig
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import Event, HesitationNoticed, RemarkTrigger, Stage, WorldEvent
+from kiosk.experiment.events import Event, HesitationNoticed, HintCue, HintGiven, RemarkTrigger, Stage, WorldEvent
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import BoardRemark, DealtBoard
@@ -251,4 +251,10 @@ def _is_same_hint(game: DealtBoard, flip: int, explanation: Explanation) -> bool
     return (stored.seen, stored.mate_seen, stored.reason, stored.row, stored.column) == (
         *(today.target.seen, today.target.mate_seen, today.target.reason),
         *(today.row, today.column),
-    ) and (stored.target in explanation.candidates and stored.sentence in explanation.sentences)
+    ) and (stored.target in explanation.candidates and _can_be_said(stored, explanation))
+
+
+def _can_be_said(stored: HintGiven, explanation: Explanation) -> bool:
+    if stored.cue is HintCue.GAZE:
+        return not explanation.sentences
+    return stored.sentence in explanation.sentences

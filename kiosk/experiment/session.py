@@ -210,7 +210,7 @@ class StageFactory:
         pairs = game.game.board.pairs
         self._scenes[Stage.GAME] = game
         self._scenes[Stage.INTRODUCTION] = IntroductionStage(
-            self.speaker, pairs, helped=game.helped, points=plan.cell.location
+            self.speaker, pairs, helped=game.helped, points=plan.cell.marks
         )
         if Stage.PRACTICE in plan.stage_order.stages:
             self._scenes[Stage.PRACTICE] = self._practice(plan)

@@ -24,6 +24,7 @@ from kiosk.experiment.events import (
     GameFinished,
     HesitationNoticed,
     HiddenItemsChanged,
+    HintCue,
     HintGiven,
     HintHighlighted,
     InputDevice,
@@ -595,6 +596,9 @@ class _Speech:
 
     def _request(self, event: Event, stage: Stage) -> None:
         match event:
+            case HintGiven(cue=HintCue.GAZE):
+                # Nothing is said.
+                pass
             case HintGiven(utterance=number, sentence=sentence, flip=flip):
                 self._hinted_flip = flip
                 self._begin(number, SentencePurpose.HINT, stage, sentence, event.at_ms)

@@ -400,7 +400,8 @@ def _help_in_words(declared: ConditionConfig) -> str:
     ]
     other = [f"the policy {declared.policy}"] if declared.policy else []
     other += [f"{key} = {value}" for key, value in declared.timing.items()]
-    return f"{first}; a hint says {' and '.join(told)}" + (f"; with {', '.join(other)}" if other else "")
+    says = "is a look toward the place, without words" if declared.gaze_only else f"says {' and '.join(told)}"
+    return f"{first}; a hint {says}" + (f"; with {', '.join(other)}" if other else "")
 
 
 _TARGETS = {
@@ -427,8 +428,11 @@ FOLLOWED = Variable(
     ColumnKind.TRUTH,
     empty="there was no hint, or no flip after it",
 )
-SENTENCE = Variable("sentence", "What was said and shown, in the session's language; a sentence of the program.")
-UTTERANCE = Variable("utterance", "The number of the sentence in its session.", ColumnKind.WHOLE)
+_LOOK = "the hint was a look without words"
+SENTENCE = Variable(
+    "sentence", "What was said and shown, in the session's language; a sentence of the program.", empty=_LOOK
+)
+UTTERANCE = Variable("utterance", "The number of the sentence in its session.", ColumnKind.WHOLE, empty=_LOOK)
 EMBODIMENT = Variable(
     "embodiment",
     "What helped with voice and face: when the session began; of a sentence, in this attempt to say it.",

@@ -11,6 +11,7 @@ from kiosk.assistance.policy import ACTIONS, FlipInMove, MoveOutcome, Phase
 from kiosk.experiment.events import (
     AssistanceDecided,
     HesitationNoticed,
+    HintCue,
     InputDevice,
     MemoryEstimated,
     RemarkTrigger,
@@ -424,8 +425,8 @@ _HINT_COLUMNS: tuple[Column[_Hint], ...] = make_columns(
         lambda row: row.hint.given.target_probability,
     ),
     (GATE, lambda row: None if row.decision is None else row.decision.gate.name.lower()),
-    (SENTENCE, lambda row: row.hint.given.sentence),
-    (UTTERANCE, lambda row: row.hint.given.utterance),
+    (SENTENCE, lambda row: row.hint.given.sentence or None),
+    (UTTERANCE, lambda row: row.hint.given.utterance or None),
     (
         Variable("given_ms", "When the sentence came, from the session's first event.", ColumnKind.WHOLE, "ms"),
         lambda row: row.hint.given.at_ms,
@@ -508,6 +509,21 @@ _TRIGGERS: tuple[Column[_Hint], ...] = make_columns(
     ),
 )
 
+_CUES: tuple[Column[_Hint], ...] = make_columns(
+    (
+        Variable(
+            "cue",
+            "How the hint was given.",
+            levels=enum_levels(
+                HintCue,
+                words="it was said, and one that named a place was marked on the board",
+                gaze="the helper looked toward the place and said nothing; its sentence and marked_ms are empty",
+            ),
+        ),
+        lambda row: row.hint.given.cue.value,
+    ),
+)
+
 HINTS = Table(
     "hints",
     "One row for every hint that was given in the game. Those of the practice stand in the table sentences.",
@@ -516,8 +532,14 @@ HINTS = Table(
     _hints,
 )
 
-TRIGGERED_HINTS = replace(HINTS, columns=(*_HINT_COLUMNS, *_TRIGGERS))
-"""The hints of a study in which visitors who hesitate get some."""
+
+def hints_table(*, triggered: bool, looks: bool) -> Table[SessionRecord, _Hint]:
+    """Return the table of hints of a study.
+
+    ``triggered``: visitors who hesitate get some; ``looks``: some are without words.
+    """
+    columns = (*_HINT_COLUMNS, *(_TRIGGERS if triggered else ()), *(_CUES if looks else ()))
+    return replace(HINTS, columns=columns)
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,11 @@ from kiosk.export.game_tables import (
     CARDS,
     DECISIONS,
     FLIPS,
-    HINTS,
     MEMORY,
     MODELLED_DECISIONS,
     POINTER_TRACES,
     REMARKS,
-    TRIGGERED_HINTS,
+    hints_table,
 )
 from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
 from kiosk.export.participants import ParticipantFlow, flow_table, participants_table, renamed
@@ -62,7 +61,8 @@ def _others(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[Tab
     modelled = any(plan.settings.assistance.models_memory for plan in study.plans)
     triggered = any(plan.settings.assistance.hesitation_max for plan in study.plans)
     remarks = (REMARKS,) if any(_has_remarks(plan) for plan in study.plans) else ()
-    hints = TRIGGERED_HINTS if triggered else HINTS
+    looks = any(cell.gaze_only for plan in study.plans for cell in plan.settings.conditions.values())
+    hints = hints_table(triggered=triggered, looks=looks)
     decisions = (MODELLED_DECISIONS, MEMORY) if modelled else (DECISIONS,)
     return (
         *(FLIPS, *((POINTER_TRACES,) if traced else ()), hints, *remarks, *decisions, CARDS),

@@ -16,6 +16,7 @@ from kiosk.assistance.policy import ACTIONS, NONE, ActionSpec, QTable, find_acti
 from kiosk.assistance.wording import CARD, REPLACING, Catalogue, sources_in
 from kiosk.config import (
     ASSETS,
+    NO_ROBOT,
     Game,
     Located,
     Practice,
@@ -177,6 +178,7 @@ def read_study(settings: Settings) -> StudyConfig:
     policy = look.policy()
     policies = look.policies(policy)
     look.check_hints(filter(None, (policy, *policies.values())))
+    look.check_looks()
     actions = (action for table in (policy, *policies.values()) if table for action in table.actions)
     catalogues = look.catalogues(tuple(dict.fromkeys(actions)))
     sheets = look.sheets()
@@ -527,6 +529,15 @@ class _Look:
                 lacking = ", ".join(action.label for action in actions if action not in table.actions)
                 if lacking:
                     self._blame(f"assistance.{key}", f"a table that the study names has no action {lacking}")
+
+    def check_looks(self) -> None:
+        """See that a robot looks at places, if hints are nothing but looks."""
+        robot = self._settings.robot
+        if robot.kind == NO_ROBOT or robot.gaze:
+            return
+        for name, cell in self._settings.conditions.items():
+            if cell.gaze_only:
+                self._blame(f"conditions.{name}.gaze_only", "robot.gaze is false, so the robot would look nowhere")
 
     def condition(self, key: str, name: str) -> Condition | None:
         """Return the condition of a name, if there is one."""

@@ -14,7 +14,7 @@ from itertools import product
 from kiosk.assistance.memory_model import MemoryModel, MemoryTiming
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, Gate
-from kiosk.errors import check_between, one_of
+from kiosk.errors import check_between, one_of, whole
 from kiosk.training.simulated_players import SimulatedPlayer
 from kiosk.training.simulation import (
     T_FOLLOWED_FIRST,
@@ -31,18 +31,22 @@ from kiosk.training.simulation import (
 )
 from kiosk.training.vectorised_game import CARDS, FIRST, FLIPS, LAST, MATE, NO_HELP, NOWHERE, gate_plan, is_open
 
-THRESHOLDS = (0.0, 0.1, 0.15, 0.2, 0.4)
+THRESHOLDS = (0.0, 0.1, 0.2, 0.4)
 """What is tried for each of the two cards."""
-CARD_THRESHOLDS = (0.0, 0.02)
+CARD_THRESHOLDS = (0.0, 0.05)
 """What is tried for naming a card that was seen."""
+STARTS = (0, 24)
+"""After how many flips help is tried to begin."""
+LATEST_START = 1000
 
 
-def checked_timing(first: float, second: float, card: float = 0.0) -> MemoryTiming:
-    """Return the timing with these thresholds; raises UserInputError for what is not a chance."""
+def checked_timing(first: float, second: float, card: float = 0.0, flips: int = 0) -> MemoryTiming:
+    """Return the timing with these thresholds; raises UserInputError for what is no chance or no number of flips."""
     check_between("the threshold of first cards", first, 0, 1)
     check_between("the threshold of second cards", second, 0, 1)
     check_between("the threshold of named cards", card, 0, 1)
-    return MemoryTiming(first, second, card)
+    check_between("the flips before there is help", flips, 0, LATEST_START)
+    return MemoryTiming(first, second, card, whole("the flips before there is help", flips))
 
 
 def simulate_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
@@ -77,8 +81,9 @@ def _play(table: GameTable, timing: MemoryTiming) -> None:
     followed, led = 0, False
     while playing(game):
         action = NO_HELP
-        if is_open(game, table.plan):
-            action = ACTIONS.index(timing.action(model.estimate()))
+        flips = int(game[FLIPS])
+        if is_open(game, table.plan) and flips >= timing.flips:
+            action = ACTIONS.index(timing.action(model.estimate(), flips))
         matched = take(table, action)
         if game[FIRST] != NOWHERE:
             led = table.tally[T_FOLLOWED_FIRST] > followed
@@ -109,13 +114,14 @@ def tune_timing(  # noqa: PLR0913, PLR0917 - an experiment is all of these
     seed: int,
     thresholds: Sequence[float],
     cards: Sequence[float] = (0.0,),
+    starts: Sequence[int] = (0,),
     progress: Progress = lambda _: None,
 ) -> Iterator[TunedTiming]:
     """Play games with all thresholds, the same boards for each; yield what came of them.
 
-    ``cards`` are tried below which a card that was seen is named.
+    ``cards`` are tried below which a card that was seen is named, ``starts`` as the flips before there is help.
     """
-    for number, tried in enumerate(product(thresholds, thresholds, cards)):
+    for number, tried in enumerate(product(thresholds, thresholds, cards, starts)):
         timing = checked_timing(*tried)
         told = lambda played, before=number * games: progress(before + played)  # noqa: E731 - binds the number
         yield TunedTiming(timing, simulate_timing(timing, gate, player, target, games, seed, told))

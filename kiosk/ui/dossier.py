@@ -171,7 +171,7 @@ def _conditions(settings: Settings, words: _Words) -> Iterator[str]:
         cell = settings.condition(Condition(name).name)
         told = {(True, True): "why-where", (True, False): "why", (False, True): "where", (False, False): "plain"}
         message = f"help-{told[cell.explanation, cell.location]}" if cell.helps else "help-none"
-        told_of = words(message)
+        told_of = words("help-gaze" if cell.gaze_only else message)
         if cell.comments:
             rates = {"praise": f"{100 * cell.praise:g}", "encourage": f"{100 * cell.encourage:g}"}
             told_of += f" {words('help-comments', **rates)}"

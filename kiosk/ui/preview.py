@@ -112,7 +112,7 @@ def _of_stage(  # noqa: C901 - one case per stage
         case "introduction":
             speech = "introduction-speech" if cell.helps else "introduction-speech-alone"
             said = plan.catalogue.wordings(speech, cards=CARDS_IN_A_PAIR * pairs, pairs=pairs)[0]
-            yield stage, (do.ShowIntroduction(helped=cell.helps, points=cell.location), do.Speak(1, said))
+            yield stage, (do.ShowIntroduction(helped=cell.helps, points=cell.marks), do.Speak(1, said))
         case "practice":
             board = plan.settings.practice
             yield stage, (do.ShowBoard(board.rows, board.columns, _pairs(board), board.deck, practice=True),)

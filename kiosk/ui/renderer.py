@@ -144,6 +144,9 @@ class Renderer:
                     screens.board.highlight(row, column)
                     if self._body is not None:
                         self._body.look_at(screens.board.place(row, column))
+                case do.LookAt(row=row, column=column):
+                    if self._body is not None:
+                        self._body.look_at(screens.board.place(row, column))
                 case do.ClearHighlight():
                     screens.board.clear_highlight()
                     if self._body is not None:

@@ -10,6 +10,7 @@ from random import Random
 import pytest
 
 from kiosk import UserInputError
+from kiosk.assistance.comments import COMMENTS
 from kiosk.assistance.mentaliser import Hint, HintReason, Target
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import (
@@ -78,6 +79,7 @@ def test_every_hint_has_three_ways_to_be_said(language: Catalogue, given: Hint) 
 @in_every_language
 def test_every_message_about_hints_is_used_and_every_used_one_is_there(language: Catalogue) -> None:
     used = {message(given) for given in EVERY_HINT for message in (reasoning, reminding, pointing)}
+    used |= {comment.message for comment in COMMENTS}
     assert set(messages(language, "hints.ftl")) == used
 
 

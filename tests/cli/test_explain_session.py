@@ -26,6 +26,7 @@ from tests.experiment.driver import Driver, forgetful
 from tests.samples import mixed, plan, whole
 
 SEED = 5
+HELPED = tuple(condition for condition in CONDITIONS if condition != Condition.NO_ASSISTANCE)
 
 
 def stored(folder: Path, condition: Condition = Condition.TOM, **settings: Any) -> Driver:
@@ -45,7 +46,7 @@ def played(condition: Condition, settings: str) -> Driver:
     return driver
 
 
-@pytest.mark.parametrize("condition", [condition for condition in CONDITIONS if condition.name != "no_assistance"])
+@pytest.mark.parametrize("condition", HELPED)
 def test_every_decision_comes_out_as_it_was_decided(tmp_path: Path, condition: Condition) -> None:
     driver = stored(tmp_path, condition)
     given = {hint.flip: hint for hint in driver.noted(HintGiven)}
@@ -93,20 +94,32 @@ def test_what_a_table_came_to_is_recorded_and_the_table_it_began_as_is_unchanged
     assert not stored(tmp_path / "frozen").noted(PolicyUpdated)
 
 
+OWN = {"own": {"target_rule": "most_recent", "location": False, "praise": 0.5}}
+"""A study's own condition: it reminds, and praises."""
 MODELLED = {"memory_model": True}
-BY_MODEL = {"timing": "model", "threshold_first": 0.3, "threshold_second": 0.6, "threshold_card": 0.0}
+BY_MODEL = {
+    "timing": "model",
+    "threshold_first": 0.3,
+    "threshold_second": 0.6,
+    "threshold_card": 0.0,
+    "threshold_flips": 0,
+}
 EXPLORING = {"explore": 0.5, "step": 0.05}
 
 
 @pytest.mark.parametrize(
     ("condition", "options"),
-    [(Condition.TOM, MODELLED), (Condition.NOTOM, BY_MODEL), (Condition.RANDOM_EXPLAINED, EXPLORING)],
-    ids=["modelled", "by model", "exploring"],
+    [
+        (Condition.TOM, MODELLED),
+        (Condition.RANDOM_EXPLAINED, EXPLORING),
+        *((condition, BY_MODEL) for condition in (*HELPED, Condition("own"))),
+    ],
+    ids=lambda each: each.name if isinstance(each, Condition) else "".join(each),
 )
 def test_decisions_by_memory_and_by_chance_come_out_as_they_were_decided(
     tmp_path: Path, condition: Condition, options: dict[str, Any]
 ) -> None:
-    driver = stored(tmp_path, condition, assistance=options)
+    driver = stored(tmp_path, condition, assistance=options, conditions=OWN)
     memories = {memory.flip: memory.estimate for memory in driver.noted(MemoryEstimated)}
     with open_repository(tmp_path) as sessions:
         explainer = DecisionExplainer(sessions, 1)
@@ -133,7 +146,7 @@ def test_help_by_the_model_comes_below_the_threshold_and_the_explanation_says_so
     with open_repository(tmp_path) as sessions:
         told = explain_stored_decision(sessions, 1, helped.flip).to_json()
     assert told["q"] == {}
-    assert told["timing"] == {"first": 0.3, "second": 0.6, "card": 0.0, "action": "sug_col"}
+    assert told["timing"] == {"first": 0.3, "second": 0.6, "card": 0.0, "flips": 0, "action": "sug_col"}
     assert told["memory"]["match_recalled"] < 0.6
 
 

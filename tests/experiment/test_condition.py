@@ -3,26 +3,34 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
+from pydantic import ValidationError
 
 from kiosk import UserInputError
 from kiosk.assistance.mentaliser import Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.assistance.wording import PlainSentences, ReasonedSentences, Wording
 from kiosk.cli.study import summarised
-from kiosk.config import ASSETS, PAPER_CONDITIONS, Settings, Timing
+from kiosk.config import ASSETS, PAPER_CONDITIONS, ConditionConfig, Settings, Timing
+from kiosk.experiment import effects as do
 from kiosk.experiment.condition import CONDITIONS, Condition, Help, help_in, target_rule
-from kiosk.experiment.events import HintGiven, HintHighlighted, Stage
+from kiosk.experiment.events import HintCue, HintGiven, HintHighlighted, Stage
 from kiosk.experiment.projections import measure
 from kiosk.experiment.replay import first_difference, replay_events
-from kiosk.experiment.session_state import SessionState
+from kiosk.experiment.session_state import SentencePurpose, SessionState
+from kiosk.export.dataset import export_dataset
+from kiosk.export.layouts import PsychDs
 from kiosk.game import Concentration, Position
+from kiosk.store.queries import DecisionExplainer, open_repository
 from kiosk.study.loader import read_study
 from tests.experiment.driver import Driver, at_random
+from tests.export.conftest import rows_of
+from tests.export.visitors import store
 from tests.samples import ENGLISH, always, board_of, plan
 
 MENTALISED = {Condition.TOM, Condition.MENTALISED_UNEXPLAINED}
@@ -158,6 +166,71 @@ def test_a_reminder_is_followed_by_a_card_of_its_pair_and_is_no_assistance_with_
     measured = measure(driver.events)
     assert (measured.hints, measured.assistance_per_flip) == (len(game.hints), 0)
     assert measured.followed == sum(game.followed(hint) is True for hint in game.hints.values()) / len(game.hints)
+
+
+LOOK = {"look": {"gaze_only": True, "explanation": False}}
+"""Another one: the helper looks toward the place, and says nothing."""
+
+
+@cache
+def looking() -> Driver:
+    """Return a game in which every flip is preceded by a look; tests only read it."""
+    driver = Driver(plan(Condition("look"), always(ActionSpec.SUG_CARD), conditions=LOOK), 4)
+    driver.to_the_game()
+    driver.play(at_random(4))
+    return driver
+
+
+def test_a_hint_can_be_a_look_that_says_nothing_and_marks_nothing() -> None:
+    driver = looking()
+    hints, looks = driver.noted(HintGiven), [each for each in driver.effects if isinstance(each, do.LookAt)]
+    assert len(hints) > 40
+    assert [(hint.row, hint.column) for hint in hints] == [(look.row, look.column) for look in looks]
+    assert {(hint.sentence, hint.utterance, hint.cue) for hint in hints} == {("", 0, HintCue.GAZE)}
+    state = SessionState.from_events(driver.events)
+    assert not driver.noted(HintHighlighted)
+    assert not [said for said in state.sentences if said.purpose is SentencePurpose.HINT]
+
+
+def test_a_look_holds_the_board_for_its_time_and_counts_as_the_help_that_it_is() -> None:
+    driver = looking()
+    (game,) = (board for board in SessionState.from_events(driver.events).boards if board.stage is Stage.GAME)
+    holds = {(hint.opened_ms or 0) - hint.given.at_ms for hint in game.hints.values()}
+    assert holds == {driver.plan.timing.gaze_ms}
+    assert measure(driver.events).assistance_per_flip == ActionSpec.SUG_CARD.level
+    assert all(
+        game.followed(hint) is (game.flips[flip].event.position == hint.given.target)
+        for flip, hint in game.hints.items()
+    )
+
+
+def test_a_look_is_replayed_explained_and_exported(tmp_path: Path) -> None:
+    driver = looking()
+    assert first_difference(replay_events(driver.plan, 4, driver.events), driver.events) is None
+    store(tmp_path / "data", [(driver, 4)])
+    with open_repository(tmp_path / "data") as sessions:
+        told = DecisionExplainer(sessions, 1).explain(7).to_json()
+    assert (told["action"], told["sentences"], "said" in told) == ("sug_card", [], False)
+    export_dataset(tmp_path / "data", tmp_path / "out", PsychDs)
+    rows = rows_of(tmp_path / "out", "hints")
+    assert {(row["cue"], row["sentence"], row["utterance"], row["marked_ms"]) for row in rows} == {("gaze", "", "", "")}
+    assert all(row["told_column"] and row["opened_ms"] for row in rows)
+
+
+@pytest.mark.parametrize("declared", [{"gaze_only": True}, {"gaze_only": True, "location": False}])
+def test_a_look_explains_nothing_and_has_a_place(declared: dict[str, bool]) -> None:
+    with pytest.raises(ValidationError, match="gaze_only needs a location and no explanation"):
+        ConditionConfig.model_validate(declared)
+
+
+def test_a_robot_that_looks_nowhere_cannot_give_hints_by_looking(tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    declared = '[robot]\nkind = "furhat"\ngaze = {}\n[conditions.look]\ngaze_only = true\nexplanation = false\n'
+    file.write_text(declared.format("false"), "utf-8")
+    with pytest.raises(UserInputError, match=r"conditions\.look\.gaze_only.*robot\.gaze is false"):
+        read_study(Settings.read(file))
+    file.write_text(declared.format("true"), "utf-8")
+    assert read_study(Settings.read(file)).settings.conditions["look"].gaze_only
 
 
 def test_a_session_in_a_declared_condition_is_replayed_as_it_was() -> None:

@@ -37,6 +37,7 @@ class View:
     found: set[Position] = field(default_factory=set)
     held: BoardWait | None = None
     mark: tuple[int | None, int | None] | None = None
+    looked: tuple[int | None, int | None] | None = None
     bubble: str | None = None
     speaking: int | None = None
     mood: Mood = Mood.IDLE
@@ -136,6 +137,8 @@ class View:
                 self.held = None
             case do.HighlightHint(row=row, column=column):
                 self.mark = (row, column)
+            case do.LookAt(row=row, column=column):
+                self.looked = (row, column)
             case do.ClearHighlight():
                 self.mark = None
             case _:

@@ -79,16 +79,29 @@ def test_a_card_that_was_seen_and_is_forgotten_is_named() -> None:
     column, none = ActionSpec.SUG_COL, ActionSpec.NO_HELP
     cases = ((0.0, column), (0.05, ActionSpec.SUG_CARD), (0.1, column), (0.4, none))
     for recalled, action in cases:
-        assert timing.action(replace(before, completes=0.1, match_recalled=recalled)) is action
-    assert timing.action(before) is ActionSpec.SUG_COL
-    assert "was seen" in timing.told(replace(before, completes=0.1))
+        assert timing.action(replace(before, completes=0.1, match_recalled=recalled), 9) is action
+    assert timing.action(before, 9) is ActionSpec.SUG_COL
+    assert "was seen" in timing.told(replace(before, completes=0.1), 9)
+
+
+def test_help_goes_to_long_games_where_it_begins_after_some_flips() -> None:
+    timing = MemoryTiming(0.2, 0.4, 0.1, 24)
+    before = MemoryEstimate(0.2, 0.05, None, None, ())
+    assert [timing.action(before, flips) for flips in (23, 24)] == [ActionSpec.NO_HELP, ActionSpec.SUG_COL]
+    assert "no help before 24" in timing.told(before, 23)
+    assert "below 0.2" in timing.told(before, 24)
+    early, late = (
+        simulate_timing(replace(timing, flips=flips), Gate(), PLAYER, TARGET, GAMES, SEED) for flips in (0, 24)
+    )
+    assert late.total(T_SECOND) < early.total(T_SECOND)
 
 
 @pytest.fixture
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the command try four pairs of thresholds."""
     monkeypatch.setattr("kiosk.cli.learning.THRESHOLDS", (0.1, 0.4))
-    monkeypatch.setattr("kiosk.cli.learning.CARD_THRESHOLDS", (0.05,))
+    monkeypatch.setattr("kiosk.cli.learning.CARD_THRESHOLDS", (0.07,))
+    monkeypatch.setattr("kiosk.cli.learning.STARTS", (12,))
 
 
 @pytest.mark.usefixtures("few")
@@ -97,21 +110,22 @@ def test_train_writes_thresholds_that_a_study_file_can_take(tmp_path: Path) -> N
     document = told("train", "--timing", "model", "--games", "3", "--out", str(out))
     read = AssistanceConfig(**tomllib.loads(out.read_text("utf-8"))["assistance"])
     assert read.timing == "model"
-    assert read.threshold_card == document["threshold_card"] == 0.05
+    assert read.threshold_card == document["threshold_card"] == 0.07
+    assert read.threshold_flips == document["threshold_flips"] == 12
     assert (read.threshold_first, read.threshold_second) == (document["threshold_first"], document["threshold_second"])
 
 
 def test_simulate_plays_by_the_model() -> None:
     words = ("simulate", "--player", "memory", "--games", "3", "--timing", "model", "--threshold-second", ".7")
     document = told(*words)
-    assert document["timing"] == {"first": 0.0, "second": 0.7, "card": 0.02}
+    assert document["timing"] == {"first": 0.0, "second": 0.7, "card": 0.05, "flips": 24}
     assert document["assistance_per_flip"] > 0
 
 
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ("simulate --threshold-first .3", "--threshold-first, -second and -card are for --timing model only"),
+        ("simulate --threshold-first .3", "--threshold-first, -second, -card and -flips are for --timing model only"),
         ("simulate --timing model --threshold-first 3", "the threshold of first cards must be a number from 0 to 1"),
         ("train --out x.toml --games 5", "--games, --assistance and --spread are for --timing model only"),
         ("train --out x.toml --timing model --gamma .5", "--gamma is for a table; --timing model learns thresholds"),

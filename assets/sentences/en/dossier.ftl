@@ -26,6 +26,7 @@ dossier-help-why-where = A hint says why, and where to look.
 dossier-help-why = A hint says why, and names no place.
 dossier-help-where = A hint says where to look, and gives no reason.
 dossier-help-plain = A hint gives no reason and names no place.
+dossier-help-gaze = A hint is a look toward its place, without words.
 dossier-help-comments = The helper praises { $praise } % of the pairs and encourages after { $encourage } % of the misses, where it does not help.
 dossier-helper = The helper, and safety
 dossier-avatar = The helper is a figure on the screen. No machine moves.

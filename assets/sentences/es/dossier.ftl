@@ -26,6 +26,7 @@ dossier-help-why-where = Una pista dice por qué, y dónde mirar.
 dossier-help-why = Una pista dice por qué, y no nombra ningún lugar.
 dossier-help-where = Una pista dice dónde mirar, y no da ninguna razón.
 dossier-help-plain = Una pista no da ninguna razón ni nombra ningún lugar.
+dossier-help-gaze = Una pista es una mirada hacia el lugar, sin palabras.
 dossier-help-comments = El asistente elogia el { $praise } % de las parejas y anima tras el { $encourage } % de los fallos, si no ayuda.
 dossier-helper = El asistente, y la seguridad
 dossier-avatar = El asistente es una figura en la pantalla. Ninguna máquina se mueve.

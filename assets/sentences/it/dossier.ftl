@@ -26,6 +26,7 @@ dossier-help-why-where = Un suggerimento dice perché, e dove guardare.
 dossier-help-why = Un suggerimento dice perché, e non nomina un posto.
 dossier-help-where = Un suggerimento dice dove guardare, e non dà una ragione.
 dossier-help-plain = Un suggerimento non dà una ragione e non nomina un posto.
+dossier-help-gaze = Un suggerimento è uno sguardo verso il posto, senza parole.
 dossier-help-comments = L'assistente loda il { $praise } % delle coppie e incoraggia dopo il { $encourage } % degli errori, se non aiuta.
 dossier-helper = L'assistente, e la sicurezza
 dossier-avatar = L'assistente è una figura sullo schermo. Nessuna macchina si muove.
