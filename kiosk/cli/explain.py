@@ -301,7 +301,8 @@ def _all(moments: Sequence[Moment]) -> Iterator[str]:
     yield LEGEND
     for moment in moments:
         move, which = divmod(moment.flip - 1, 2)
-        yield f"\nflip {moment.flip} (move {move + 1}, {'second' if which else 'first'} card)"
+        yield ""
+        yield f"flip {moment.flip} (move {move + 1}, {'second' if which else 'first'} card)"
         yield from _board_lines(moment)
         if moment.explanation is None:
             yield _line("differs", moment.differs)

@@ -239,8 +239,14 @@ def refused(
         ({"condition": 1}, "condition should be a valid string, but it is 1"),
         ({"language": "xx"}, "there is no language 'xx'; there are en, es, it"),
         ({"language": ""}, "there is no language ''; there are en, es, it"),
-        ({"last_action": "row"}, "there is no action 'row'; there are no_help, sug_col, sug_row, sug_card"),
-        ({"action": "SUG_ROW"}, "there is no action 'SUG_ROW'; there are no_help, sug_col, sug_row, sug_card"),
+        (
+            {"last_action": "row"},
+            "there is no action 'row'; there are no_help, sug_col, sug_row, sug_card, encouragement, praise",
+        ),
+        (
+            {"action": "SUG_ROW"},
+            "there is no action 'SUG_ROW'; there are no_help, sug_col, sug_row, sug_card, encouragement, praise",
+        ),
         ({"policy": "nowhere"}, "the policy file nowhere cannot be read: No such file or directory"),
         ({"target_rule": "best"}, "target_rule should be 'most_flipped' or 'most_recent', but it is 'best'"),
         ({"seed": "x"}, "seed should be a valid integer, but it is 'x'"),
