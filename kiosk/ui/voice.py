@@ -218,12 +218,16 @@ class EngineVoice(Voice):
             self.health_changed.emit(health.is_ok, health.message)
 
     def close(self) -> None:
-        """End the process."""
+        """End the process, and those that were let go and have not ended."""
         self._saying = None
-        process, self._process = self._process, None
-        if process is not None:
+        self._process = None
+        processes = [
+            each for each in self.findChildren(QProcess) if each.state() is not QProcess.ProcessState.NotRunning
+        ]
+        for process in processes:
             process.blockSignals(True)  # noqa: FBT003 - Qt's signature
             process.closeWriteChannel()
+        for process in processes:
             if not process.waitForFinished(QUIT_MS):
                 process.kill()
                 process.waitForFinished(QUIT_MS)
@@ -307,12 +311,14 @@ class EngineVoice(Voice):
         self._give_up("the voice is gone")
 
     def _let_go_of_process(self) -> QProcess | None:
-        """Hear no more of it; it is reaped a little later, and until then stays a child of this object."""
+        """Hear no more of it; until it has ended it stays a child of this object."""
         process, self._process = self._process, None
         self._ready = False
         if process is not None:
-            process.blockSignals(True)  # noqa: FBT003 - Qt's signature
-            QTimer.singleShot(2 * QUIT_MS, process, process.deleteLater)
+            # Not after a time: Qt would wait for a process that it is to delete and that still runs.
+            process.finished.connect(process.deleteLater)
+            if process.state() is QProcess.ProcessState.NotRunning:
+                process.deleteLater()
         return process
 
     def _drop_process(self) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QProcess
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import VoiceConfig as VoiceSettings
@@ -326,3 +327,23 @@ def test_it_is_known_what_speaks_a_sentence_and_the_record_can_hold_it(qtbot: Qt
     assert (event.engine, event.voice, event.pack, event.volume) == ("pico", "en-US", "abc", 0.9)
     assert from_record(to_record(event)) == event
     voice.stop()
+
+
+IGNORES_ITS_INPUT = "import signal; signal.pause()"
+
+
+@pytest.mark.parametrize("closed", [False, True], ids=["in time", "at the end"])
+def test_a_process_that_is_let_go_is_not_deleted_while_it_runs(
+    qtbot: QtBot, voices: list[EngineVoice], *, closed: bool
+) -> None:
+    """Qt would warn, which fails a test, and hold up the kiosk until the process has ended."""
+    voice = engine(voices, IGNORES_ITS_INPUT)
+    [first] = voice.findChildren(QProcess)
+    assert first.waitForStarted()
+    voice.set_language("it")
+    assert len(voice.findChildren(QProcess)) == 2
+    if closed:
+        voice.close()
+        assert first.state() is QProcess.ProcessState.NotRunning
+    else:
+        qtbot.waitUntil(lambda: len(voice.findChildren(QProcess)) == 1)
