@@ -4,7 +4,8 @@ On a virtual screen with a window manager the supervisor runs the kiosk, and the
 clicks, fingers, keys, the shortcuts that leave other programs and those of the experimenter, the right PIN among them.
 Half of its presses go to places that led on before, so it comes through every stage. The robot fails in one way
 after another, and the kiosk is killed at random moments, but not in the middle of the run, where the memory is
-weighed. Prints what was seen and ends with 1 if anything was as it must not be. Needs Xvfb and openbox.
+weighed. Some of the kills hit the supervisor. Prints what was seen and ends with 1 if anything was as it must not be.
+Needs Xvfb and openbox.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ import click
 import psutil
 
 from kiosk import UserInputError
+from kiosk.cli.run import LEFTOVER_S
 from kiosk.experiment.experimenter import hash_pin
 from kiosk.store.queries import open_repository
 from kiosk.store.verify import verify
@@ -46,6 +48,8 @@ INPUTS_PER_S = 50
 LOOK_S = 0.5
 KILL_S = (15, 120)
 """A kill comes so long after the one before."""
+SUPERVISORS = 0.2
+"""How many of the kills hit the supervisor instead; it is started again at once, while the kiosk it had is to end."""
 CALM = (0.35, 0.7)
 """The part of the run in which no kiosk is killed."""
 ROBOT_S = (3, 25)
@@ -145,6 +149,7 @@ class Watcher:
         self._began = monotonic()
         self._up = False
         self._stage = ""
+        self._orphaned_at = -LEFTOVER_S
         self._lost_at: float | None = monotonic()
         self._answered_at = monotonic()
 
@@ -167,12 +172,19 @@ class Watcher:
     def weigh(self) -> None:
         """Count and weigh the processes."""
         kiosks = self.booth.kiosks()
-        self.seen.most_kiosks = max(self.seen.most_kiosks, len(kiosks))
+        if monotonic() - self._orphaned_at > LEFTOVER_S:
+            self.seen.most_kiosks = max(self.seen.most_kiosks, len(kiosks))
         for of, process in (("kiosk", kiosks[:1]), ("supervisor", [psutil.Process(self.booth.process.pid)])):
             with suppress(psutil.Error):
                 for each in process:
                     mib = each.memory_info().rss / 2**20
                     self.seen.weights[of].append(Weighed(monotonic() - self._began, each.pid, mib))
+
+    def lose_supervisor(self) -> None:
+        """Kill the supervisor, and expect its kiosk to go by itself."""
+        self.booth.process.kill()
+        self.seen.supervisors_killed += 1
+        self._orphaned_at = monotonic()
 
     def silent_s(self) -> float:
         """Return for how long a kiosk that is up has answered nothing, and remember the longest."""
@@ -250,7 +262,10 @@ def _play(for_s: float, chance: Random, watcher: Watcher, monkey: Monkey, robot:
         if now >= kill_at:
             kill_at = now + chance.uniform(*KILL_S)
             if not watcher.calm[0] <= now / for_s <= watcher.calm[1]:
-                watcher.seen.kills += _kill(booth)
+                if chance.random() < SUPERVISORS:
+                    watcher.lose_supervisor()
+                else:
+                    watcher.seen.kills += _kill(booth)
         # A machine that is too slow does not have it all made up for at once.
         acted = max(acted, int((now - 1) * INPUTS_PER_S))
         if acted < now * INPUTS_PER_S:
@@ -297,7 +312,8 @@ def lines(seen: Seen, data: Path) -> Iterator[str]:
     yield f"screens: {_counts(seen.screens)}"
     yield f"handled: {_counts(seen.answers)}"
     yield f"robot: {_counts(seen.robot)}"
-    yield f"kills: {seen.kills}; ends: {_counts(seen.ends)}; supervisor started again: {seen.left}"
+    yield f"kills: {seen.kills}, and of supervisors {seen.supervisors_killed}; ends: {_counts(seen.ends)}"
+    yield f"supervisors started again: {seen.left}"
     yield f"longest without an answer {seen.longest_silence_s:.1f} s, longest away {seen.longest_away_s:.1f} s"
     yield f"most kiosks at once: {seen.most_kiosks}"
     for of, weighed in seen.weights.items():

@@ -65,8 +65,9 @@ class Seen:
     """What the supervisor told of its kiosks' ends."""
     robot: Counter[str] = field(default_factory=Counter)
     kills: int = 0
+    supervisors_killed: int = 0
     left: int = 0
-    """How often the monkey left the kiosk as an experimenter does, so that it was started again."""
+    """How often the supervisor was gone, as after it was killed, and was started again."""
     longest_silence_s: float = 0.0
     longest_away_s: float = 0.0
     most_kiosks: int = 0
