@@ -49,15 +49,21 @@ class Clock(Protocol):
 
 
 class _TimerWait:
-    def __init__(self, timer: QTimer) -> None:
+    def __init__(self, timer: QTimer, call: Callable[[], None]) -> None:
         self._timer: QTimer | None = timer
-        timer.timeout.connect(self.cancel)
+        # Qt for Python keeps no object alive whose method it calls, and leaves a reference to it behind when the timer
+        # goes. It keeps this function, and so the wait, which deletes the timer, although the caller may forget both.
+        timer.timeout.connect(lambda: self._end(call))
 
     def cancel(self) -> None:
         timer, self._timer = self._timer, None
         if timer is not None:
             timer.stop()
             timer.deleteLater()
+
+    def _end(self, call: Callable[[], None]) -> None:
+        self.cancel()
+        call()
 
 
 class WallClock:
@@ -77,8 +83,7 @@ class WallClock:
         timer = QTimer(self._owner)
         timer.setSingleShot(True)
         timer.setTimerType(Qt.TimerType.PreciseTimer)
-        wait = _TimerWait(timer)
-        timer.timeout.connect(call)
+        wait = _TimerWait(timer, call)
         timer.start(round(ms / self._speed))
         return wait
 
@@ -336,7 +341,7 @@ class EventLoop:
         before, sys.excepthook = sys.excepthook, self._fault
         ticking = QTimer()
         if isinstance(self._clock, VirtualClock):
-            ticking.timeout.connect(self._clock.jump)
+            ticking.timeout.connect(lambda jump=self._clock.jump: jump())
             ticking.start(0)
         # A program that has set objects aside itself does not get them back from us.
         gives_back = gc.get_freeze_count() == 0
