@@ -159,6 +159,8 @@ def test_both_answers_about_the_age_look_the_same(booth: Booth) -> None:
     booth.app.screens.kiosk.show("age")
     yes, no = booth.item("age-yes"), booth.item("age-no")
     assert (yes.width(), yes.height(), yes.property("quiet")) == (no.width(), no.height(), no.property("quiet"))
+    assert says(yes, "I am 18 or older")
+    assert says(no, "I am younger than 18")
     booth.click("age-no")
     booth.click("age-yes")
     assert told == [False, True]

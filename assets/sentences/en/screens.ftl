@@ -44,6 +44,8 @@ consent-less = Show less
 
 age-question = Are you { $adult } or older?
 age-line = You can play either way. If you are younger, nothing about you is stored.
+age-older = I am { $adult } or older
+age-younger = I am younger than { $adult }
 age-yes = Yes
 age-no = No
 

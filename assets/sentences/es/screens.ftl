@@ -45,6 +45,8 @@ consent-less = Mostrar menos
 
 age-question = ¿Has cumplido { $adult } años?
 age-line = Puedes jugar en cualquier caso. Si aún no los tienes, no guardamos nada sobre ti.
+age-older = Tengo { $adult } años o más
+age-younger = Tengo menos de { $adult } años
 age-yes = Sí
 age-no = No
 

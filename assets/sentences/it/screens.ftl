@@ -45,6 +45,8 @@ consent-less = Mostra meno
 
 age-question = Hai compiuto { $adult } anni?
 age-line = Puoi giocare in ogni caso. Se non li hai ancora, non conserviamo nulla su di te.
+age-older = Ho { $adult } anni o più
+age-younger = Ho meno di { $adult } anni
 age-yes = Sì
 age-no = No
 

@@ -1,4 +1,4 @@
-// Whether the visitor is old enough; both answers look the same.
+// Whether the visitor is old enough; both answers look the same, and say what they mean.
 pragma ComponentBehavior: Bound
 import QtQuick
 import Recollect
@@ -12,44 +12,81 @@ PageFrame {
     title: age.question
     onVisibleChanged: yes.focus = true
 
+    component Answer: BigButton {
+        id: answer
+        // What the short word means here.
+        required property string meaning
+        readonly property real most: answers.wish - 2 * horizontalPadding
+
+        width: answers.wish
+        height: answers.tall
+        horizontalPadding: 32 * Theme.unit
+        font.pixelSize: Theme.size(84)
+        Accessible.description: meaning
+        contentItem: Item {
+            implicitWidth: Math.max(short.implicitWidth, long.implicitWidth)
+            implicitHeight: both.height
+            Column {
+                id: both
+                anchors.centerIn: parent
+                spacing: 0.5 * Theme.gap
+                PlainText {
+                    id: short
+                    anchors.horizontalCenter: parent.horizontalCenter
+                    text: answer.words
+                    font: answer.font
+                    color: Theme.white
+                    Accessible.ignored: true
+                }
+                Balanced {
+                    id: long
+                    width: answer.most
+                    horizontalAlignment: Text.AlignHCenter
+                    text: answer.meaning
+                    font.pixelSize: Theme.size(38)
+                    color: Theme.white
+                    Accessible.ignored: true
+                }
+            }
+        }
+    }
+
     Column {
-        y: view.sink(height)
+        // In the middle, as there is nothing else to read.
+        y: Math.max(0, (view.room - height) / 2.6)
         width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
-        PlainText {
+        Balanced {
             width: parent.width
             text: view.words["age-line"]
+            horizontalAlignment: Text.AlignLeft
             font.pixelSize: Theme.size(view.width < view.height ? 42 : 36)
             lineHeight: 1.08
-            wrapMode: Text.Wrap
             color: Theme.faintInk
         }
         Grid {
             id: answers
-            // Both are as wide as the longer one needs; side by side, or where that is too wide, one above the other.
-            readonly property bool abreast: 2 * Math.max(yes.implicitWidth, no.implicitWidth) + spacing <= width
+            // Side by side, or where large words are too wide for that, one above the other.
+            readonly property bool abreast: Theme.textSize <= 1.15 || view.column > 1000 * Theme.unit
             readonly property real wish: abreast ? (width - spacing) / 2 : width
+            readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, (abreast ? view.width < view.height ? 440 : 320 : 260) * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1
             spacing: 1.5 * Theme.gap
-            BigButton {
+            Answer {
                 id: yes
                 objectName: "age-yes"
-                width: answers.wish
-                height: Math.max(implicitHeight, (!answers.abreast ? 200 : view.width < view.height ? 520 : 320) * Theme.unit)
                 words: view.words["age-yes"]
-                font.pixelSize: Theme.size(96)
+                meaning: view.age.older
                 focus: true
                 onClicked: view.age.answer(true)
             }
-            BigButton {
+            Answer {
                 id: no
                 objectName: "age-no"
-                width: answers.wish
-                height: yes.height
                 words: view.words["age-no"]
-                font.pixelSize: Theme.size(96)
+                meaning: view.age.younger
                 onClicked: view.age.answer(false)
             }
         }

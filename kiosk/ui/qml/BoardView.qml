@@ -317,6 +317,9 @@ FocusScope {
             // How far a found card has come forward, and how far it has come to rest for good.
             property real forward: 0
             property real rest: found && !coming.running ? 1 : 0
+            // How far the joy about the last pair lifts it; the wave is over one diagonal after another.
+            readonly property real cheer: view.wave === 0 || view.wave === 1 ? 0
+                : Math.max(0, 1 - Math.abs(view.wave * (view.rows + view.columns + 1) - row - column - 1) / 1.6)
             Behavior on rest { NumberAnimation { duration: Theme.motion } }
 
             readonly property real turning: face.turn
@@ -349,8 +352,8 @@ FocusScope {
                 anchors { fill: parent; margins: parent.width * 0.05 }
                 opacity: place.rest
                 radius: width * 0.12
-                color: (place.row + place.column + 1) <= view.wave * (view.rows + view.columns) ? Theme.amber : Theme.leaf
-                Behavior on color { ColorAnimation { duration: Theme.motion } }
+                color: Theme.leaf
+                scale: 1 + 0.09 * place.cheer
             }
             Rectangle {
                 visible: place.forward > 0
@@ -375,7 +378,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward)
+                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {

@@ -46,9 +46,8 @@ Item {
         border.color: Theme.sea
         border.width: 4 * Theme.unit
 
-        Text {
+        Balanced {
             id: words
-            textFormat: Text.PlainText
             anchors { left: parent.left; right: parent.right; top: parent.top; margins: Theme.gap; topMargin: Theme.gap + bubble.tag }
             // What would not fit above the face is set smaller: half the size takes a quarter of the room.
             font.pixelSize: {
@@ -56,10 +55,7 @@ Item {
                 return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
             }
             lineHeight: 1.12
-            color: Theme.ink
-            wrapMode: Text.Wrap
             Accessible.role: Accessible.AlertMessage
-            Accessible.name: text
         }
         // Words are on their way.
         Row {

@@ -64,7 +64,7 @@ FocusScope {
                     }
                 }
             }
-            PlainText {
+            Balanced {
                 width: parent.width
                 text: calm.title
                 font { pixelSize: Theme.figure; bold: true }
@@ -72,16 +72,14 @@ FocusScope {
                 Accessible.role: Accessible.AlertMessage
                 Accessible.name: text
                 horizontalAlignment: Text.AlignHCenter
-                wrapMode: Text.Wrap
             }
-            PlainText {
+            Balanced {
                 width: parent.width
                 visible: text !== ""
                 text: calm.line
                 font.pixelSize: Theme.body
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
-                wrapMode: Text.Wrap
             }
             PlainText {
                 objectName: "noted"

@@ -106,7 +106,7 @@ PageFrame {
                 }
             }
         }
-        PlainText {
+        Balanced {
             id: telling
             x: view.abreast ? scene.pad : Theme.across(scene.pad + scene.numbers + board.width + 1.2 * Theme.gap, width, scene.width)
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
@@ -114,7 +114,6 @@ PageFrame {
             text: scene.text
             font { pixelSize: view.abreast ? Theme.reading : Theme.body; bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
-            wrapMode: Text.Wrap
             color: Theme.ink
         }
         readonly property real wish: board.y + board.height + 0.6 * Theme.gap + telling.height + pad

@@ -84,7 +84,7 @@ PageFrame {
         width: parent?.width ?? 0
         spacing: Theme.gap
 
-        PlainText {
+        Balanced {
             id: line
             width: parent.width
             visible: view.count > 0
@@ -116,8 +116,7 @@ PageFrame {
                     Rectangle {
                         anchors { fill: parent; margins: parent.width * 0.04 }
                         radius: width * 0.16
-                        color: Theme.sand
-                        border { color: Theme.amber; width: 4 * Theme.unit }
+                        color: Theme.leaf
                     }
                     // Two cards, one on the other.
                     Repeater {

@@ -55,7 +55,7 @@ Item {
             }
         }
     }
-    PlainText {
+    Balanced {
         id: words
         readonly property real indent: mark.visible ? mark.width + Theme.gap : 0
         x: Theme.across(indent, width, line.width)
@@ -65,7 +65,6 @@ Item {
         horizontalAlignment: Text.AlignLeft
         font { pixelSize: line.size; bold: line.strong }
         lineHeight: 1.08
-        wrapMode: Text.Wrap
         color: Theme.ink
     }
 }

@@ -63,13 +63,11 @@ Choosable {
             x: Theme.across(mark.width + Theme.gap, width, parts.width)
             y: (parts.height - height) / 2
             width: parts.room - (parts.beside ? tag.implicitWidth + Theme.gap : 0)
-            Text {
-                textFormat: Text.PlainText
+            Balanced {
                 width: parent.width
                 text: box.words
                 font: box.font
-                wrapMode: Text.Wrap
-                color: Theme.ink
+                Accessible.ignored: true
             }
             Text {
                 textFormat: Text.PlainText

@@ -16,7 +16,6 @@ Item {
 
     readonly property int columns: Math.ceil(places / Math.max(1, lines))
     readonly property real slot: Math.floor(Math.min(width / Math.max(1, columns), height / Math.max(1, lines)))
-    readonly property bool full: places > 0 && landed >= places
 
     // Where the picture with this number lies, in the tray.
     function middle(number: int): point {
@@ -39,8 +38,8 @@ Item {
             Rectangle {
                 anchors { fill: parent; margins: parent.width * 0.06 }
                 radius: width * 0.18
-                color: place.filled ? Theme.sand : Theme.white
-                border { color: tray.full ? Theme.amber : place.filled ? Theme.leaf : Theme.edge; width: Math.max(1, (place.filled ? 4 : 3) * Theme.unit) }
+                color: place.filled ? Theme.leaf : Theme.white
+                border { color: place.filled ? Theme.leaf : Theme.edge; width: Math.max(1, 3 * Theme.unit) }
             }
             // Two cards, one on the other.
             Repeater {

@@ -440,7 +440,20 @@ class AgeScreen(QObject):
     @Property(str, notify=changed)
     def question(self) -> str:
         """Return the question."""
-        return self._catalogue.text("age-question", adult=self._adult) if self._adult else ""
+        return self._text("age-question")
+
+    @Property(str, notify=changed)
+    def older(self) -> str:
+        """Return what a yes says."""
+        return self._text("age-older")
+
+    @Property(str, notify=changed)
+    def younger(self) -> str:
+        """Return what a no says."""
+        return self._text("age-younger")
+
+    def _text(self, message: str) -> str:
+        return self._catalogue.text(message, adult=self._adult) if self._adult else ""
 
     @Slot(bool)
     def answer(self, adult: bool) -> None:  # noqa: FBT001 - QML gives no names

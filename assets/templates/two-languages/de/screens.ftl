@@ -44,6 +44,8 @@ consent-less = Weniger zeigen
 
 age-question = Bist du { $adult } oder älter?
 age-line = Spielen kannst du so oder so. Wenn du jünger bist, wird nichts über dich gespeichert.
+age-older = Ich bin { $adult } oder älter
+age-younger = Ich bin jünger als { $adult }
 age-yes = Ja
 age-no = Nein
 

@@ -73,7 +73,7 @@ Rectangle {
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
 
-        PlainText {
+        Balanced {
             width: parent.width
             text: box.item.text
             font {
@@ -82,7 +82,6 @@ Rectangle {
             }
             lineHeight: box.item.kind === "page" ? 1.15 : 1
             horizontalAlignment: Text.AlignLeft
-            wrapMode: Text.Wrap
             color: Theme.ink
         }
         PlainText {

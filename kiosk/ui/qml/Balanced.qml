@@ -1,0 +1,57 @@
+// A text whose last line is no single word: its lines are made a little shorter than their place until they are even.
+import QtQuick
+import "."
+
+PlainText {
+    id: balanced
+
+    // How long the last line is to be at least, as a share of the longest.
+    property real least: horizontalAlignment === Text.AlignHCenter ? 0.75 : 0.4
+    readonly property bool fromLeft: effectiveHorizontalAlignment !== Text.AlignRight
+    readonly property real slack: width > 0 && wrapMode !== Text.NoWrap ? spare(text, width, letters.font) : 0
+
+    wrapMode: Text.Wrap
+    leftPadding: effectiveHorizontalAlignment === Text.AlignHCenter ? slack / 2 : fromLeft ? 0 : slack
+    rightPadding: effectiveHorizontalAlignment === Text.AlignHCenter ? slack / 2 : fromLeft ? slack : 0
+
+    FontMetrics {
+        id: letters
+        font: balanced.font
+    }
+
+    // How much narrower the lines can be without one more, so that the last is long enough, or as long as it gets. What
+    // is measured depends on the font, which is named for that reason alone.
+    function spare(text: string, room: real, _font: font): real {
+        const words = text.split(" ")
+        const whole = letters.advanceWidth(text)
+        if (words.length < 3 || words.length > 60 || text.includes("\n") || whole <= room)
+            return 0
+        const gap = letters.advanceWidth(" "), sizes = words.map(word => letters.advanceWidth(word))
+        const widest = Math.max(...sizes)
+        let most = 0, best = 0, narrow = room
+        for (let tried = room; tried >= widest;) {
+            let lines = 1, last = 0, longest = 0
+            for (const size of sizes) {
+                if (last > 0 && last + gap + size > tried) {
+                    longest = Math.max(longest, last)
+                    lines++
+                    last = size
+                } else
+                    last += (last > 0 ? gap : 0) + size
+            }
+            longest = Math.max(longest, last)
+            most = most || lines
+            if (lines > most)
+                break
+            if (last / longest > best) {
+                best = last / longest
+                narrow = tried === room ? room : longest
+            }
+            if (best >= least)
+                break
+            tried = longest - 0.5
+        }
+        // Letters are set by fractions of pixels, which the sum of the words lacks.
+        return narrow === room ? 0 : Math.max(0, room - narrow - 2)
+    }
+}
