@@ -16,7 +16,7 @@ PageFrame {
         id: answer
         // What the short word means here.
         required property string meaning
-        readonly property real most: answers.wish - 2 * horizontalPadding
+        readonly property real inside: answers.wish - 2 * horizontalPadding
 
         width: answers.wish
         height: answers.tall
@@ -40,7 +40,7 @@ PageFrame {
                 }
                 Balanced {
                     id: long
-                    width: answer.most
+                    width: answer.inside
                     horizontalAlignment: Text.AlignHCenter
                     text: answer.meaning
                     font.pixelSize: Theme.size(38)

@@ -42,7 +42,7 @@ FocusScope {
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 16) * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(132 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min((shelfLines > 1 ? 152 : 132) * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
@@ -58,12 +58,12 @@ FocusScope {
     readonly property bool skipsBelow: !broad
         && practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
-    readonly property real numbers: 78 * Theme.unit
+    readonly property real numbers: (upright ? 64 : 78) * Theme.unit
     readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
-    readonly property real widest: (width - 2 * side - numbers - 2 * Theme.gap) / Math.max(1, columns)
+    readonly property real widest: (width - 2 * side - numbers - (upright ? 1.2 : 2) * Theme.gap) / Math.max(1, columns)
     readonly property real wish: 34 * Theme.unit + shelf + apart + numbers + pill.height
-        + rows * (width - numbers - 2 * Theme.gap) / Math.max(1, columns)
+        + rows * (width - numbers - 1.2 * Theme.gap) / Math.max(1, columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
     // What was last touched or turned, in this item; the assistant looks at it.
@@ -316,7 +316,8 @@ FocusScope {
             readonly property bool missed: up && !found && view.missed
             // How far a found card has come forward, and how far it has come to rest for good.
             property real forward: 0
-            property real rest: found && !coming.running ? 1 : 0
+            property bool settles: false
+            property real rest: found && (settles || !coming.running) ? 1 : 0
             // How far the joy about the last pair lifts it; the wave is over one diagonal after another.
             readonly property real cheer: view.wave === 0 || view.wave === 1 ? 0
                 : Math.max(0, 1 - Math.abs(view.wave * (view.rows + view.columns + 1) - row - column - 1) / 1.6)
@@ -344,7 +345,11 @@ FocusScope {
                 if (Theme.motion > 0)
                     refusal.restart()
             }
-            onFoundChanged: if (found && Theme.motion > 0) coming.restart()
+            onFoundChanged: {
+                settles = false
+                if (found && Theme.motion > 0)
+                    coming.restart()
+            }
             onMissedChanged: if (missed && Theme.motion > 0) sigh.restart()
 
             Rectangle {
@@ -397,6 +402,8 @@ FocusScope {
                 PauseAnimation { duration: Theme.motion * 1.5 }
                 NumberAnimation { target: place; property: "forward"; to: 1; duration: Theme.motion; easing.type: Easing.OutBack }
                 PauseAnimation { duration: Theme.motion }
+                // Its frame stays while it goes back.
+                PropertyAction { target: place; property: "settles"; value: true }
                 NumberAnimation { target: place; property: "forward"; to: 0; duration: Theme.motion; easing.type: Easing.InOutQuad }
             }
             SequentialAnimation {

@@ -17,18 +17,28 @@ PageFrame {
 
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
-    readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small)
-    readonly property real size: signed ? [34, 32, 29].map(Theme.size).find(size => fits(size)) ?? Theme.small
+    readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small)
+    readonly property real size: signed ? [34, 32, 29].map(Theme.size).find(size => fits(size, noted)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
+    // What stands on the card is read from it at home, in a photograph.
+    readonly property real noted: width < height && fits(Theme.size(32), Theme.reading) ? Theme.reading : Theme.small
+    readonly property string kept: words["debrief-take-home"] + (labName === "" ? "" : " · " + labName)
     FontMetrics {
         id: letters
         font.pixelSize: 100
     }
-    function fits(size: real): bool {
+    // Whether the lines have this size at most, with the card below them in its own.
+    function fits(size: real, cardSize: real): bool {
         const wide = (column - 2.5 * size - Theme.gap) * 0.9
-        const tall = debrief.lines.reduce((sum, line) =>
-            sum + Math.max(2.5 * size, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
-        return tall + debrief.lines.length * 0.5 * Theme.gap + 350 * Math.max(1, Theme.textSize) * Theme.unit <= room
+        const tall = debrief.lines.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.5 * size), 0)
+        const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.9
+        const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
+        const heading = lines(kept, 1.08 * Theme.body, beside)
+        const card = 1.4 * (heading * Theme.body + Theme.figure + noted * cardSize) + 3.2 * Theme.gap
+        return tall + (debrief.lines.length + 1) * 0.5 * Theme.gap + Math.max(312 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
+    }
+    function lines(text: string, size: real, room: real): int {
+        return Math.ceil(letters.advanceWidth(text) * size / 100 / room)
     }
 
     title: debrief.title
@@ -109,7 +119,7 @@ PageFrame {
                 spacing: 0.3 * Theme.gap
                 PlainText {
                     width: parent.width
-                    text: view.words["debrief-take-home"] + (view.labName === "" ? "" : " · " + view.labName)
+                    text: view.kept
                     font { pixelSize: Theme.body; bold: true }
                     horizontalAlignment: Text.AlignLeft
                     wrapMode: Text.Wrap
@@ -142,39 +152,35 @@ PageFrame {
                         color: Theme.sea
                     }
                 }
-                PlainText {
+                Balanced {
                     width: parent.width
                     visible: text !== ""
                     text: view.debrief.withdrawing
-                    font.pixelSize: Theme.small
-                    wrapMode: Text.Wrap
+                    font.pixelSize: view.noted
                     color: Theme.ink
                 }
-                PlainText {
+                Balanced {
                     objectName: "returning"
                     width: parent.width
                     visible: text !== ""
                     text: view.debrief.returning
-                    font.pixelSize: Theme.small
-                    wrapMode: Text.Wrap
+                    font.pixelSize: view.noted
                     color: Theme.ink
                 }
-                PlainText {
+                Balanced {
                     objectName: "questions"
                     width: parent.width
                     visible: text !== ""
                     text: view.debrief.questions
-                    font.pixelSize: Theme.small
-                    wrapMode: Text.Wrap
+                    font.pixelSize: view.noted
                     color: Theme.ink
                 }
-                PlainText {
+                Balanced {
                     objectName: "summary"
                     width: parent.width
                     visible: text !== ""
                     text: view.debrief.summary
-                    font.pixelSize: Theme.small
-                    wrapMode: Text.Wrap
+                    font.pixelSize: view.noted
                     color: Theme.faintInk
                 }
             }

@@ -12,6 +12,26 @@ PageFrame {
 
     readonly property bool alone: form.items.length === 1
     readonly property bool dense: form.items.length > 4
+    // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
+    readonly property real rowText: width <= height || alone || Theme.textSize > 1.15 ? 0
+        : [36, 32, 29].map(Theme.size).find(size => fits(size)) ?? 0
+    FontMetrics {
+        id: letters
+        font { pixelSize: 100; bold: true }
+    }
+    function fits(size: real): bool {
+        const wide = 0.42 * (column - 2.4 * Theme.gap) * 0.88
+        let tall = 60 * Theme.unit
+        for (const item of form.items) {
+            const lines = Math.ceil(letters.advanceWidth(item.text) * size / 100 / wide)
+            tall += form.hidden.includes(item.id) ? 0 : !scales(item) ? 170 * Theme.unit
+                : Math.max((dense ? 72 : 92) * Theme.unit, lines * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
+            if (scales(item) && lines > 3)
+                return false
+        }
+        return tall <= room
+    }
+    readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
@@ -49,6 +69,18 @@ PageFrame {
         // The answer may have shown or hidden the items after it.
         goOn(at)
         return true
+    }
+    function scales(item: var): bool {
+        return item.kind === "likert" && item.points <= 7 && !item.exempts
+    }
+    // Whether the item that is seen before this one has the same scale, and so the same words at its ends.
+    function repeats(at: int): bool {
+        let before = at - 1
+        const items = form.items
+        while (before >= 0 && form.hidden.includes(items[before]?.id))
+            before--
+        const one = items[before] ?? null, other = items[at] ?? null
+        return one !== null && other !== null && scales(one) && one.points === other.points && one.left === other.left && one.right === other.right
     }
     // Give the keyboard to the next item that is to be seen, or to the way on.
     function goOn(at: int) {
@@ -132,8 +164,8 @@ PageFrame {
                 }
                 return sum
             }
-            spacing: Math.max((view.dense || view.tight ? 8 : 12) * Theme.unit,
-                Math.min((view.width < view.height ? 56 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
+            spacing: Math.max(view.spread,
+                Math.min((view.width < view.height ? 72 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
             Repeater {
                 id: boxes
                 model: view.form.items
@@ -149,6 +181,9 @@ PageFrame {
                     dense: view.dense
                     tight: view.tight
                     large: view.width < view.height && view.form.items.length < 5
+                    beside: view.rowText > 0 && view.scales(modelData)
+                    rowText: view.rowText
+                    headed: !view.repeats(index)
                     onEntered: field => keyboard.field = field
                 }
             }

@@ -12,7 +12,7 @@ PageFrame {
 
     // The pairs in as many rows as the page has room for.
     readonly property int count: result.pictures.length
-    readonly property int columns: Math.max(1, Math.ceil(count / (count > 6 ? 2 : 1)))
+    readonly property int columns: Math.max(1, Math.ceil(count / (count <= 6 ? 1 : width < height && Theme.textSize <= 1.15 ? 3 : 2)))
     readonly property int rows: Math.ceil(count / columns)
     readonly property real slot: count === 0 ? 0 : Math.floor(Math.min(
         column / columns, 230 * Theme.unit, (room - line.implicitHeight - board.height - 2 * Theme.gap) / rows))
@@ -95,7 +95,7 @@ PageFrame {
             color: Theme.faintInk
         }
         Item {
-            x: Theme.across(0, width, parent.width)
+            x: view.rows > 2 ? (parent.width - width) / 2 : Theme.across(0, width, parent.width)
             visible: view.slot > 70 * Theme.unit
             width: view.slot * view.columns
             height: view.slot * view.rows

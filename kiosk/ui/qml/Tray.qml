@@ -23,6 +23,16 @@ Item {
                         (height - slot * lines) / 2 + (Math.floor(number / columns) + 0.5) * slot)
     }
 
+    // One shelf, in which the places are no more than hinted at until something lies there.
+    Rectangle {
+        anchors.centerIn: parent
+        visible: tray.places > 0
+        width: tray.slot * tray.columns + 0.2 * tray.slot
+        height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + 12 * Theme.unit)
+        radius: 0.24 * tray.slot
+        color: Theme.shelf
+        border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
+    }
     Repeater {
         model: tray.places
         Item {
@@ -36,10 +46,10 @@ Item {
             height: tray.slot
 
             Rectangle {
-                anchors { fill: parent; margins: parent.width * 0.06 }
+                anchors { fill: parent; margins: parent.width * (place.filled ? 0.06 : 0.12) }
                 radius: width * 0.18
-                color: place.filled ? Theme.leaf : Theme.white
-                border { color: place.filled ? Theme.leaf : Theme.edge; width: Math.max(1, 3 * Theme.unit) }
+                color: place.filled ? Theme.leaf : Theme.paper
+                opacity: place.filled ? 1 : 0.7
             }
             // Two cards, one on the other.
             Repeater {

@@ -16,6 +16,11 @@ Rectangle {
     required property bool tight        // whether there is little height for the page
     // Whether there is much height for it.
     property bool large: false
+    // Whether its scale stands beside its text, as in a table, and whether the words for the ends head it.
+    property bool beside: false
+    property bool headed: true
+    // How large its text is then.
+    property real rowText: Theme.body
     // Large texts need that height themselves.
     readonly property bool airy: large && Theme.textSize <= 1.15
     signal entered(Item field)
@@ -23,7 +28,7 @@ Rectangle {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (dense ? 8 : tight ? 10 : airy ? 26 : 13) * Theme.unit
+    readonly property real margin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : 13) * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -73,33 +78,50 @@ Rectangle {
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
 
-        Balanced {
+        Item {
+            id: asked
             width: parent.width
-            text: box.item.text
-            font {
-                pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading : box.dense ? Theme.reading : Theme.body
-                bold: box.item.kind !== "page"
+            // Where the middle of a row is: that of the points, below the words for their ends.
+            readonly property real scaled: (way.item as PointScale)?.size ?? 0
+            readonly property real middle: Math.max(way.height - scaled / 2, told.height / 2)
+            height: box.beside ? middle + Math.max(scaled, told.height) / 2 : told.height + (way.active ? content.spacing + way.height : 0)
+            Column {
+                id: told
+                x: Theme.across(0, width, asked.width)
+                y: box.beside ? asked.middle - height / 2 : 0
+                width: box.beside ? 0.42 * asked.width : asked.width
+                spacing: content.spacing
+                Balanced {
+                    width: parent.width
+                    text: box.item.text
+                    font {
+                        pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
+                            : box.beside ? box.rowText : box.dense ? Theme.reading : Theme.body
+                        bold: box.item.kind !== "page"
+                    }
+                    lineHeight: box.item.kind === "page" ? 1.15 : 1
+                    horizontalAlignment: Text.AlignLeft
+                }
+                PlainText {
+                    width: parent.width
+                    visible: box.missed
+                    text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
+                        : box.words[box.item.required ? "form-missing" : "form-skipped"]
+                    font { pixelSize: Theme.small; bold: true }
+                    horizontalAlignment: Text.AlignLeft
+                    wrapMode: Text.Wrap
+                    color: Theme.deepAmber
+                }
             }
-            lineHeight: box.item.kind === "page" ? 1.15 : 1
-            horizontalAlignment: Text.AlignLeft
-            color: Theme.ink
-        }
-        PlainText {
-            width: parent.width
-            visible: box.missed
-            text: box.refused ? box.words["form-refused"] : box.form.wrong.includes(box.item.id) ? box.item.wrong ?? box.words["form-missing"]
-                : box.words[box.item.required ? "form-missing" : "form-skipped"]
-            font { pixelSize: Theme.small; bold: true }
-            horizontalAlignment: Text.AlignLeft
-            wrapMode: Text.Wrap
-            color: Theme.deepAmber
-        }
-        Loader {
-            id: way
-            x: Theme.across(0, width, parent.width)
-            active: (box.ways[box.item.kind] ?? null) !== null
-            visible: active
-            sourceComponent: box.ways[box.item.kind] ?? null
+            Loader {
+                id: way
+                readonly property real room: box.beside ? 0.54 * asked.width : asked.width
+                x: Theme.across(box.beside ? asked.width - room : 0, width, asked.width)
+                y: box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                active: (box.ways[box.item.kind] ?? null) !== null
+                visible: active
+                sourceComponent: box.ways[box.item.kind] ?? null
+            }
         }
         // A kind of another package, drawn by its own file.
         Loader {
@@ -163,7 +185,9 @@ Rectangle {
     Component {
         id: points
         PointScale {
-            width: content.width
+            width: way.room
+            beside: box.beside
+            headed: box.headed
             item: box.item.id
             label: box.item.text
             points: box.item.points

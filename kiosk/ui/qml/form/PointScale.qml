@@ -18,10 +18,13 @@ Item {
     required property bool tight
     // Whether there is much height for the page.
     property bool large: false
+    // Whether it is a row of a table, and whether the words for its ends stand above it there.
+    property bool beside: false
+    property bool headed: true
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
-    readonly property real wish: (alone ? 132 : dense ? 58 : tight ? 66 : large ? 100 : 76) * Theme.unit * (pictured ? 1.25 : 1)
+    readonly property real wish: (alone ? 132 : beside ? dense ? 72 : 92 : dense ? 58 : tight ? 66 : large ? 112 : 76) * Theme.unit * (pictured ? 1.25 : 1)
     readonly property real size: Math.min(wish, width / (points * 1.45))
     // The ends stand beside the points, where there is room for that, and else below them.
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -30,8 +33,8 @@ Item {
     readonly property real rightRoom: roomy ? highest.implicitWidth : Math.min(highest.implicitWidth, most)
     readonly property real spare: width - leftRoom - rightRoom - 2 * Theme.gap - points * size
     readonly property real least: 0.42 * size * (points - 1)
-    readonly property bool below: alone || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
-    readonly property real gap: pictured ? 0.4 * size : alone ? 0.25 * size
+    readonly property bool below: alone || beside || !roomy && (Math.max(lowest.implicitWidth, highest.implicitWidth) > 1.9 * most || spare < least)
+    readonly property real gap: beside ? (width - points * size) / Math.max(1, points - 1) : pictured ? 0.4 * size : alone ? 0.25 * size
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
@@ -39,36 +42,41 @@ Item {
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
-    height: below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
+    // In a table the ends stand above the points: they head the rows below, too.
+    readonly property real head: beside && headed ? words + 0.4 * Theme.gap : 0
 
-    // Under the first point; or before it, at the edge where the question begins.
+    height: beside ? head + row.height : below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
+
+    // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
+        visible: !scale.beside || scale.headed
         x: Theme.across(0, width, scale.width)
-        y: scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
+        y: scale.beside ? scale.words - height : scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: Theme.small
+        font.pixelSize: scale.large ? Theme.reading : Theme.small
         wrapMode: Text.Wrap
-        color: Theme.faintInk
+        color: Theme.ink
     }
     PlainText {
         id: highest
+        visible: lowest.visible
         readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
-        y: scale.below ? lowest.y : (scale.height - height) / 2
+        y: scale.beside ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: Theme.small
+        font.pixelSize: scale.large ? Theme.reading : Theme.small
         wrapMode: Text.Wrap
-        color: Theme.faintInk
+        color: Theme.ink
     }
     Row {
         id: row
         x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
-        y: scale.below ? 0 : (scale.height - height) / 2
+        y: scale.beside ? scale.head : scale.below ? 0 : (scale.height - height) / 2
         spacing: scale.gap
         Repeater {
             id: buttons

@@ -28,7 +28,9 @@ Rectangle {
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
-    readonly property real keyWidth: numbers ? 80 * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    // Whether a number's keys have an upright screen's width below the page.
+    readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
+    readonly property real keyWidth: numbers ? (broad ? 150 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
     readonly property real keyHeight: (numbers ? 68 : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width

@@ -27,8 +27,9 @@ Item {
     readonly property bool below: alone || width < 4 * most
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    readonly property real rail: Math.max(36 * Theme.unit, hint.implicitHeight + 4 * Theme.unit)
-    readonly property real thickness: Math.max((alone ? 68 : 56) * Theme.unit, rail + 14 * Theme.unit)
+    // The words stand in the line, above its marks.
+    readonly property real rail: hint.implicitHeight + 26 * Theme.unit
+    readonly property real thickness: rail + 10 * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
 
@@ -43,7 +44,7 @@ Item {
         horizontalAlignment: Text.AlignLeft
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
-        color: Theme.faintInk
+        color: Theme.ink
     }
     PlainText {
         id: upper
@@ -54,7 +55,7 @@ Item {
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
         font.pixelSize: Theme.small
         wrapMode: Text.Wrap
-        color: Theme.faintInk
+        color: Theme.ink
     }
     Slider {
         id: slider
@@ -112,12 +113,10 @@ Item {
                     required property int index
                     readonly property bool end: index === 0 || index === ticks.model - 1
                     readonly property real middle: scale.thickness / 2 + index / (ticks.model - 1) * (slider.width - scale.thickness)
-                    // Not under the words.
-                    visible: !hint.visible || Math.abs(middle - slider.width / 2) > hint.implicitWidth / 2 + 0.5 * Theme.gap
                     x: middle - width / 2
-                    y: (scale.rail - height) / 2
+                    y: scale.rail - height - 6 * Theme.unit
                     width: (end ? 4 : 3) * Theme.unit
-                    height: (end ? 22 : 12) * Theme.unit
+                    height: (end ? 18 : 10) * Theme.unit
                     radius: width / 2
                     color: Theme.lightSea
                 }
@@ -145,7 +144,7 @@ Item {
         objectName: `touch-${scale.item}`
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - height) / 2
+        y: slider.y + (slider.height - height) / 2 - 5 * Theme.unit
         text: scale.touch
         font.pixelSize: Theme.small
         color: Theme.faintInk

@@ -43,8 +43,9 @@ Column {
     }
     Item {
         width: parent.width
-        height: today.wide ? Math.max(left.height, middle.height, right.height)
-                           : Math.max(left.height, right.height) + today.space + middle.height
+        readonly property real low: shortcuts.visible ? shortcuts.y + shortcuts.height : 0
+        height: today.wide ? Math.max(left.height, middle.height, right.height, low)
+                           : Math.max(left.height, right.height, low) + today.space + middle.height
 
         Column {
             id: left
@@ -70,7 +71,7 @@ Column {
         Column {
             id: middle
             x: today.wide ? left.width + today.space : 0
-            y: today.wide ? 0 : Math.max(left.height, right.height) + today.space
+            y: today.wide ? 0 : parent.height - height
             width: today.wide ? parent.width * 0.42 : parent.width
             spacing: today.space
             PanelCounts {
@@ -90,7 +91,16 @@ Column {
             spacing: today.space
             PanelActions { width: parent.width; panel: today.panel }
             PanelResume { width: parent.width; panel: today.panel }
-            PanelShortcuts { width: parent.width; shown: today.panel.shortcuts }
+        }
+        // Below the shortest column, so that all of it is seen at once.
+        PanelShortcuts {
+            id: shortcuts
+            readonly property Item column: !today.wide || right.height < Math.min(left.height, middle.height) ? right
+                : left.height < middle.height ? left : middle
+            x: column.x
+            y: column.height + today.space
+            width: column.width
+            shown: today.panel.shortcuts
         }
     }
 }
