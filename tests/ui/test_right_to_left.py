@@ -25,6 +25,8 @@ ASKED = Questionnaire.read(ASSETS / "questionnaires" / "gallery.toml").items
 RATED = next(item for item in ASKED if isinstance(item, Likert))
 CHOSEN = next(item for item in ASKED if isinstance(item, Single))
 SLIDER = next(item for item in ASKED if isinstance(item, Slider))
+RIGHT = 2
+"""What ``Text.AlignRight`` is."""
 NEAR = 20
 """From an edge, in pixels."""
 
@@ -93,6 +95,34 @@ def test_the_way_on_stands_at_the_left_and_the_way_back_at_the_right(window: Win
     show(window, screen)
     ahead = "agree" if screen == "consent" else "continue"
     assert place(window, ahead).right() < place(window, "back").left()
+
+
+def alignment(text: QQuickItem) -> object:
+    """Return to which side a text is set, after mirroring."""
+    context = qmlContext(text)
+    assert context is not None
+    found: object = QQmlExpression(context, text, "effectiveHorizontalAlignment").evaluate()
+    return found[0] if isinstance(found, tuple) else found
+
+
+def shown_text(window: Window, words: str) -> QQuickItem:
+    """Return what shows these words."""
+    texts = parts(window.shown.contentItem(), "QQuickText")
+    return next(text for text in texts if text.property("text") == words)
+
+
+def test_title_and_purposes_of_the_consent_begin_at_the_right_whatever_their_letters(window: Window) -> None:
+    show(window, "consent")
+    assert place(window, "page-title").right() == pytest.approx(place(window, "back").right(), abs=1)
+    for purpose in window.screens.consent.property("purposes"):
+        assert alignment(shown_text(window, purpose["text"])) == RIGHT
+
+
+def test_the_helpers_sentence_begins_at_the_right(window: Window) -> None:
+    show(window, "attract")
+    window.screens.avatar.say("Shall we play?")
+    lay_out(window.shown)
+    assert alignment(shown_text(window, "Shall we play?")) == RIGHT
 
 
 def test_a_question_begins_at_the_right_edge(window: Window) -> None:

@@ -18,6 +18,8 @@ Item {
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
     readonly property real room: height - tail - tag - (hasSpeaker ? 3 : 2) * Theme.gap
 
+    LayoutMirroring.enabled: Theme.mirrored
+    LayoutMirroring.childrenInherit: true
     opacity: sentence === "" && !thinks ? 0 : 1
     Behavior on opacity { NumberAnimation { duration: Theme.motion } }
 
@@ -54,6 +56,7 @@ Item {
                 const share = Math.max(0, bubble.room / Math.max(1, usual.height))
                 return share >= 1 ? usual.font.pixelSize : Math.max(Theme.size(0), usual.font.pixelSize * 0.95 * Math.sqrt(share))
             }
+            horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
             lineHeight: 1.12
             Accessible.role: Accessible.AlertMessage
         }

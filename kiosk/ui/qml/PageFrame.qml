@@ -56,7 +56,7 @@ FocusScope {
     PlainText {
         id: heading
         objectName: "page-title"
-        x: body.x
+        x: body.x + Theme.across(0, width, frame.column)
         y: frame.above
         transform: Translate { y: -frame.lift }
         width: frame.column - (frame.beside?.visible ? frame.beside.width + Theme.gap : 0)

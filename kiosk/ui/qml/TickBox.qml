@@ -66,6 +66,7 @@ Choosable {
             Balanced {
                 width: parent.width
                 text: box.words
+                horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font: box.font
                 Accessible.ignored: true
             }
@@ -74,6 +75,7 @@ Choosable {
                 width: parent.width
                 visible: text !== ""
                 text: box.warning || (parts.beside ? "" : box.note)
+                horizontalAlignment: LayoutMirroring.enabled ? Text.AlignLeft : undefined
                 font { pixelSize: Theme.small; bold: box.warning !== "" }
                 wrapMode: Text.Wrap
                 color: box.warning ? Theme.deepAmber : Theme.faintInk
