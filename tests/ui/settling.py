@@ -113,6 +113,11 @@ SOURCES = {
     for name, more in dict.fromkeys(("form", "about", "consent", "debrief"), "kiosk: root.kiosk").items()
 }
 SOURCES["debrief"] = SOURCES["debrief"].replace("kiosk: root.kiosk", 'kiosk: root.kiosk; labName: "A lab"')
+SOURCES["about"] = (
+    SOURCES["about"]
+    .replace("kiosk: root.kiosk", "kiosk: root.kiosk; returning: root.returning")
+    .replace("property real textSize", "required property ReturnScreen returning\n    property real textSize", 1)
+)
 
 ITEMS: TypeAdapter[Item] = TypeAdapter(Item)
 Filling = Callable[[ScreenSet], None]
@@ -212,6 +217,8 @@ class Bench:
         component = QQmlComponent(self._engine)
         component.setData(SOURCES[screen].encode(), QML.as_uri())
         given = {screen: self.screens.by_name[screen], "kiosk": self.screens.kiosk}
+        if screen == "about":
+            given["returning"] = self.screens.by_name["returning"]
         root = component.createWithInitialProperties(given)
         if not isinstance(root, QQuickItem):
             raise TypeError(component.errorString())
