@@ -455,7 +455,7 @@ class AssistanceConfig(ConfigModel):
             description="With timing 'model': a first card gets help if the chance that a pair is recalled is below "
             "this.",
         ),
-    ] = 0.0
+    ] = 0.2
     threshold_second: Annotated[
         float,
         Field(

@@ -54,10 +54,13 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
 OPTIONAL = {
     "participants": ("site", "simulated", "trial"),
     "flow": ("simulated", "trial"),
+    "hints": ("cue",),
     "scores": ("version", "items_not_applicable", "items_not_shown"),
 }
 """Columns that some data sets have."""
 
+DECIDED, PREDICTED = ("participant_id", "flip", "move_card"), ("completes_predicted",)
+"""The columns of the decisions by which a model of memory is compared with what came."""
 DRAWN = ("participant_id", "flip", "move_card", "action", "action_probability", "randomised")
 """The columns of the decisions that a study which explores is analysed by."""
 
@@ -133,6 +136,10 @@ class ExportedStudy:
     plans: tuple[FrozenRecord, ...] = ()
     decisions: ExportTable | None = None
     """The decisions of a study in which some were drawn at random."""
+    modelled: ExportTable | None = None
+    """The decisions of a study with a model of memory, with what it predicted."""
+    remarks: ExportTable | None = None
+    """Praise, encouragement and other remarks, in a study that has some."""
 
     @property
     def participants(self) -> ExportTable:
@@ -162,7 +169,9 @@ def load_study(folder: Path) -> ExportedStudy:
         tables[name] = load_table(folder, name, columns, OPTIONAL.get(name, ()), digest)
     plans = _frozen_plans(folder, digest)
     decisions = _drawn_decisions(folder, digest)
-    return ExportedStudy(folder, str(described.get("name", "")), tables, digest.hexdigest(), plans, decisions)
+    modelled, remarks = _modelled_decisions(folder, digest), _remarks(folder, digest)
+    name = str(described.get("name", ""))
+    return ExportedStudy(folder, name, tables, digest.hexdigest(), plans, decisions, modelled, remarks)
 
 
 def _drawn_decisions(folder: Path, digest: Any) -> ExportTable | None:
@@ -171,6 +180,23 @@ def _drawn_decisions(folder: Path, digest: Any) -> ExportTable | None:
         return None
     drawn = load_table(folder, "decisions", DRAWN).truths("randomised").any()
     return load_table(folder, "decisions", DRAWN, digest=digest) if drawn else None
+
+
+def _modelled_decisions(folder: Path, digest: Any) -> ExportTable | None:
+    """Return the decisions, if a model of memory made predictions."""
+    if not (folder / file_of("decisions")).exists():
+        return None
+    (predicted,) = PREDICTED
+    if predicted not in load_table(folder, "decisions", DECIDED, PREDICTED).columns:
+        return None
+    return load_table(folder, "decisions", (*DECIDED, *PREDICTED), digest=digest)
+
+
+def _remarks(folder: Path, digest: Any) -> ExportTable | None:
+    """Return the remarks, if the study has some."""
+    if not (folder / file_of("remarks")).exists():
+        return None
+    return load_table(folder, "remarks", ("participant_id", "remark"), digest=digest)
 
 
 def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from kiosk.analysis.behaviours import BehaviourCount, MemoryCalibration, count_behaviours, memory_calibration
 from kiosk.analysis.compare import BAYES, TESTS, Comparison, Line, adjust, attempt, compare, directed_p, kept_values
 from kiosk.analysis.data import ExportedStudy, Floats
 from kiosk.analysis.models import Effect, MixedModel, Reliability, collapse, mixed_logistic, reliability, two_by_two
@@ -159,6 +160,10 @@ class Report:
     detectable: float
     proximal: tuple[ProximalEffect, ...] = ()
     """The effect of each kind of hint on its own move; empty unless the study explores."""
+    behaviours: tuple[BehaviourCount, ...] = ()
+    """Looks and remarks by condition; empty unless the study has some."""
+    memory: MemoryCalibration | None = None
+    """How well the model of memory predicted; None without one."""
 
     @property
     def pair(self) -> tuple[str, str]:
@@ -201,6 +206,8 @@ def make_report(
         reached_looks(sample, plan),
         sensitivity(*(int(sample.rows(name).sum()) for name in plan.conditions)),
         _proximal(sample),
+        tuple(_behaviours(sample)),
+        _memory(sample),
     )
 
 
@@ -455,6 +462,19 @@ def _proximal(sample: Sample) -> tuple[ProximalEffect, ...]:
     return proximal_effects(decisions, sample.study.tables["flips"], sample.people.text("participant_id"))
 
 
+def _behaviours(sample: Sample) -> Iterator[BehaviourCount]:
+    people = (sample.people.text(name) for name in ("participant_id", "condition"))
+    study = sample.study
+    return count_behaviours(study.remarks, study.tables["hints"], dict(zip(*people, strict=True)))
+
+
+def _memory(sample: Sample) -> MemoryCalibration | None:
+    modelled = sample.study.modelled
+    if modelled is None:
+        return None
+    return memory_calibration(modelled, sample.study.tables["flips"], frozenset(sample.people.text("participant_id")))
+
+
 def _owners(sample: Sample, table: str) -> Floats:
     """Return the row of each trial's person among those who are analysed, NaN for others."""
     place = {name: float(row) for row, name in enumerate(sample.people.text("participant_id"))}
@@ -556,6 +576,8 @@ def report_json(report: Report) -> dict[str, Any]:
         "two_by_two": _plain(report.design),
         "models": _plain(report.models),
         "proximal_effects": _plain(report.proximal),
+        "behaviours": _plain(report.behaviours),
+        "memory_model": _plain(report.memory),
         "looks": _plain(report.looks),
         "detectable_d": _number(report.detectable),
     }

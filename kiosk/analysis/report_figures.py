@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from scipy import special, stats
 
+from kiosk.analysis.behaviours import MemoryCalibration
 from kiosk.analysis.data import Floats
 from kiosk.analysis.page import Picture, arrow, box, boxes_svg, number, svg_of
 from kiosk.analysis.policy_figures import STYLE
@@ -314,3 +315,24 @@ def _courses(sample: Sample) -> Mapping[str, Floats]:
     found = np.cumsum(found, axis=1)
     arms = {name: found[sample.rows(name)] for name in sample.conditions}
     return {name: arm for name, arm in arms.items() if len(arm) > 2}  # noqa: PLR2004 - no interval from fewer
+
+
+# The model of memory
+
+
+def reliability_picture(memory: MemoryCalibration) -> Picture:
+    """Return the reliability curve: the share that matched over the predicted chance, with 95 % intervals."""
+    bins = memory.bins
+    predicted, matched = ([getattr(each, name) for each in bins] for name in ("predicted", "matched"))
+    with mpl.rc_context(_STYLE):
+        figure = Figure(figsize=(3.4, 3.2))
+        axes = figure.add_axes((0.15, 0.15, 0.82, 0.82))
+        axes.plot((0, 1), (0, 1), color="#888888", linewidth=1, linestyle="--")
+        for each in bins:
+            if not math.isnan(each.matched_low):
+                axes.plot((each.predicted,) * 2, (each.matched_low, each.matched_high), color="#0072B2", linewidth=1.2)
+        axes.plot(predicted, matched, color="#0072B2", linewidth=1.2, marker="o", markersize=4)
+        axes.set(xlabel="predicted chance of a match", ylabel="share that matched", xlim=(0, 1), ylim=(0, 1))
+    caption = "Second cards without a hint: predicted and observed. On the dashed line both are the same."
+    told = "; ".join(f"predicted {one:.2f}, matched {other:.2f}" for one, other in zip(predicted, matched, strict=True))
+    return Picture("memory-reliability", caption, svg_of(figure, "memory-reliability"), f"{told}.")

@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from kiosk import __version__
+from kiosk.analysis.behaviours import BINS, MemoryCalibration
 from kiosk.analysis.compare import Comparison, Line
 from kiosk.analysis.data import scale_remarks
 from kiosk.analysis.page import (
@@ -29,7 +30,14 @@ from kiosk.analysis.page import (
 )
 from kiosk.analysis.paper import paper_section
 from kiosk.analysis.report import CONFIRMATORY, HypothesisResult, Report, SensitivityResult, describe
-from kiosk.analysis.report_figures import bayes_figure, course_picture, effects_figure, flow_figure, values_picture
+from kiosk.analysis.report_figures import (
+    bayes_figure,
+    course_picture,
+    effects_figure,
+    flow_figure,
+    reliability_picture,
+    values_picture,
+)
 from kiosk.analysis.sample import Measure
 
 TEST_NAMES = {
@@ -76,6 +84,10 @@ def _sections(report: Report) -> Iterator[Section]:
         yield Section("pairs", _also(report, "Other pairs of conditions"), tuple(_other_pairs(report)))
     if report.proximal:
         yield Section("proximal", _also(report, "What each kind of hint does"), tuple(_proximal(report)))
+    if report.behaviours:
+        yield Section("behaviours", _also(report, "Looks and remarks"), tuple(_behaviours(report)))
+    if report.memory is not None:
+        yield Section("memory", _also(report, "The model of memory"), tuple(_memory(report.memory)))
     yield Section("course", _also(report, "The course of the game"), tuple(_course(report)))
     yield Section("reliability", "Reliability of the scales", tuple(_reliability(report)))
 
@@ -393,6 +405,36 @@ def _proximal(report: Report) -> Iterator[Block]:
     )
     caption = "How much more often a move matched with each kind of hint than without help."
     yield ReportTable("proximal-table", caption, head, tuple(rows), note)
+
+
+def _behaviours(report: Report) -> Iterator[Block]:
+    rows = tuple(
+        (each.behaviour, each.condition, str(each.times), number(each.per_person)) for each in report.behaviours
+    )
+    head = ("behaviour", "condition", "times", "per person")
+    yield ReportTable("behaviours-table", "How often the helper looked, praised and encouraged.", head, rows, "")
+
+
+def _memory(memory: MemoryCalibration) -> Iterator[Block]:
+    yield reliability_picture(memory)
+    rows = tuple(
+        (
+            f"{each.low:.1f} to {each.low + 1 / BINS:.1f}",
+            str(each.cards),
+            str(each.people),
+            number(each.predicted, 3),
+            f"{number(each.matched, 3)} {interval(each.matched_low, each.matched_high)}",
+        )
+        for each in memory.bins
+    )
+    head = ("predicted chance", "second cards", "people", "mean prediction", "matched [95 %]")
+    note = (
+        f"{memory.cards} second cards without a hint, of {memory.people} people. Brier score {number(memory.brier, 3)} "
+        f"({number(memory.brier_of_share, 3)} for always predicting the share of matches); expected calibration error "
+        f"{number(memory.calibration_error, 3)}. Intervals come from leaving out one person at a time."
+    )
+    caption = "What the model of memory predicted before second cards, and how many matched."
+    yield ReportTable("memory-table", caption, head, rows, note)
 
 
 def _comparison_table(

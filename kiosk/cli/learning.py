@@ -340,7 +340,7 @@ def _say(document: dict[str, Any], text: str, *, json_: bool) -> None:
     show_default=True,
     help="What decides when to help, as in a study file.",
 )
-@click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (0).")
+@click.option("--threshold-first", type=float, help="With --timing model: help with first cards below this (.2).")
 @click.option("--threshold-second", type=float, help="With --timing model: help with second cards below this (.2).")
 @click.option("--threshold-card", type=float, help="With --timing model: name a seen second card below this (.05).")
 @click.option("--threshold-flips", type=int, help="With --timing model: no help before so many flips (24).")

@@ -118,7 +118,7 @@ def test_train_writes_thresholds_that_a_study_file_can_take(tmp_path: Path) -> N
 def test_simulate_plays_by_the_model() -> None:
     words = ("simulate", "--player", "memory", "--games", "3", "--timing", "model", "--threshold-second", ".7")
     document = told(*words)
-    assert document["timing"] == {"first": 0.0, "second": 0.7, "card": 0.05, "flips": 24}
+    assert document["timing"] == {"first": 0.2, "second": 0.7, "card": 0.05, "flips": 24}
     assert document["assistance_per_flip"] > 0
 
 
