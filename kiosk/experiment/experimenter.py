@@ -208,6 +208,8 @@ class AuditEvent(Enum):
     BACKUP_FAILED = "BackupFailed"
     DISK_SPACE_CHANGED = "DiskSpaceChanged"
     VOICE_CHANGED = "VoiceChanged"
+    WITHDRAWN_AGAIN = "WithdrawnAgain"
+    WITHDRAWN_LIST_MISSING = "WithdrawnListMissing"
 
 
 DEVIATIONS = frozenset(
@@ -224,6 +226,8 @@ DEVIATIONS = frozenset(
         AuditEvent.BACKUP_FAILED,
         AuditEvent.DISK_SPACE_CHANGED,
         AuditEvent.VOICE_CHANGED,
+        AuditEvent.WITHDRAWN_AGAIN,
+        AuditEvent.WITHDRAWN_LIST_MISSING,
     }
 )
 """What a day's protocol has to tell; the rest is routine."""

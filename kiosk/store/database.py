@@ -313,7 +313,7 @@ LOCK = "recollect.lock"
 BACKUPS = "backups"
 """Where copies are kept in a data folder, unless told otherwise."""
 
-_OURS = ("recollect*", f"{BACKUPS}/recollect-*", f"{BACKUPS}/*.lock", "status.json")
+_OURS = ("recollect*", f"{BACKUPS}/recollect*", f"{BACKUPS}/*.lock", "status.json")
 """What an earlier version, a copy by hand or another system may have left open to others."""
 
 LOCK_WAIT_S = 1.0

@@ -18,6 +18,7 @@ from typing import Any, Self
 from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
 from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
+from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
@@ -35,6 +36,8 @@ from kiosk.store.participants import (
     returning_visitor,
 )
 from kiosk.store.summaries import go_on
+from kiosk.store.tombstones import FILE as LIST
+from kiosk.store.tombstones import add_tombstones, is_list_there
 from kiosk.store.withdrawal import bury, finish_cut_off, is_unfinished, note_intention
 
 
@@ -175,7 +178,7 @@ class Recorder:
         self.sessions_begun = 0
         """How many sessions were begun with this recorder."""
         try:
-            self._connection = self._open()
+            self._connection, found = self._open()
         except BaseException:
             self._lock.release()
             raise
@@ -184,6 +187,9 @@ class Recorder:
         try:
             with self.retrying(OPENING_WAIT_MS), self._transaction():
                 self.recovered = mark_interrupted(self._connection)
+                for note, payload in found:
+                    self._note(note.value, payload)
+            self._keep_list()
         except StorageError as error:
             self._close()
             cause = error.__cause__
@@ -332,27 +338,44 @@ class Recorder:
 
         ``wall_ms`` is when that was, in ms since 1970; by default now.
         """
+        with self._transaction():
+            self._note(kind, payload, wall_ms)
+
+    def _note(self, kind: str, payload: Mapping[str, Any], wall_ms: int | None = None) -> None:
         row: dict[str, str | int | None] = {
             "wall_ms": now_ms() if wall_ms is None else wall_ms,
             "type": kind,
             "payload": json_text(payload),
         }
-        with self._transaction():
-            insert(self._connection, "audit_event", row)
+        insert(self._connection, "audit_event", row)
 
-    def _open(self) -> sqlite3.Connection:
+    def _open(self) -> tuple[sqlite3.Connection, list[tuple[AuditEvent, dict[str, Any]]]]:
+        """Open the database; returns also what the experimenter has to know of people who withdrew."""
+        found: list[tuple[AuditEvent, dict[str, Any]]] = []
         connection = open_for_writing(self.folder)
+        if not is_list_there(connection, self.folder):
+            _log.warning("the list of people who withdrew is missing beside the database")
+            found.append((AuditEvent.WITHDRAWN_LIST_MISSING, {"list": LIST}))
         if not is_unfinished(connection, self.folder):
-            return connection
+            return connection, found
         connection.close()
         try:
             back = finish_cut_off(self.folder)
             if back:
                 _log.warning("people who had withdrawn still stood in the database and were deleted: %s", back)
+                found.append((AuditEvent.WITHDRAWN_AGAIN, {"people": back}))
         except (StorageError, UserInputError) as failed:
             # Visitors can come all the same; it is tried again at the next start, and ``verify`` tells of it.
             _log.error("%s", failed)
-        return open_for_writing(self.folder)
+        return open_for_writing(self.folder), found
+
+    def _keep_list(self) -> None:
+        """Have a list of people who withdrew beside the database, which is empty at first."""
+        try:
+            gone = self._connection.execute("SELECT hash FROM withdrawn_code").fetchall()
+            add_tombstones(self.folder, (code for (code,) in gone))
+        except (OSError, sqlite3.Error) as error:
+            _log.error("the list of people who withdrew could not be written: %s", reason(error, self.folder))
 
     def _lists(self, *, kind: SessionKind) -> AllocationLists:
         return AllocationLists(self._connection, self.site, kind=kind)

@@ -30,15 +30,44 @@ def read_tombstones(folder: Path) -> frozenset[bytes]:
 
 
 def add_tombstones(folder: Path, hashes: Iterable[bytes]) -> None:
-    """Have hashes on the disk, beside the others; raises OSError and leaves the list as it was."""
+    """Have hashes on the disk, beside the others; raises OSError and leaves the list as it was.
+
+    The list is made even if it has no entry: a database without one was carried here without it.
+    """
     file = folder / FILE
     before = frozenset(_read(file))
     after = before | frozenset(hashes)
-    if after == before:
+    if after == before and file.exists():
         return
     replace_file(file, "".join(f"{each.hex()} {_check(each)}\n" for each in sorted(after)), PRIVATE)
     make_private(file)
     give_to_owner_of_folder(file)
+
+
+def list_flaws(connection: sqlite3.Connection, folder: Path) -> Iterator[str]:
+    """Yield what is wrong with the list of a folder whose database has sessions."""
+    lists = [place / FILE for place in (folder, folder / BACKUPS)]
+    if not is_list_there(connection, folder):
+        yield (
+            "is missing: put the one that lay beside this database with it, for people may have withdrawn since; if "
+            "there is none, open the kiosk once"
+        )
+        return
+    torn = sum(len(_lines(file)) - len(list(_read(file))) for file in lists)
+    if torn:
+        yield f"has {torn} lines that cannot be read"
+    there = {found for (found,) in connection.execute("SELECT hash FROM withdrawn_code")}
+    lacking = len(there - read_tombstones(folder))
+    if lacking:
+        yield f"lacks {lacking} codes of people who withdrew by the database"
+
+
+def is_list_there(connection: sqlite3.Connection, folder: Path) -> bool:
+    """Return whether a list lies beside a database, or beside its copies; a database without sessions needs none."""
+    if any((place / FILE).exists() for place in (folder, folder / BACKUPS)):
+        return True
+    has_rows = "SELECT EXISTS (SELECT 1 FROM session) OR EXISTS (SELECT 1 FROM tombstone)"
+    return not connection.execute(has_rows).fetchone()[0]
 
 
 def withdrawn_hashes(connection: sqlite3.Connection, folder: Path) -> frozenset[bytes]:
@@ -69,12 +98,15 @@ def copies_with(folder: Path, hashes: frozenset[bytes]) -> Iterator[tuple[Path, 
             yield copy, sessions
 
 
-def _read(file: Path) -> Iterator[bytes]:
+def _lines(file: Path) -> list[str]:
     try:
-        lines = file.read_text("ascii", "replace").splitlines()
+        return file.read_text("ascii", "replace").splitlines()
     except OSError:
-        return
-    for line in lines:
+        return []
+
+
+def _read(file: Path) -> Iterator[bytes]:
+    for line in _lines(file):
         digits, _, check = line.partition(" ")
         if len(digits) == _DIGITS and not set(digits) - set("0123456789abcdef"):
             found = bytes.fromhex(digits)

@@ -23,7 +23,8 @@ from kiosk.store.maintenance import Progress
 from kiosk.store.participants import quotas_from_json, slots_from_json
 from kiosk.store.schema import NONE_OF_OURS, refuse_other_schema, schema_flaws
 from kiosk.store.summaries import wrong_summaries, wrong_tally
-from kiosk.store.tombstones import copies_with, sessions_of, withdrawn_hashes
+from kiosk.store.tombstones import FILE as LIST
+from kiosk.store.tombstones import copies_with, list_flaws, sessions_of, withdrawn_hashes
 
 
 class Verification(Enum):
@@ -43,6 +44,7 @@ class Verification(Enum):
     ALLOCATION = "lists meet their quotas, and sessions their slots"
     WITHDRAWN = "nothing is left of what was withdrawn"
     FINISHED = "every withdrawal is finished"
+    LIST = "the list of people who withdrew lies beside it, whole"
     COPIES = "no copy in the folder holds anybody who withdrew"
     SUMMARIES = "summaries and counts say what the events say"
     VOICE = "one voice speaks each language of a study"
@@ -73,6 +75,7 @@ def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda
         **{check: partial(_found_by, of_events, check) for check in _OF_EVENTS},
         Verification.HEADS: partial(_heads, folder=folder),
         Verification.FINISHED: partial(_finished, folder=folder),
+        Verification.LIST: partial(_list, folder=folder),
         Verification.COPIES: partial(_copies, folder=folder),
     }
     connection.execute("BEGIN")
@@ -337,6 +340,11 @@ def _finished(connection: sqlite3.Connection, folder: Path | None = None) -> _Fo
         )
 
 
+def _list(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
+    for what in list_flaws(connection, folder) if folder is not None else ():
+        yield LIST, what
+
+
 def _copies(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
     for copy, sessions in copies_with(folder, withdrawn_hashes(connection, folder)) if folder is not None else ():
         yield copy.name, f"it holds session {', '.join(map(str, sessions))} of people who withdrew"
@@ -395,6 +403,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.ALLOCATION: _places,
     Verification.WITHDRAWN: _withdrawn,
     Verification.FINISHED: _finished,
+    Verification.LIST: _list,
     Verification.COPIES: _copies,
     Verification.SUMMARIES: _summaries,
     Verification.VOICE: _voice,

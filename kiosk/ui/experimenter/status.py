@@ -454,6 +454,7 @@ def _what(noted: SnapshotAuditEvent, translate: Translate, told: NameCondition) 
         AuditEvent.SESSION_RESUMED: "session",
     }
     of |= {AuditEvent.PIN_REFUSED: "in_a_row", AuditEvent.BACKUP_FAILED: "why", AuditEvent.VOICE_CHANGED: "message"}
+    of |= {AuditEvent.WITHDRAWN_AGAIN: "people", AuditEvent.WITHDRAWN_LIST_MISSING: "list"}
     value = payload.get(of.get(noted.kind, ""), "")
     return value if isinstance(value, str) else json.dumps(value)
 

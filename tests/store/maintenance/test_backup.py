@@ -22,6 +22,7 @@ from kiosk.store.database import FILE
 from kiosk.store.maintenance import FOLDER, back_up, list_backups
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.store.tombstones import FILE as LIST
 from tests.store.visitors import BEGUN, COMPLETED
 from tests.store.writer import GONE
 
@@ -62,7 +63,7 @@ def test_a_copy_is_one_file_for_its_owner_alone(folder: Path, into: Path, proven
     with Recorder(folder) as recorder:
         recorder.begin(provenance, COMPLETED)
         copy = back_up(folder, into)
-    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock"}
+    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock", LIST}
     assert copy.stat().st_mode & 0o077 == 0
     assert into.stat().st_mode & 0o077 == 0
 
@@ -162,7 +163,7 @@ def test_what_a_copy_that_was_cut_off_left_is_cleared(folder: Path, into: Path, 
     for name in (left, left.with_name(f"{left.name}-journal")):
         name.touch()
     copy = back_up(folder, into)
-    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock"}
+    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock", LIST}
 
 
 # Refused, or failed
@@ -217,7 +218,7 @@ def test_a_copy_that_the_disk_does_not_take_leaves_the_older_ones(
         patched.setattr(os, "fsync", full)
         with pytest.raises(StorageError, match=r"the copy in .* could not be written: disk full"):
             back_up(folder, into, keep=1)
-    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock"}
+    assert {file.name for file in into.iterdir()} == {copy.name, "backup.lock", LIST}
     assert len(events_in(copy)) == 301
 
 
