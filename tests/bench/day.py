@@ -1,0 +1,155 @@
+"""What a day costs a kiosk: ``python -m tests.bench.day [--sessions 200] [--gaps 3] [--seconds 60]``.
+
+It prints how much memory and how many handles each session leaves behind, with a robot that fails at random; how long
+the event loop keeps anything waiting in real time; and which share of a core the start screen and a game at rest take.
+Shares and memory are those of this process alone, so other programs change them little. Gaps need a quiet machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from statistics import linear_regression, quantiles
+from time import monotonic, process_time
+
+import click
+from PySide6.QtCore import QObject, Qt, QTimer
+
+from kiosk.cli.composition import read_settings
+from kiosk.experiment.events import Stage
+from kiosk.experiment.session_config import SessionKind
+from kiosk.robots.simulated import FlakyRobot
+from kiosk.store.recorder import Recorder
+from kiosk.study.loader import read_study
+from kiosk.ui.app import App
+from kiosk.ui.rehearsal import Rehearsal, draw_visitors, rehearse_day
+from kiosk.ui.session_runner import ConditionAssigner, RunContext
+from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile
+from kiosk.ui.window import ClockMode, RunMode, WindowMode
+from kiosk.units import MS_PER_SECOND
+
+WARM_UP = 30
+"""Sessions before memory is counted: pictures, fonts and sentences are loaded when they are first needed."""
+
+BEAT_MS = 5
+
+
+class Gaps(QObject):
+    """How late a timer of the event loop comes, each time, in ms."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.late: list[float] = []
+        self._due = 0.0
+        self._timer = QTimer(self)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._beat)
+        self._timer.start(BEAT_MS)
+
+    def _beat(self) -> None:
+        now = monotonic() * MS_PER_SECOND
+        if self._due:
+            self.late.append(max(0.0, now - self._due))
+        self._due = now + BEAT_MS
+
+
+class Resting(Rehearsal):
+    """A visitor who stops in the middle of a game; the share of a core is taken from there on."""
+
+    def __init__(self, app: App, seconds: float) -> None:
+        super().__init__(app, 1, visitor=BehaviourProfile(BehaviourKind.LEAVES, Stage.GAME))
+        self.share = 0.0
+        self._seconds = seconds
+        self._watched = False
+
+    def _is_gone(self) -> bool:
+        if super()._is_gone() and not self._watched:
+            self._watched = True
+            # It would take a part of the core itself.
+            self.pulse.stop()
+            QTimer.singleShot(2 * MS_PER_SECOND, self._begin)
+        return super()._is_gone()
+
+    def _begin(self) -> None:
+        before, since = process_time(), monotonic()
+
+        def end() -> None:
+            self.share = (process_time() - before) / (monotonic() - since)
+            self._app.quit()
+
+        QTimer.singleShot(round(self._seconds * MS_PER_SECOND), end)
+
+
+@contextmanager
+def kiosk(folder: Path, mode: RunMode, robot: FlakyRobot | None = None) -> Iterator[App]:
+    """Open the kiosk on no screen, for the study that is shipped."""
+    study, seeds = read_study(read_settings(None)), count(1)
+    origin = RunContext("a bench", kind=SessionKind.SIMULATED, seed=lambda: next(seeds))
+    with Recorder(folder) as recorder, App(mode, recorder, ConditionAssigner(study, recorder, origin), robot) as app:
+        yield app
+
+
+def memory(folder: Path, sessions: int) -> None:
+    """Print what each session leaves behind, as a slope over those after the warm-up."""
+    with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.VIRTUAL), FlakyRobot(1)) as app:
+        visitors = list(draw_visitors(sessions, 1, app.assigner.study.languages))
+        held = list(rehearse_day(app, 1, visitors, folder))[min(WARM_UP, sessions // 2) :]
+    slope = linear_regression(range(len(held)), [each.memory_kib for each in held]).slope
+    handles = [each.handles for each in held]
+    click.echo(
+        f"memory: {slope:+.1f} KiB a session over {len(held)}, from {held[0].memory_kib} to {held[-1].memory_kib} KiB; "
+        f"handles: {handles[0]}, at most {max(handles)}, {handles[-1]} at the end"
+    )
+
+
+def gaps(folder: Path, sessions: int) -> None:
+    """Print how late the event loop is in real time, while the robot fails at random."""
+    with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL), FlakyRobot(1)) as app:
+        seen = Gaps()
+        for seed in range(sessions):
+            Rehearsal(app, seed).run()
+    hundredths = quantiles(seen.late, n=100)
+    click.echo(
+        f"gaps of the loop in {sessions} sessions: half under {hundredths[49]:.1f} ms, "
+        f"99 % under {hundredths[98]:.1f} ms, the longest {max(seen.late):.1f} ms, of {len(seen.late)}"
+    )
+
+
+def shares(folder: Path, seconds: float) -> None:
+    """Print the shares of a core."""
+    with kiosk(folder, RunMode(WindowMode.NOWHERE, ClockMode.WALL)) as app:
+        # The pages are prepared first.
+        QTimer.singleShot(5 * MS_PER_SECOND, app.quit)
+        app.run()
+        before, since = process_time(), monotonic()
+        QTimer.singleShot(round(seconds * MS_PER_SECOND), app.quit)
+        app.run()
+        click.echo(f"start screen: {(process_time() - before) / (monotonic() - since):.1%} of a core")
+        resting = Resting(app, seconds)
+        resting.run()
+        click.echo(f"game at rest: {resting.share:.1%} of a core")
+
+
+def main() -> int:
+    """Measure what is asked for."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--sessions", type=int, default=200, help="sessions for memory; 0 leaves it out")
+    parser.add_argument("--gaps", type=int, default=3, help="sessions in real time; 0 leaves them out")
+    parser.add_argument("--seconds", type=float, default=60, help="time for each share; 0 leaves them out")
+    asked = parser.parse_args()
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    for measure, amount in ((memory, asked.sessions), (gaps, asked.gaps), (shares, asked.seconds)):
+        if amount:
+            with tempfile.TemporaryDirectory() as folder:
+                measure(Path(folder), amount)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
