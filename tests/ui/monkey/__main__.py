@@ -48,6 +48,8 @@ INPUTS_PER_S = 50
 LOOK_S = 0.5
 KILL_S = (15, 120)
 """A kill comes so long after the one before."""
+ORPHAN_S = 2 * LEFTOVER_S
+"""How long a kiosk may take to notice that its supervisor is gone, and to end, on a machine that is busy."""
 SUPERVISORS = 0.2
 """How many of the kills hit the supervisor instead; it is started again at once, while the kiosk it had is to end."""
 CALM = (0.35, 0.7)
@@ -149,7 +151,7 @@ class Watcher:
         self._began = monotonic()
         self._up = False
         self._stage = ""
-        self._orphaned_at = -LEFTOVER_S
+        self._orphaned_at = -ORPHAN_S
         self._lost_at: float | None = monotonic()
         self._answered_at = monotonic()
 
@@ -172,7 +174,7 @@ class Watcher:
     def weigh(self) -> None:
         """Count and weigh the processes."""
         kiosks = self.booth.kiosks()
-        if monotonic() - self._orphaned_at > LEFTOVER_S:
+        if monotonic() - self._orphaned_at > ORPHAN_S:
             self.seen.most_kiosks = max(self.seen.most_kiosks, len(kiosks))
         for of, process in (("kiosk", kiosks[:1]), ("supervisor", [psutil.Process(self.booth.process.pid)])):
             with suppress(psutil.Error):
