@@ -17,7 +17,8 @@ settings.load_profile("untimed")
 
 SLOW = (
     *("ui", "packaging", "plugins", "analysis", "training", "bench", "supervisor", "export"),
-    *("cli/test_readme.py", "cli/test_supervise.py", "cli/test_explain_session.py", "cli/test_output.py"),
+    *("cli/test_readme.py", "cli/test_pages.py", "cli/test_supervise.py", "cli/test_output.py"),
+    "cli/test_explain_session.py",
     *("cli/test_robot.py", "cli/test_check.py", "assistance/test_truth.py", "experiment/test_any_session.py"),
     *("experiment/test_replay.py", "experiment/test_stages.py", "experiment/test_two_conditions.py"),
     *("experiment/test_events.py", "store/maintenance/test_withdraw_cut_off.py", "store/test_hard_times.py"),
@@ -27,7 +28,8 @@ SLOW = (
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
 LONGEST = (
-    *("ui/test_every_language_fits.py", "packaging/test_builds.py", "cli/test_readme.py", "ui/test_faults.py"),
+    *("ui/test_every_language_fits.py", "packaging/test_builds.py", "cli/test_readme.py", "cli/test_pages.py"),
+    "ui/test_faults.py",
     *("ui/test_accessibility.py", "ui/test_whole_session.py", "ui/test_resume.py", "ui/test_without_a_mouse.py"),
     *("ui/test_nothing_is_left.py", "analysis/test_plan.py"),
 )
