@@ -137,21 +137,30 @@ def verify_command(data: Path, *, as_json: bool) -> None:
     with progress_bar("checking", hidden=as_json) as tell:
         flaws = checking.verify(data, tell)
     # A database that is wrong in another way is left as it was found.
-    if flaws and {flaw.check for flaw in flaws} <= {Verification.FINISHED, Verification.COPIES} and not in_use(data):
+    here = [flaw for flaw in flaws if flaw.check in {Verification.FINISHED, Verification.COPIES}]
+    others = {flaw.check for flaw in flaws if flaw not in here}
+    if here and others <= {Verification.ELSEWHERE} and not in_use(data):
         try:
             withdrawing.finish_at_rest(data)
         except (StorageError, UserInputError) as failure:
             click.echo(f"What was withdrawn could not be deleted: {failure}", err=True)
         else:
             click.echo("What was left of people who withdrew is deleted now:", err=True)
-            for flaw in flaws:
+            for flaw in here:
                 click.echo(f"  {one_line(f'{flaw.where}: {flaw.what}')}", err=True)
             flaws = checking.verify(data)
+    unseen = checking.copies_not_looked_into(data)
     if as_json:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
-        click.echo(json.dumps({"data": str(data), "sound": not flaws, "results": rows}))
+        places = [{"kind": copy.kind.value, "place": str(copy.place), "why": why} for copy, why in unseen]
+        told = {"data": str(data), "sound": not flaws, "results": rows}
+        click.echo(json.dumps(told | ({"copies_not_looked_into": places} if places else {})))
     else:
         console().print(_table(flaws))
+        if unseen:
+            click.echo("People who withdrew may be in these copies elsewhere, which were not looked into:", err=True)
+        for copy, why in unseen:
+            click.echo(f"  {one_line(f'{copy.kind.value} of {copy.made_at[:10]}: {copy.place}: {why}')}", err=True)
     sys.exit(SOMETHING_WRONG if flaws else 0)
 
 

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from kiosk.files import sync_folder
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
+from kiosk.store.database import FILE as DATABASE
+from kiosk.store.tombstones import sessions_in
 
 FILE = "recollect.copies"
 
@@ -63,6 +65,38 @@ def known_copies(folder: Path) -> list[KnownCopy]:
     """
     found = {copy.place: copy for copy in _read(folder / FILE)}
     return [copy for copy in found.values() if copy.place.exists() or not copy.place.parent.exists()]
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """What was found in the copies of a folder that are elsewhere."""
+
+    holding: tuple[tuple[KnownCopy, list[int]], ...] = ()
+    """Copies that hold people who withdrew, and their sessions there."""
+    unseen: tuple[tuple[KnownCopy, str], ...] = ()
+    """Copies that could not be looked into, and why."""
+
+
+def look_elsewhere(folder: Path, hashes: frozenset[bytes], last_day: str) -> Elsewhere:
+    """Look for people who withdrew in all copies elsewhere that are known of.
+
+    ``last_day`` is the newest day of a withdrawal: a data set that was made later holds none of them.
+    """
+    holding: list[tuple[KnownCopy, list[int]]] = []
+    unseen: list[tuple[KnownCopy, str]] = []
+    for copy in known_copies(folder) if hashes else ():
+        if copy.kind is CopyKind.EXPORT:
+            if copy.made_at[: len(last_day)] <= last_day:
+                unseen.append((copy, f"a data set names no codes; the last withdrawal was on {last_day}"))
+            continue
+        database = copy.place / DATABASE if copy.kind is CopyKind.MERGE else copy.place
+        sessions = sessions_in(database, hashes)
+        if sessions:
+            holding.append((copy, sessions))
+        elif sessions is None:
+            why = "it cannot be read, or is encrypted" if database.exists() else "it is not there, or not plugged in"
+            unseen.append((copy, why))
+    return Elsewhere(tuple(holding), tuple(unseen))
 
 
 def _read(file: Path) -> Iterator[KnownCopy]:

@@ -87,15 +87,20 @@ def sessions_of(connection: sqlite3.Connection, hashes: frozenset[bytes]) -> lis
 def copies_with(folder: Path, hashes: frozenset[bytes]) -> Iterator[tuple[Path, list[int]]]:
     """Yield the copies in a data folder that hold people who withdrew, and their sessions there."""
     for copy in sorted((folder / BACKUPS).glob("recollect-*.db")) if hashes else ():
-        try:
-            with closing(open_copy(copy)) as connection:
-                # Earlier schemas were never released, and have no codes.
-                known = connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA
-                sessions = sessions_of(connection, hashes) if known else []
-        except (OSError, sqlite3.Error, UserInputError):
-            continue
+        sessions = sessions_in(copy, hashes)
         if sessions:
             yield copy, sessions
+
+
+def sessions_in(database: Path, hashes: frozenset[bytes]) -> list[int] | None:
+    """Return the sessions that a copy holds of people who withdrew; None if it cannot be read."""
+    try:
+        with closing(open_copy(database)) as connection:
+            # Earlier schemas were never released, and have no codes.
+            known = connection.execute("PRAGMA user_version").fetchone()[0] == SCHEMA
+            return sessions_of(connection, hashes) if known else None
+    except (OSError, sqlite3.Error, UserInputError):
+        return None
 
 
 def _lines(file: Path) -> list[str]:

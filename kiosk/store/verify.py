@@ -18,6 +18,7 @@ from kiosk.experiment.events import from_fields
 from kiosk.garbage import rare_collections
 from kiosk.store.chain import chained_events, lost_ends, missing_since_written
 from kiosk.store.connecting import reason
+from kiosk.store.copies import Elsewhere, KnownCopy, look_elsewhere
 from kiosk.store.database import MIGRATIONS, open_as_it_is
 from kiosk.store.maintenance import Progress
 from kiosk.store.participants import quotas_from_json, slots_from_json
@@ -46,6 +47,7 @@ class Verification(Enum):
     FINISHED = "every withdrawal is finished"
     LIST = "the list of people who withdrew lies beside it, whole"
     COPIES = "no copy in the folder holds anybody who withdrew"
+    ELSEWHERE = "no copy elsewhere that can be reached holds people who withdrew"
     SUMMARIES = "summaries and counts say what the events say"
     VOICE = "one voice speaks each language of a study"
 
@@ -77,6 +79,7 @@ def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda
         Verification.FINISHED: partial(_finished, folder=folder),
         Verification.LIST: partial(_list, folder=folder),
         Verification.COPIES: partial(_copies, folder=folder),
+        Verification.ELSEWHERE: partial(_elsewhere, folder=folder),
     }
     connection.execute("BEGIN")
     # A view in the place of a table could be read without end.
@@ -350,6 +353,29 @@ def _copies(connection: sqlite3.Connection, folder: Path | None = None) -> _Foun
         yield copy.name, f"it holds session {', '.join(map(str, sessions))} of people who withdrew"
 
 
+def _elsewhere(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
+    for copy, sessions in _looked_elsewhere(connection, folder).holding if folder is not None else ():
+        yield (
+            f"the {copy.kind.value} {copy.place}",
+            f"it holds session {', '.join(map(str, sessions))} of people who withdrew: delete them there, or the copy",
+        )
+
+
+def copies_not_looked_into(folder: Path) -> tuple[tuple[KnownCopy, str], ...]:
+    """Return the copies elsewhere in which people who withdrew may be, and why that cannot be seen."""
+    with closing(open_as_it_is(folder)) as connection:
+        try:
+            return _looked_elsewhere(connection, folder).unseen
+        except sqlite3.Error:
+            # The flaws of the database say why.
+            return ()
+
+
+def _looked_elsewhere(connection: sqlite3.Connection, folder: Path) -> Elsewhere:
+    (last_day,) = connection.execute("SELECT coalesce(max(withdrawn_at), '') FROM tombstone").fetchone()
+    return look_elsewhere(folder, withdrawn_hashes(connection, folder), str(last_day))
+
+
 def _summaries(connection: sqlite3.Connection) -> _Found:
     for session, what in wrong_summaries(connection):
         yield f"the summary of session {session}", what
@@ -389,7 +415,7 @@ _SHORT = 12
 
 _WHATEVER_THE_SCHEMA = {Verification.FILE, Verification.SCHEMA}
 
-_HARMLESS = {Verification.VOICE, Verification.FINISHED, Verification.COPIES}
+_HARMLESS = {Verification.VOICE, Verification.FINISHED, Verification.COPIES, Verification.ELSEWHERE}
 """What is no sign that anything was changed; a merge refuses people who withdrew by itself, and names them."""
 
 _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
@@ -405,6 +431,7 @@ _LOOKS: dict[Verification, Callable[[sqlite3.Connection], _Found]] = {
     Verification.FINISHED: _finished,
     Verification.LIST: _list,
     Verification.COPIES: _copies,
+    Verification.ELSEWHERE: _elsewhere,
     Verification.SUMMARIES: _summaries,
     Verification.VOICE: _voice,
 }

@@ -9,17 +9,21 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 from kiosk import UserInputError
+from kiosk.cli.main import recollect
 from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.session_config import SessionKind
+from kiosk.store.copies import CopyKind, note_copy
 from kiosk.store.database import FILE
+from kiosk.store.drives import carry
 from kiosk.store.maintenance import back_up
 from kiosk.store.merge import merge
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import read_snapshot
 from kiosk.store.tombstones import FILE as LIST
-from kiosk.store.verify import Verification, verify
+from kiosk.store.verify import Verification, copies_not_looked_into, verify
 from kiosk.store.withdrawal import withdraw
 from tests.store.visitors import COMPLETED
 
@@ -99,3 +103,34 @@ def test_people_who_are_deleted_again_at_a_start_are_told_in_the_panel(
         assert told(folder) == [(AuditEvent.WITHDRAWN_AGAIN, {"people": 1})]
     with Recorder(folder):
         assert len(told(folder)) == 1
+
+
+def test_verify_looks_into_copies_elsewhere_and_names_those_that_it_cannot_reach(
+    folder: Path, codes: list[str], tmp_path: Path
+) -> None:
+    stick, merged = tmp_path / "stick", tmp_path / "merged"
+    carried = carry(folder, stick, keep=1)
+    merge([folder], merged)
+    for kind, place in (
+        (CopyKind.BACKUP, carried.file),
+        (CopyKind.MERGE, merged),
+        (CopyKind.BACKUP, tmp_path / "unplugged" / "recollect-1.db"),
+        (CopyKind.EXPORT, tmp_path),
+    ):
+        note_copy(folder, kind, place)
+    assert (found(folder), copies_not_looked_into(folder)) == ([], ())
+    withdraw(folder, codes[0])
+    assert [(flaw.check, flaw.what.partition(":")[0]) for flaw in verify(folder)] == [
+        (Verification.ELSEWHERE, "it holds session 1 of people who withdrew")
+    ] * 2
+    unseen = copies_not_looked_into(folder)
+    assert [why.partition(";")[0] for _, why in unseen] == [
+        "it is not there, or not plugged in",
+        "a data set names no codes",
+    ]
+    told = CliRunner().invoke(recollect, ["verify", "--data", str(folder)])
+    assert told.exit_code == 1
+    assert "unplugged" in told.stderr
+    withdraw(merged, codes[0])
+    carried.file.unlink()
+    assert found(folder) == []
