@@ -52,7 +52,7 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
 """The tables of a report, and the columns that each must have."""
 
 OPTIONAL = {
-    "participants": ("site", "simulated", "trial"),
+    "participants": ("site", "simulated", "trial", "visit"),
     "flow": ("simulated", "trial"),
     "hints": ("cue",),
     "scores": ("version", "items_not_applicable", "items_not_shown"),

@@ -563,6 +563,7 @@ def report_json(report: Report) -> dict[str, Any]:
         "conditions": list(sample.conditions),
         "compared": list(report.pair),
         "analysed": {name: int(sample.rows(name).sum()) for name in sample.conditions},
+        "later_visits": sample.later,
         "exclusions": [_plain(step) for step in sample.steps],
         "completion": _plain(report.completion),
         "completion_p": _number(report.completion_p.estimate),

@@ -247,6 +247,11 @@ def _participants(report: Report) -> Iterator[Block]:
         )
     else:
         yield "No session was excluded."
+    if report.sample.later:
+        yield (
+            "Each participant counts once, by the first visit. Sessions of later visits, which are in the data set and "
+            f"not analysed here: {report.sample.later}."
+        )
     if report.any_hint:
         yield _comparison_table(
             report,

@@ -86,6 +86,8 @@ class Sample:
     people: ExportTable
     steps: tuple[ExclusionStep, ...]
     simulated: bool
+    later: int = 0
+    """Sessions of people who had been there before, which are not analysed."""
 
     def rows(self, condition: str) -> Truths:
         """Which of the people are in a condition."""
@@ -144,7 +146,8 @@ def choose_sample(study: ExportedStudy, plan: StudyPlan, declared: Mapping[str, 
     unknown = sorted(declared.keys() - set(study.participants.text("participant_id")))
     if unknown:
         raise UserInputError(f"{study.folder} has no participant {unknown[0]}, who is among the exclusions")
-    exported, simulated = _real(study.participants)
+    everyone, simulated = _real(study.participants)
+    exported = everyone.where(~(everyone.numbers("visit") > 1))
     steps: list[ExclusionStep] = []
     drawn = exported
     for source, reason in NOT_DRAWN.items():
@@ -158,7 +161,16 @@ def choose_sample(study: ExportedStudy, plan: StudyPlan, declared: Mapping[str, 
     else:
         people = _leave_out(people, [not hints > 0 for hints in people.numbers("hints")], NO_HINT, steps)
     _require_arms(study, people, plan.conditions)
-    return Sample(study, in_order(people.text("condition")), exported, drawn, people, tuple(steps), simulated)
+    return Sample(
+        study,
+        in_order(people.text("condition")),
+        exported,
+        drawn,
+        people,
+        tuple(steps),
+        simulated,
+        len(everyone) - len(exported),
+    )
 
 
 def _real(participants: ExportTable) -> tuple[ExportTable, bool]:

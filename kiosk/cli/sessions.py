@@ -120,7 +120,14 @@ def _table(listed: Sequence[StoredSession]) -> Iterator[str]:
 def _cells(session: StoredSession) -> tuple[str, ...]:
     row = session.to_json()
     times = (f"{session.began:%Y-%m-%d %H:%M}", as_minutes(session.duration_ms))
-    words = (row["session"], row["participant"], *times, *(row[key] for key in _WORDS), _NAMES[session.kind])
+    visit = f" (visit {session.visit})" if session.visit > 1 else ""
+    words = (
+        row["session"],
+        row["participant"] and f"{row['participant']}{visit}",
+        *times,
+        *(row[key] for key in _WORDS),
+        _NAMES[session.kind],
+    )
     return (*map(_word, words), *(str(row[key]) for key in _COUNTS))
 
 

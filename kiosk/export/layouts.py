@@ -368,17 +368,24 @@ _TOOL = "MeasurementToolMetadata"
 _WHEN = {"events": AT}
 """Where the time of a row is given in seconds instead."""
 
+_SESSION = Variable("session_id", "Which visit of the participant it is, from ses-1.")
 _ONSET = Variable("onset", "When it happened, from the session's first event.", ColumnKind.NUMBER, "s")
 _DURATION = Variable("duration", "How long it lasted; events have no length.", ColumnKind.NUMBER, "s", empty="always")
 
 
 class Bids(Layout):
-    """participants.tsv, sub-*/beh/*_beh.tsv and *_events.tsv, phenotype/*.tsv, and a JSON file beside each kind."""
+    """participants.tsv, sub-*/beh/*_beh.tsv and *_events.tsv, phenotype/*.tsv, and a JSON file beside each kind.
+
+    Where visitors could come back, each visit is a session: sub-*/ses-*/beh, and a list of them in sub-*_sessions.tsv.
+    """
 
     def __init__(self, root: Path, contents: DatasetContents) -> None:
         """Begin the tables of all participants."""
         super().__init__(root, contents)
         tables = contents.tables
+        self._visits = contents.study.lets_return
+        self._sessions: dict[str, list[list[str]]] = {}
+        """The rows of the sessions of each participant, where there can be several."""
         self._people = tables.named("participants")
         self._answers = tables.named("answers")
         self._events = tables.named("events")
@@ -391,25 +398,32 @@ class Bids(Layout):
 
     def add(self, kept: SessionRecord) -> None:
         """Write a participant's own files, and their rows in the tables of all."""
-        label = self._label(kept)
-        self._participants.write([label, *row[1:]] for row in self._people.cells(kept))
-        folder = self.root / label / "beh"
+        label = bids_label(kept, visits=self._visits)
+        session = _session_label(kept) if self._visits else ""
+        self._refuse_alike(label, session)
+        people = [row[1:] for row in self._people.cells(kept)]
+        if label not in self._sessions:
+            self._participants.write([label, *row] for row in people)
+        self._sessions.setdefault(label, []).extend([session, *row] for row in people)
+        folder = self.root / label / session / "beh"
         folder.mkdir(parents=True)
-        _write(folder / f"{label}_task-{TASK}_beh.tsv", _joined(self._joined), self._flips(kept))
-        _write(folder / f"{label}_task-{TASK}_events.tsv", self._event_variables(), self._happened(kept))
-        self._fill_in(kept, label)
+        name = "_".join(part for part in (label, session, f"task-{TASK}") if part)
+        _write(folder / f"{name}_beh.tsv", _joined(self._joined), self._flips(kept))
+        _write(folder / f"{name}_events.tsv", self._event_variables(), self._happened(kept))
+        self._fill_in(kept, [label, *([session] if session else [])])
 
     def finish(self, flows: tuple[ParticipantFlow, ...]) -> None:  # noqa: ARG002 - BIDS has no place for the flow
         """Write what describes the tables."""
         root, task = self.root, readme_text.BIDS_TASK | {"TaskName": TASK}
         write_json(root / "participants.json", _described(self._people.shape.variables))
+        self._list_sessions()
         write_json(root / f"task-{TASK}_beh.json", task | _described(_joined(self._joined)))
         write_json(root / f"task-{TASK}_events.json", task | _described(self._event_variables()))
         for name, tool in self._tools.items():
             forms = self.contents.study.forms[name]
             versions = ", ".join(form.label for form in forms)
             told = {"Description": f"{name}, version {versions}. {' '.join(forms[0].questionnaire.note.split())}"}
-            described = {_TOOL: told} | _described([PARTICIPANT, *tool.items.values()])
+            described = {_TOOL: told} | _described([*self._whose, *tool.items.values()])
             write_json(root / "phenotype" / f"{self._files[name]}.json", described)
         write_json(root / "dataset_description.json", self._description())
         write_text(root / "README.md", readme_text.bids_readme(self.contents.study, self.contents.extras))
@@ -420,6 +434,22 @@ class Bids(Layout):
         self._participants.close()
         for tool in self._tools.values():
             tool.file.close()
+
+    @property
+    def _whose(self) -> list[Variable]:
+        """The columns that say whose answers a row of a questionnaire has."""
+        return [PARTICIPANT, *([_SESSION] if self._visits else [])]
+
+    def _list_sessions(self) -> None:
+        """Write the sessions of each participant, the first visit first."""
+        if not self._visits:
+            return
+        variables = [_SESSION, *self._people.shape.variables[1:]]
+        for label, rows in self._sessions.items():
+            _write(
+                self.root / label / f"{label}_sessions.tsv", variables, sorted(rows, key=lambda row: int(row[0][4:]))
+            )
+        write_json(self.root / "sessions.json", _described(variables))
 
     def _event_variables(self) -> list[Variable]:
         return [_ONSET, _DURATION, *_without(self._events.shape)]
@@ -434,20 +464,20 @@ class Bids(Layout):
             "GeneratedBy": [{"Name": "Recollect", "Version": __version__}],
         }
 
-    def _label(self, kept: SessionRecord) -> str:
-        """Name a participant's folder; raise UserInputError if some systems take it for that of another."""
-        label = bids_label(kept)
-        if fold_name(label) in self._labels:
+    def _refuse_alike(self, label: str, session: str) -> None:
+        """Raise UserInputError if some systems take a participant's folder for that of another."""
+        folder = fold_name(f"{label}/{session}")
+        if folder in self._labels:
             raise UserInputError(f"two participants would have the folder {label!r} where capitals do not count")
-        self._labels.add(fold_name(label))
-        return label
+        self._labels.add(folder)
 
     def _tool(self, name: str) -> _Tool:
         """Begin a questionnaire's table: a row for each participant, a column for each item of any version."""
         study = self.contents.study
         extras = self.contents.extras
         asked = exported_items(study.items(name), extras)
-        columns = distinct(asked, (PARTICIPANT.name, _TOOL))
+        own = [each.name for each in self._whose]
+        columns = distinct(asked, (*own, _TOOL))
         items = {
             (item, "value"): item_variable(columns[item], asked_as, study, extras) for item, asked_as in asked.items()
         }
@@ -457,11 +487,11 @@ class Bids(Layout):
             for item, asked_as in asked.items()
             if mark.can_be(asked_as)
         ]
-        others = distinct((other for *_, other in marked), (PARTICIPANT.name, _TOOL, *columns.values()))
+        others = distinct((other for *_, other in marked), (*own, _TOOL, *columns.values()))
         for mark, item, other in marked:
             items[item, mark.name] = mark.variable(others[other], columns[item])
         path = self.root / "phenotype" / f"{self._files[name]}.tsv"
-        return _Tool(items, TsvFile(path, [PARTICIPANT.name, *(item.name for item in items.values())]))
+        return _Tool(items, TsvFile(path, [*own, *(item.name for item in items.values())]))
 
     def _flips(self, kept: SessionRecord) -> Iterator[list[str]]:
         """Yield the flips, each with what stands of it in the other tables that are joined."""
@@ -481,7 +511,7 @@ class Bids(Layout):
         for event in _named_cells(self._events, kept):
             yield [repr(int(event[AT.name]) / MS_PER_SECOND), "", *(event[name] for name in names)]
 
-    def _fill_in(self, kept: SessionRecord, label: str) -> None:
+    def _fill_in(self, kept: SessionRecord, whose: Sequence[str]) -> None:
         """Write the answers of one participant, a row in each questionnaire that they could be asked."""
         answers: dict[str, dict[tuple[str, str], str]] = {}
         for row, cells in zip(self._answers.rows(kept), _named_cells(self._answers, kept), strict=True):
@@ -489,7 +519,7 @@ class Bids(Layout):
             of |= {(row.item.id, name): cells[name] for name in ("value", *(mark.name for mark in EMPTY_MARKS))}
         for name, given in answers.items():
             tool = self._tools[name]
-            tool.file.write([[label, *(given.get(item, "") for item in tool.items)]])
+            tool.file.write([[*whose, *(given.get(item, "") for item in tool.items)]])
 
 
 @dataclass(frozen=True)
@@ -500,12 +530,17 @@ class _Tool:
     file: TsvFile
 
 
-def bids_label(kept: SessionRecord) -> str:
+def bids_label(kept: SessionRecord, *, visits: bool) -> str:
     """Return a participant as BIDS calls them: letters and digits alone.
 
-    No site has small letters, so no two are alike.
+    No site has small letters, so no two are alike. With ``visits``, it is the same at every visit.
     """
-    return f"sub-{kept.name.replace('-', 'n')}"
+    return f"sub-{(kept.participant if visits else kept.name).replace('-', 'n')}"
+
+
+def _session_label(kept: SessionRecord) -> str:
+    """Return a visit as BIDS calls it."""
+    return f"ses-{kept.visit}"
 
 
 def _write(path: Path, variables: Iterable[Variable], rows: Iterable[Sequence[str]]) -> None:

@@ -46,7 +46,7 @@ from kiosk.export.columns import (
     who_sat_there,
 )
 from kiosk.export.records import TELLS_THE_ORDER, AgeBands, Asked, Scale, StudyMaterials
-from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN, scores_table, session_questionnaires
+from kiosk.export.responses import NOT_APPLICABLE, NOT_SHOWN, scores_table, session_about_you, session_forms
 from kiosk.store.participants import Disposition, EnrolmentCounts, slots_by_block, slots_from_json
 from kiosk.store.session_records import SessionRecord
 
@@ -218,7 +218,7 @@ class Person:
     @cached_property
     def about_you(self) -> dict[str, ItemResponse]:
         """What was answered about the visitor, by item."""
-        asked_first = session_questionnaires(self.kept)[:1]
+        asked_first = session_about_you(self.kept)
         return {answer.item: answer for answer in item_responses(self.state, asked_first)}
 
     @cached_property
@@ -426,9 +426,7 @@ def exported_items(items: Mapping[str, Asked], extras: frozenset[ExportOption]) 
 def _answer_about_you(item: str, bands: AgeBands | None, row: Person, *, with_texts: bool) -> Cell:
     # What is chosen in one version of an item may be typed in another.
     typed = any(
-        each.id == item and isinstance(each, ShortText)
-        for of in session_questionnaires(row.kept)[:1]
-        for each in of.items
+        each.id == item and isinstance(each, ShortText) for of in session_about_you(row.kept) for each in of.items
     )
     if item not in row.about_you or (typed and not with_texts):
         return None
@@ -582,7 +580,8 @@ def participants_table(
         columns = tuple(column for column in columns if column.variable.name not in TELLS_THE_ORDER)
     return Table(
         "participants",
-        "One row for every participant, that is for every session.",
+        "One row for every participant, that is for every session."
+        + (" Someone who came back has a row for each visit." if study.lets_return else ""),
         (PARTICIPANT.name,),
         columns,
         lambda kept: [Person(kept)],
@@ -604,7 +603,8 @@ _Columns = tuple[Column[Person], ...]
 
 def _own(study: StudyMaterials, extras: frozenset[ExportOption]) -> tuple[_Columns, _Columns]:
     """Return the columns that every study has, before and after those that it declares itself."""
-    return (*_who(extras), *_language_and_condition(study), *_WHAT_CAME_OF_IT, *_SETUP), (
+    visits = _VISITS if study.lets_return else ()
+    return (*_who(extras), *visits, *_language_and_condition(study), *_WHAT_CAME_OF_IT, *_SETUP), (
         *MEASURES,
         *_what_it_followed(study),
     )
@@ -627,6 +627,31 @@ def _who(extras: frozenset[ExportOption]) -> tuple[Column[Person], ...]:
     if ExportOption.DATES in extras:
         who.append((started, lambda row: row.kept.row["started_at"]))
     return make_columns(*who)
+
+
+_VISITS: tuple[Column[Person], ...] = make_columns(
+    (
+        Variable("participant", "The person: participant_id of the first visit, at every visit."),
+        lambda row: row.kept.participant,
+    ),
+    (
+        Variable(
+            "visit", "Which visit of the person it is, from 1; one that was deleted counts too.", ColumnKind.WHOLE
+        ),
+        lambda row: row.kept.visit,
+    ),
+    (
+        Variable(
+            "days_since_first_visit",
+            "Days in UTC from that of the first visit to that of this one.",
+            ColumnKind.WHOLE,
+            "d",
+            empty="the first visit was deleted",
+        ),
+        lambda row: row.kept.days_since_first_visit,
+    ),
+)
+"""The columns of a study that lets visitors come back."""
 
 
 def _has_kind(kind: SessionKind) -> Callable[[Person], Cell]:
@@ -737,6 +762,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
                 list="by the first free slot of a list that was fixed before the first visitor",
                 override="by the experimenter",
                 beyond="the list was used up, and nothing was drawn: by the study file, the same for all of them",
+                returning="by the conditions of earlier visits: the participant came back",
             ),
             empty="there was no allocation list",
         ),
@@ -923,6 +949,6 @@ def _what_it_followed(study: StudyMaterials) -> tuple[Column[Person], ...]:
                 ColumnKind.NAMES,
                 empty="they cannot be read any more",
             ),
-            lambda row: tuple(f"{each.id}={study.label(each)}" for each in session_questionnaires(row.kept)) or None,
+            lambda row: tuple(f"{each.id}={study.label(each)}" for each in session_forms(row.kept)) or None,
         ),
     )

@@ -118,6 +118,11 @@ class StudyMaterials:
         )
 
     @property
+    def lets_return(self) -> bool:
+        """Whether visitors could come back as the same participant."""
+        return any(plan.settings.returning.enabled for plan in self.plans)
+
+    @property
     def asks_for_shuffled_ids(self) -> bool:
         """Whether the settings of any session ask for shuffled names."""
         return any(plan.settings.privacy.shuffled_ids for plan in self.plans)

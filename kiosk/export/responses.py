@@ -52,8 +52,21 @@ _ANSWERED_KINDS = tuple(Level(kind) for kind in KINDS if kind != "page")
 
 
 def session_questionnaires(kept: SessionRecord) -> tuple[Questionnaire, ...]:
-    """Return the questionnaires of a session; none if they cannot be read."""
-    return (kept.plan.about_you, *kept.plan.questionnaires) if kept.plan else ()
+    """Return the questionnaires of a session as they were asked at its visit; none if they cannot be read."""
+    return (*kept.plan.asked_about_you, *kept.plan.asked_after_game) if kept.plan else ()
+
+
+def session_forms(kept: SessionRecord) -> tuple[Questionnaire, ...]:
+    """Return the questionnaires of which something was asked, with all their items; none if they cannot be read."""
+    if kept.plan is None:
+        return ()
+    forms = (kept.plan.about_you, *kept.plan.questionnaires)
+    return tuple(form for form in forms if form.at_visit(kept.plan.visit) is not None)
+
+
+def session_about_you(kept: SessionRecord) -> tuple[Questionnaire, ...]:
+    """Return the questionnaire about the visitor as it was asked; none if it was not, or cannot be read."""
+    return kept.plan.asked_about_you if kept.plan else ()
 
 
 @dataclass(frozen=True)

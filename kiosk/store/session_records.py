@@ -110,6 +110,15 @@ class SessionRecord:
         return int(self.row["visit"] or 1)
 
     @property
+    def days_since_first_visit(self) -> int | None:
+        """Days in UTC from that of the first visit; None if that was deleted."""
+        first = self.row["first_began"] if self.row["number"] is not None else self.row["started_at"]
+        if first is None:
+            return None
+        days = [datetime.fromisoformat(began).date() for began in (first, self.row["started_at"])]
+        return (days[1] - days[0]).days
+
+    @property
     def participant(self) -> str:
         """What the person is called at every visit: the name of the first one."""
         return self.name if self.visit == 1 else self.name.removesuffix(f"{_VISIT}{self.visit}")
@@ -308,8 +317,8 @@ class RecordSource:
 
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
-            "SELECT session.*, participant.number, participant.visit, list.block_size, list.slots,"  # noqa: S608 - the names are ours
-            " hex(head.hash) AS record_sha256"
+            f"SELECT session.*, participant.number, participant.visit, ({_FIRST_BEGAN}) AS first_began,"  # noqa: S608 - the names are ours
+            " list.block_size, list.slots, hex(head.hash) AS record_sha256"
             " FROM session LEFT JOIN participant ON participant.session = session.id"
             " LEFT JOIN head ON head.session = session.id"
             " LEFT JOIN allocation_list AS list ON list.id = session.allocation_list"
@@ -338,6 +347,13 @@ class RecordSource:
         ended = records[-1].event if records else None
         return ended.status if isinstance(ended, SessionEnded) else self._unended
 
+
+_FIRST_BEGAN = """
+    SELECT first.started_at FROM participant AS visited JOIN session AS first ON first.id = visited.session
+    WHERE visited.site = participant.site AND visited.kind = participant.kind
+    AND visited.number = participant.number AND visited.visit = 1
+"""
+"""When the first visit of the participant began; null if it was withdrawn."""
 
 _FOLLOWED = (
     "condition",

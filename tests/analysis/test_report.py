@@ -72,11 +72,11 @@ def edited(export: Path, folder: Path, table: str, edit: Callable[[dict[str, str
     shutil.copytree(export, copy)
     path = copy / file_of(table)
     with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+        rows = [row for row in map(edit, csv.DictReader(file)) if row is not None]
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()
-        writer.writerows(row for row in map(edit, rows) if row is not None)
+        writer.writerows(rows)
     return copy
 
 
@@ -153,6 +153,17 @@ def test_who_was_not_drawn_or_did_not_finish_is_left_out_and_counted(export: Pat
     completion = {row["condition"]: row for row in found["completion"]}
     assert (completion["tom"]["allocated"], completion["tom"]["ended"]) == (11, {"game": 1})
     assert completion["notom"]["ended"] == {"practice": 1}
+
+
+def test_who_came_back_counts_once_by_the_first_visit(export: Path, tmp_path: Path) -> None:
+    visits = {"s0001": {"visit": "2"}}
+    copy = edited(
+        export, tmp_path, "participants", lambda row: row | {"visit": "1"} | visits.get(row["participant_id"], {})
+    )
+    sample = choose_sample(load_study(copy), plan_of(tmp_path))
+    assert (sample.later, len(sample.exported), sample.steps) == (1, 23, ())
+    run("report", str(copy), "--out", str(tmp_path / "report.html"), "--paper")
+    assert "not analysed here: 1." in (tmp_path / "report.html").read_text("utf-8")
 
 
 def test_a_constant_measure_gets_a_reason_and_no_number(export: Path, tmp_path: Path) -> None:
