@@ -470,7 +470,8 @@ class Rehearsal:
         if shown == "practice" and not self._will_practise():
             self._click("skip")
         elif board.accepts_taps and board.closed:
-            row, column = board.highlighted
+            marked, nowhere = board.highlighted, (None, None)
+            row, column = board.looked_at if marked == nowhere else marked
             first = next(iter(board.unmatched.values()), None)
             position = self._visitor.choose(BoardView(board.closed, first, row, column))
             self._click(f"card-{board.location(position)}")

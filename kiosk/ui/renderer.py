@@ -145,6 +145,7 @@ class Renderer:
                     if self._body is not None:
                         self._body.look_at(screens.board.place(row, column))
                 case do.LookAt(row=row, column=column):
+                    screens.board.looked_at = (row, column)
                     if self._body is not None:
                         self._body.look_at(screens.board.place(row, column))
                 case do.ClearHighlight():

@@ -16,6 +16,7 @@ from kiosk.study.csv_import import PLAIN, WORDED, Heading, read_items
 ELSEWHERE = ("[[items]]", "[project]", "signs =")
 """What tells the blocks of other files: questionnaires, packages and information sheets."""
 
+BEYOND = Path(__file__).parents[2] / "docs" / "how-to" / "beyond.md"
 PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "extend.md").read_text("utf-8")
 
 
@@ -34,6 +35,15 @@ def test_the_questionnaire_can_be_used() -> None:
 @pytest.mark.parametrize("text", [block for block in shown("toml") if not any(part in block for part in ELSEWHERE)])
 def test_the_parts_of_a_study_file_can_be_used(text: str) -> None:
     Settings.model_validate(tomllib.loads(text))
+
+
+def test_the_study_that_goes_beyond_the_paper_can_be_used() -> None:
+    (text,) = re.findall(r"```toml\n(.*?)```", BEYOND.read_text("utf-8"), re.DOTALL)
+    settings = Settings.model_validate(tomllib.loads(text))
+    assert settings.condition("look").gaze_only
+    assert settings.condition("praised").comments
+    assert settings.condition("remind").reminds
+    assert settings.assistance.models_memory
 
 
 def test_the_points_of_an_information_sheet_can_be_used() -> None:

@@ -88,6 +88,8 @@ class BoardScreen(QAbstractListModel):
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
+        self.looked_at: tuple[int | None, int | None] = (None, None)
+        """The row and the column that the helper looks toward where a hint is a look; nothing of it is drawn."""
         self._tray: list[str] = []
         self._deck: list[str] = []
 
@@ -171,6 +173,7 @@ class BoardScreen(QAbstractListModel):
 
     def clear_highlight(self) -> None:
         """Take the mark away."""
+        self.looked_at = (None, None)
         self.highlight(None, None)
 
     @property
