@@ -29,12 +29,12 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real): bool {
-        const wide = (column - 2.5 * size - Theme.gap) * 0.9
+        const wide = (column - 2.5 * size - Theme.gap) * 0.95
         const tall = debrief.lines.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.5 * size), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.9
         const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = 1.4 * (heading * Theme.body + Theme.figure + noted * cardSize) + 3.2 * Theme.gap
+        const card = 1.4 * (heading * Theme.body + Theme.figure + noted * cardSize) + 2.7 * Theme.gap
         return tall + (debrief.lines.length + 1) * 0.5 * Theme.gap + Math.max(312 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
     }
     function lines(text: string, size: real, room: real): int {
