@@ -189,7 +189,7 @@ class Person:
     @property
     def embodiment(self) -> EmbodimentName:
         """What helped when the session began."""
-        return EmbodimentName.from_text(self.kept.row["embodiment"])
+        return self.kept.embodiment
 
     @cached_property
     def slot(self) -> AllocationSlot | None:

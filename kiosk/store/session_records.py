@@ -131,7 +131,19 @@ class SessionRecord:
     @cached_property
     def state(self) -> SessionState:
         """What the session came to."""
-        return SessionState.from_events(self.events, EmbodimentName.from_text(self.row["embodiment"]))
+        return SessionState.from_events(self.events, self.embodiment)
+
+    @cached_property
+    def embodiment(self) -> EmbodimentName:
+        """What helped at its beginning; raises UserInputError for a record that was changed."""
+        text = self.row["embodiment"]
+        try:
+            return EmbodimentName.from_text(text)
+        except ValueError:
+            raise UserInputError(
+                f"session {self.id} names the embodiment {text!r}, but there is none of that name: "
+                "'recollect verify' says what else is wrong with the database"
+            ) from None
 
     @property
     def publishable(self) -> bool:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.events import CardFlipped
 from kiosk.experiment.replay import first_difference, replay_events
@@ -118,3 +119,13 @@ def test_an_export_and_the_list_carry_the_head_of_every_session(pristine: Path, 
     assert run("export", "--data", pristine, "--out", tmp_path / "out", "--json").exit_code == 0
     (participants,) = (tmp_path / "out" / "data").glob("*participants*.csv")
     assert head.hash.hex() in participants.read_text("utf-8")
+
+
+def test_a_session_that_names_no_embodiment_there_is_ends_in_a_sentence(pristine: Path, tmp_path: Path) -> None:
+    broken_at(pristine, tmp_path / "data", "UPDATE session SET embodiment = 'one' || char(10) || 'two' WHERE ?")
+    for command in (["export", "--out", tmp_path / "out"], ["day", "--out", tmp_path / "day.html"]):
+        refused = run(*command, "--data", tmp_path / "data").exception
+        assert isinstance(refused, UserInputError), command
+        assert str(refused).startswith(r"session 1 names the embodiment 'one\ntwo', but there is none of that name")
+    assert run("sessions", "--data", tmp_path / "data").exit_code == 0
+    assert run("verify", "--data", tmp_path / "data").exit_code == 1
