@@ -196,7 +196,7 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
     if not yes and not going.cut_off:
         begun = (going.started_at or "")[:16].replace("T", " ")
         click.echo(
-            f"Participant {going.participant}, session {going.session}, begun {begun} (UTC): {going.events} events "
+            f"Participant {going.participant}, {_sessions(going)}, begun {begun} (UTC): {going.events} events "
             f"will be deleted for ever, and the copies in the data folder ({going.backups}) replaced by a fresh one. "
             "Copies that are kept elsewhere, and folders that this one was merged into, are not touched.",
             err=True,
@@ -234,6 +234,13 @@ class FolderAndSite(click.ParamType[tuple[Path, str]]):
         if not (folder and equals):
             self.fail(f"{value!r} must be a folder and its site, such as A=ROME", param, ctx)
         return Path(folder), site
+
+
+def _sessions(going: withdrawing.Withdrawal) -> str:
+    """Name the sessions that go: those of all visits."""
+    if len(going.sessions) > 1:
+        return f"sessions {', '.join(map(str, going.sessions))}"
+    return f"session {going.session}"
 
 
 @click.command()
