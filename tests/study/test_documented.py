@@ -69,5 +69,5 @@ def test_every_kind_and_every_column_is_told() -> None:
 @pytest.mark.parametrize("kind", ITEM_KINDS)
 def test_every_key_of_a_kind_is_told(kind: str) -> None:
     (row,) = re.findall(rf"^\| `{kind}` \|.*$", PAGE, re.MULTILINE)
-    of_all = {"id", "kind", "text", "relevant", "required", "not_applicable", "scale"}
+    of_all = {"id", "kind", "text", "relevant", "visits", "required", "not_applicable", "scale"}
     assert set(ITEM_KINDS[kind].model_fields) - of_all - set(re.findall(r"`(\w+)`", row)) == set()
