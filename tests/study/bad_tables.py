@@ -24,8 +24,8 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         "Dear all,",
         (
             "{table}: there is no column 'Dear all'; there are id, kind, points, scale, reverse, required, "
-            "lowest, highest, longest, pictures, relevant, not_applicable, text_en, lowest_en, highest_en, left_en, "
-            "right_en, options_en",
+            "lowest, highest, longest, pictures, relevant, visits, not_applicable, text_en, lowest_en, highest_en, "
+            "left_en, right_en, options_en",
             "{table}: the column 'id' is missing",
             "{table}: the column 'kind' is missing",
             "{table}: a column with texts is missing, such as 'text_en'",
@@ -54,8 +54,8 @@ TABLES: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         rows(LIKERT, head=HEAD.replace("reverse", "colour")),
         (
             "{table}: there is no column 'colour'; there are id, kind, points, scale, reverse, required, "
-            "lowest, highest, longest, pictures, relevant, not_applicable, text_en, lowest_en, highest_en, left_en, "
-            "right_en, options_en",
+            "lowest, highest, longest, pictures, relevant, visits, not_applicable, text_en, lowest_en, highest_en, "
+            "left_en, right_en, options_en",
         ),
     ),
     "column twice": (
