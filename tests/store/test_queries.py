@@ -38,6 +38,7 @@ def test_a_session_at_a_glance(folder: Path, provenance: Provenance, played: Dri
     measures = played.session.measures
     assert session.to_json() == {
         "session": 1,
+        "visit": 1,
         "participant": "1",
         "status": "completed",
         "stage": "questions",

@@ -177,7 +177,7 @@ def test_a_text_falls_back_to_its_first_language() -> None:
         (
             "[likert]",
             "[likret]",
-            "there is no key 'likret'; there are id, version, note, per_page, order, least_answered, items",
+            "there is no key 'likret'; there are id, version, note, per_page, order, least_answered, visits, items",
         ),
     ],
 )
