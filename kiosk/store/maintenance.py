@@ -17,7 +17,8 @@ from filelock import FileLock, Timeout
 
 from kiosk import StorageError, UserInputError
 from kiosk.files import make_folder, sync_folder
-from kiosk.store.connecting import failure, for_writing, give_to_owner_of_folder, reason
+from kiosk.store.codes import keys_of
+from kiosk.store.connecting import failure, for_reading, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import BACKUPS, FILE, open_as_it_is
 from kiosk.store.tombstones import add_tombstones, withdrawn_hashes
 from kiosk.units import MIB
@@ -93,7 +94,7 @@ def back_up(
     tell: Progress = lambda _done, _of: None,
     amend: Callable[[sqlite3.Connection], None] = lambda _copy: None,
 ) -> Path:
-    """Copy the database of a data folder, check the copy, and remove all but the newest ``keep``.
+    """Copy the database of a data folder, check the copy, and remove all of its copies but the newest ``keep``.
 
     It opens its own connection, so it may run in any thread or process while a recorder writes. Returns the copy.
     ``amend`` may change the copy before it is checked. Raises UserInputError if there is nothing to copy or no place,
@@ -108,7 +109,7 @@ def back_up(
             copy = unfinished.replace(unfinished.with_suffix(""))
             add_tombstones(into, withdrawn_hashes(source, folder))
             sync_folder(into)
-            _remove_older(into, copy, keep)
+            _remove_older(into, copy, keep, frozenset(keys_of(source)))
         except (OSError, sqlite3.Error) as error:
             raise StorageError(f"the copy in {into} could not be written: {reason(error, into)}") from error
         finally:
@@ -148,11 +149,22 @@ def alone(into: Path) -> Iterator[None]:
         raise failure(f"copies cannot be kept in {into}", error, into) from error
 
 
-def _remove_older(into: Path, copy: Path, keep: int) -> None:
-    for older in list_backups(into)[:-keep]:
+def _remove_older(into: Path, copy: Path, keep: int, keys: frozenset[bytes]) -> None:
+    # Two kiosks may keep copies in one folder, and each removes only its own.
+    own = [each for each in list_backups(into) if each == copy or _is_of(each, keys)]
+    for older in own[:-keep]:
         # A clock that was set back makes the newest look like the oldest.
         if older != copy:
             older.unlink()
+
+
+def _is_of(copy: Path, keys: frozenset[bytes]) -> bool:
+    """Whether a copy is of the database with these keys; one that cannot be read is of none."""
+    try:
+        with closing(for_reading(copy)) as connection:
+            return not keys.isdisjoint(keys_of(connection))
+    except (OSError, sqlite3.Error):
+        return False
 
 
 def copy_name() -> str:

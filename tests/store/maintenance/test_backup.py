@@ -133,6 +133,21 @@ def test_only_the_newest_copies_are_kept(folder: Path, into: Path, provenance: P
     assert back_up(folder, into, keep=1) == list_backups(into)[0]
 
 
+def test_two_kiosks_that_share_a_folder_remove_only_their_own_copies(
+    folder: Path, into: Path, provenance: Provenance, tmp_path: Path
+) -> None:
+    kept = []
+    for data in (folder, tmp_path / "other booth"):
+        with Recorder(data) as recorder:
+            recorder.begin(provenance, BEGUN)
+        kept += [back_up(data, into, keep=2) for _ in range(4)][-2:]
+    damaged = into / "recollect-20200101T000000.000000Z.db"
+    damaged.write_text("no database")
+    kept[0].unlink()
+    kept = [damaged, kept[1], *kept[2:], back_up(folder, into, keep=2)]
+    assert list_backups(into) == kept
+
+
 def test_the_copy_just_made_is_kept_whatever_the_clock_says(folder: Path, into: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         recorder.begin(provenance, BEGUN)
