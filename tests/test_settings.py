@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from kiosk import UserInputError, config
 from kiosk.cli.composition import read_settings
-from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, host_fault, policy_path
+from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, host_fault, places, policy_path
 from kiosk.errors import validation_messages
 
 
@@ -109,7 +109,7 @@ def test_keys_that_are_switched_off_do_not_stand_twice() -> None:
 def sections() -> list[type[BaseModel]]:
     """Every part of the study file, and the whole."""
     found = [kind for _, kind in inspect.getmembers(config, inspect.isclass) if issubclass(kind, BaseModel)]
-    return [kind for kind in found if kind.__module__ == config.__name__ and not kind.__name__.startswith("_")]
+    return [kind for kind in found if kind.__module__.startswith("kiosk.config.") and not kind.__name__.startswith("_")]
 
 
 @pytest.mark.parametrize("section", sections(), ids=lambda section: str(section.__name__))
@@ -148,7 +148,7 @@ def test_the_assets_are_found() -> None:
 
 
 def test_a_policy_goes_by_its_name_or_by_its_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(config, "POLICIES", tmp_path)
+    monkeypatch.setattr(places, "POLICIES", tmp_path)
     (tmp_path / "own.json").write_text("{}")
     assert policy_path("own") == tmp_path / "own.json"
     assert policy_path("other") == Path("other")

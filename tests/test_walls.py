@@ -262,7 +262,7 @@ def test_a_planted_import_is_found(tmp_path: Path, part: str, planted: str, cry:
 def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
     package = tmp_path / "kiosk"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
-    for name in ("__init__.py", "config.py"):
+    for name in ("__init__.py", "config/places.py"):
         with (package / name).open("a") as file:
             file.write("\nimport kiosk.game\n")
     assert [line.split(": ")[1] for line in breaches(package)] == [

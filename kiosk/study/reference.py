@@ -36,7 +36,7 @@ reference --toml` prints a file with every key, and `recollect study check FILE`
 names. A name with a slash or an ending is a path that starts from the study file's own folder. Any other name is that
 of something shipped in `assets/` or `policies/` or, if nothing shipped has it, of something in the study file's folder.
 
-This page is printed by `recollect study reference`; change the declarations in `kiosk/config.py`, not the page.
+This page is printed by `recollect study reference`; change the declarations in `kiosk/config`, not the page.
 """
 
 
