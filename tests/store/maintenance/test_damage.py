@@ -13,33 +13,14 @@ from typing import Any
 import pytest
 
 from kiosk import UserInputError
-from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import verify
-from kiosk.store.withdrawal import withdraw
-from tests.samples import mixed, plan
-from tests.store.visitors import COMPLETED, a_day
+from tests.store.visitors import COMPLETED
 
 PAGE = 4096
 FLIPS = 2
 """So many bits of each page are tried here; more are tried with another number."""
-
-
-@pytest.fixture(scope="module")
-def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a day at a booth, after which a participant withdrew."""
-    folder = tmp_path_factory.mktemp("pristine") / "data"
-    session = Provenance(plan(policy=mixed(4)), 4, "avatar", "abc123", kind=SessionKind.SIMULATED)
-    people = a_day(folder, session, "MI")
-    withdraw(folder, people[1].code)
-    return folder
-
-
-@pytest.fixture
-def day(pristine: Path, folder: Path) -> Path:
-    """Return a copy of that day."""
-    return Path(shutil.copytree(pristine, folder))
 
 
 def stored(file: Path) -> list[Any]:

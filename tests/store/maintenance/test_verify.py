@@ -20,8 +20,6 @@ from kiosk.store.database import FILE, SCHEMA
 from kiosk.store.maintenance import back_up
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
-from kiosk.store.withdrawal import withdraw
-from tests.samples import mixed, plan
 from tests.store.visitors import BEGUN, COMPLETED, a_day
 
 _OF_A_SESSION = (
@@ -31,22 +29,6 @@ _OF_A_SESSION = (
     ("session", "id"),
     ("head", "session"),
 )
-
-
-@pytest.fixture(scope="module")
-def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a day at a booth, after which a participant withdrew."""
-    folder = tmp_path_factory.mktemp("pristine") / "data"
-    session = Provenance(plan(policy=mixed(4)), 4, "avatar", "abc123", kind=SessionKind.SIMULATED)
-    people = a_day(folder, session, "MI")
-    withdraw(folder, people[1].code)
-    return folder
-
-
-@pytest.fixture
-def day(pristine: Path, folder: Path) -> Path:
-    """Return a copy of that day."""
-    return Path(shutil.copytree(pristine, folder))
 
 
 def tamper(folder: Path, *statements: str) -> None:
