@@ -95,7 +95,7 @@ GUIDES = {
     "events": Guide("reference/data-set.md", ("events 1", "events 1 --json")),
     "replay": Guide(
         "explanation/how-it-works.md",
-        ("replay 1", "replay 1 --headless --frames pictures", "replay 12 --film session.webm"),
+        ("replay 1", "replay 1 --memory", "replay 1 --headless --frames pictures", "replay 12 --film session.webm"),
     ),
     "explain": Guide(
         "explanation/mentaliser.md", ("explain 1 --picture boards.svg", "explain 1 --flip 14", "explain case.json")

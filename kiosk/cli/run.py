@@ -27,6 +27,7 @@ from kiosk.cli.options import (
 )
 from kiosk.cli.terminal import tell_caution
 from kiosk.experiment.events import Event
+from kiosk.experiment.memory_replay import has_board
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionConfig, kind_of
 from kiosk.robots.registry import check_robot
@@ -210,7 +211,7 @@ def _write_down(happening: SupervisorEvent) -> None:
 @click.option("--headless", is_flag=True, help="Use no screen, and save every picture in a folder.")
 @click.option("--frames", type=click.Path(path_type=Path), help="That folder; by default session-N here.")
 @click.option("--film", type=click.Path(path_type=Path), help="Write a film instead: a .webm or .mp4 file.")
-@click.option("--memory", is_flag=True, help="Show in the film how likely each card is remembered, by a model.")
+@click.option("--memory", is_flag=True, help="Show how likely each card is remembered, by a model.")
 @json_option
 def replay_command(
     session: int,
@@ -231,8 +232,6 @@ def replay_command(
     with the record; --study names a study file beside whose folder the session's own pictures lie, if they do not
     come with Recollect.
     """
-    if memory and film is None:
-        raise UserInputError("--memory is for a film; name the film with --film")
     if film is not None:
         if frames is not None or window or headless:
             raise UserInputError("--film cannot be used with --window, --headless or --frames")
@@ -241,6 +240,8 @@ def replay_command(
     plan = plan if study is None else plan.with_base_dir(read_settings(study))
     _check_pictures(plan)
     steps = replay_events(plan, seed, events)
+    if memory and not has_board(steps):
+        raise UserInputError(f"no card was dealt in session {session}, so --memory has nothing to show")
     frames = frames or (Path(f"session-{session}") if headless else None)
     mode = RunMode(WindowMode.WINDOW if window else WindowMode.FULL_SCREEN, ClockMode.WALL, speed)
     if frames is not None:
@@ -251,11 +252,8 @@ def replay_command(
     with guarded() as beat, Replay(mode, plan, steps, f"Session {session}", beat) as played:
         if film is not None:
             said = _film(played, plan, film, memory=memory, hidden=as_json)
-        elif frames is not None:
-            said = _save(played, frames, session, hidden=as_json)
         else:
-            said = ("", {"pictures": None})
-            played.run()
+            said = _show(played, frames, session, memory=memory, hidden=as_json)
     _tell(session, steps, events, said, as_json=as_json)
 
 
@@ -276,6 +274,16 @@ def _check_pictures(plan: SessionConfig) -> None:
 
 _Said = tuple[str, dict[str, Any]]
 """A sentence on what was written, and the same for programs."""
+
+
+def _show(played: Replay, frames: Path | None, session: int, *, memory: bool, hidden: bool) -> _Said:
+    """Play it in its window, or save its pictures in a folder."""
+    if memory:
+        played.show_memory()
+    if frames is not None:
+        return _save(played, frames, session, hidden=hidden)
+    played.run()
+    return "", {"pictures": None}
 
 
 def _save(played: Replay, folder: Path, session: int, *, hidden: bool) -> _Said:

@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import QCoreApplication, QRect, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QImage, QPainter
+from PySide6.QtCore import QCoreApplication, QRect
+from PySide6.QtGui import QImage, QPainter
 
 from kiosk import UserInputError
-from kiosk.assistance.memory_model import MemoryModel
 from kiosk.assistance.policy import ActionSpec, GateDecision
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.memory_replay import BoardMemory, MemoryFollower
 from kiosk.experiment.replay import ReplayStep
 from kiosk.files import check_writable, write_file
-from kiosk.game import Board, Concentration
+from kiosk.ui.memory_view import AMBER, FAINT, INK, LINE, MARGIN, PAPER, Style, draw_memory, memory_width, write
 from kiosk.ui.replay import Replay, changes_screen
 from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
@@ -42,20 +41,8 @@ _FORMATS = {
     ".webm": ("webm", "libvpx-vp9", {"deadline": "realtime", "cpu-used": "8", "crf": "32", "b": "0"}),
     ".mp4": ("mp4", "libx264", {"preset": "veryfast", "crf": "23", "movflags": "+faststart"}),
 }
-_INK, _PAPER, _FAINT, _AMBER = (QColor(name) for name in ("#1F2A33", "#FFFFFF", "#B9C4CC", "#F2B84B"))
-_MARGIN, _LINE = 20, 32
 
-
-@dataclass(frozen=True)
-class _Style:
-    """How a text of the captions is written."""
-
-    size: int = 22
-    bold: bool = False
-    middle: bool = False
-
-
-_BOLD, _SMALL, _CELL, _MIDDLE = _Style(bold=True), _Style(16), _Style(16, middle=True), _Style(32, middle=True)
+_BOLD, _MIDDLE = Style(bold=True), Style(32, middle=True)
 _GATES = {
     GateDecision.OPENING: "film-gate-opening",
     GateDecision.DOING_WELL: "film-gate-doing-well",
@@ -122,14 +109,11 @@ class Captions:
     def __init__(self, catalogue: Catalogue, *, memory: bool) -> None:
         self.height = WITH_MEMORY if memory else CAPTIONS
         self._catalogue = catalogue
-        self._memory = memory
+        self._memory = MemoryFollower() if memory else None
         self.said = ""
         """The sentence that is being said."""
         self.reason = ""
         """Why there was help before the coming flip, or none."""
-        self._board: Board | None = None
-        self._model: MemoryModel | None = None
-        self._hinted: set[int] = set()
 
     def follow(self, step: ReplayStep) -> None:
         """Take note of what a step led to."""
@@ -141,24 +125,18 @@ class Captions:
         for event in step.outcome.events:
             self._note(event)
         if step.stage not in {Stage.PRACTICE, Stage.GAME}:
-            self.reason, self._model = "", None
+            self.reason = ""
+        if self._memory is not None:
+            self._memory.follow(step)
 
     def _note(self, event: Event) -> None:
         match event:
-            case happened.BoardDealt():
-                self._board = Board(event.rows, event.columns, event.cards)
-                self._model = MemoryModel.of(Concentration(self._board)) if self._memory else None
-                self._hinted.clear()
+            case happened.BoardDealt() | happened.CardFlipped():
                 self.reason = ""
             case happened.AssistanceDecided():
                 self.reason = self._no_hint(event)
             case happened.HintGiven():
-                self._hinted.add(event.flip)
                 self.reason = self._hint(event)
-            case happened.CardFlipped():
-                self.reason = ""
-                if self._model is not None and self._board is not None:
-                    self._model.flip(self._board.location(event.position), hinted=event.number in self._hinted)
 
     def _no_hint(self, decided: happened.AssistanceDecided) -> str:
         if not decided.gate.is_open:
@@ -174,9 +152,9 @@ class Captions:
         return f"{self._catalogue.text(message, **told)} {counts}"
 
     @property
-    def remembered(self) -> tuple[float, ...]:
-        """The chance of each card to be recalled; empty without a board, or where it is not asked for."""
-        return () if self._model is None else self._model.recall()
+    def remembered(self) -> BoardMemory | None:
+        """How likely each card is recalled; None without a board, or where it is not asked for."""
+        return None if self._memory is None else self._memory.now
 
     def below(self, screen: QImage, at_ms: int) -> QImage:
         """Return the screen with the captions of this moment below it."""
@@ -184,11 +162,11 @@ class Captions:
         with QPainter(picture) as painter:
             painter.drawImage(QRect(0, 0, WIDTH, HEIGHT), screen)
             minutes, seconds = divmod(at_ms // MS_PER_SECOND, SECONDS_PER_MINUTE)
-            _write(painter, f"{minutes}:{seconds:02}", QRect(_MARGIN, HEIGHT + 8, 80, _LINE), _FAINT)
-            room = WIDTH - 2 * _MARGIN - 80 - (self._draw_memory(painter) if self._model is not None else 0)
-            lines = QRect(_MARGIN + 80, HEIGHT + 8, room, (self.height - 16) // 2)
-            _write(painter, self.said, lines, _PAPER, _BOLD)
-            _write(painter, self.reason, lines.translated(0, lines.height()), _AMBER)
+            write(painter, f"{minutes}:{seconds:02}", QRect(MARGIN, HEIGHT + 8, 80, LINE), FAINT)
+            room = WIDTH - 2 * MARGIN - 80 - self._draw_memory(painter)
+            lines = QRect(MARGIN + 80, HEIGHT + 8, room, (self.height - 16) // 2)
+            write(painter, self.said, lines, PAPER, _BOLD)
+            write(painter, self.reason, lines.translated(0, lines.height()), AMBER)
         return picture
 
     def left_out(self) -> QImage:
@@ -196,44 +174,23 @@ class Captions:
         picture = self._empty()
         with QPainter(picture) as painter:
             whole = QRect(0, 0, WIDTH, HEIGHT)
-            _write(painter, self._catalogue.text("film-left-out"), whole, _PAPER, _MIDDLE)
+            write(painter, self._catalogue.text("film-left-out"), whole, PAPER, _MIDDLE)
         return picture
 
     def _empty(self) -> QImage:
         picture = QImage(WIDTH, HEIGHT + self.height, QImage.Format.Format_RGBA8888)
-        picture.fill(_INK)
+        picture.fill(INK)
         return picture
 
     def _draw_memory(self, painter: QPainter) -> int:
-        """Draw the board with the chance that each card is recalled (%), and return how wide that is."""
-        assert self._model is not None  # noqa: S101 - asked by the caller
-        assert self._board is not None  # noqa: S101 - a model is of a board
-        side = min(36, (self.height - _LINE - 16) // self._board.rows)
-        wide = max(side, 48)
-        width = max(wide * self._board.columns, 320)
-        left, top = WIDTH - _MARGIN - width, HEIGHT + 8
-        _write(painter, self._catalogue.text("film-memory"), QRect(left, top, width, _LINE), _FAINT, _SMALL)
-        for location, chance in enumerate(self.remembered):
-            place = self._board.position(location)
-            cell = QRect(left + place.column * wide, top + _LINE + place.row * side, wide - 2, side - 2)
-            shade = QColor(_AMBER)
-            shade.setAlphaF(0.1 + 0.9 * chance)
-            painter.fillRect(cell, shade)
-            if chance > 0:
-                ink = _INK if chance > 0.5 else _PAPER  # noqa: PLR2004 - readable on light and on dark
-                _write(painter, f"{100 * chance:.0f}", cell, ink, _CELL)
-        return width + _MARGIN
-
-
-def _write(painter: QPainter, text: str, room: QRect, ink: QColor, style: _Style | None = None) -> None:
-    style = style or _Style()
-    font = QGuiApplication.font()
-    font.setPixelSize(style.size)
-    font.setBold(style.bold)
-    painter.setFont(font)
-    painter.setPen(ink)
-    place = Qt.AlignmentFlag.AlignCenter if style.middle else Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-    painter.drawText(room, place | Qt.TextFlag.TextWordWrap, text)
+        """Draw the memory at the right, and return how much room it takes."""
+        memory = self.remembered
+        if memory is None:
+            return 0
+        width = memory_width(memory.board)
+        room = QRect(WIDTH - MARGIN - width, HEIGHT + 8, width, self.height - 16)
+        draw_memory(painter, memory, self._catalogue.text("film-memory"), room)
+        return width + MARGIN
 
 
 class _Film:

@@ -145,6 +145,11 @@ class Replay:
                     raise unwritten(file)
                 yield file
 
+    def show_memory(self) -> None:
+        """Show below the screens how likely each card is remembered, by the memory model."""
+        self._bar.follow_memory(self.player.plan.catalogue.text("film-memory"))
+        self._window.set_replay_memory(self._bar)
+
     def hide_controls(self) -> None:
         """Show the screens without the bar below them."""
         self._window.set_replay(None)

@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Property, QObject, Signal, Slot
+from PySide6.QtGui import QPainter
 from PySide6.QtQml import QmlElement
+from PySide6.QtQuick import QQuickItem, QQuickPaintedItem
 
+from kiosk.experiment.memory_replay import BoardMemory, memory_after_steps
 from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.ui.event_loop import Clock, TimerWait
+from kiosk.ui.memory_view import MARGIN, draw_memory
 from kiosk.ui.renderer import Renderer
 from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
@@ -30,7 +34,8 @@ class ReplayPlayer:
         self.speed = 1.0
         self._renderer = renderer
         self._clock = clock
-        self._plan = plan
+        self.plan = plan
+        """What the session was to be."""
         self._wait: TimerWait | None = None
         self._begin()
 
@@ -91,7 +96,7 @@ class ReplayPlayer:
     def _begin(self) -> None:
         self.played = 0
         self._renderer.reset("attract")
-        self._renderer.begin(self._plan)
+        self._renderer.begin(self.plan)
         self._renderer.screens.debrief.give_code(HIDDEN_CODE)
 
     def _play(self) -> None:
@@ -137,7 +142,20 @@ class ReplayControls(QObject):
         super().__init__(parent)
         self._title = title
         self._player = player
+        self.memory_title = ""
+        self._memories: tuple[BoardMemory | None, ...] = ()
         player.changed = self.changed.emit
+
+    def follow_memory(self, title: str) -> None:
+        """Work out what is remembered after every step; ``title`` stands above it."""
+        self.memory_title = title
+        self._memories = memory_after_steps(self._player.steps)
+
+    @property
+    def memory(self) -> BoardMemory | None:
+        """What is remembered after the last step; None without a board, or where it is not followed."""
+        played = self._player.played
+        return self._memories[played - 1] if self._memories and played else None
 
     @Property(str, constant=True)
     def title(self) -> str:
@@ -212,6 +230,41 @@ class ReplayControls(QObject):
     def leave(self) -> None:
         """Enough."""
         self.left.emit()
+
+
+@QmlElement
+class MemoryDrawing(QQuickPaintedItem):
+    """What is remembered after the last step of a replay, drawn as in a film."""
+
+    given = Signal()
+
+    def __init__(self, parent: QQuickItem | None = None) -> None:
+        super().__init__(parent)
+        self._replay: ReplayControls | None = None
+
+    def _get(self) -> ReplayControls | None:
+        return self._replay
+
+    def _set(self, replay: ReplayControls | None) -> None:
+        self._replay = replay
+        if replay is not None:
+            replay.changed.connect(self.update)
+        self.given.emit()
+        self.update()
+
+    replay = Property(ReplayControls, _get, _set, notify=given)
+
+    @property
+    def memory(self) -> BoardMemory | None:
+        """What it draws; None while there is no board."""
+        return None if self._replay is None else self._replay.memory
+
+    def paint(self, painter: QPainter) -> None:
+        """Draw it."""
+        memory = self.memory
+        if self._replay is not None and memory is not None:
+            room = self.boundingRect().toRect().adjusted(MARGIN, 8, -MARGIN, -8)
+            draw_memory(painter, memory, self._replay.memory_title, room)
 
 
 def _place(step: ReplayStep | None) -> str:

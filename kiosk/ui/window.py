@@ -96,6 +96,10 @@ class Window:
         """Show this bar below the screens, or none."""
         self.shown.setProperty("replay", bar)
 
+    def set_replay_memory(self, bar: ReplayControls) -> None:
+        """Show below the screens what is remembered in the replay of this bar."""
+        self.shown.setProperty("replayMemory", bar)
+
     def close(self) -> None:
         """Close it, with everything but the application object: Qt allows no second one."""
         self.screens.kiosk.let_go()

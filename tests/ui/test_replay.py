@@ -15,12 +15,14 @@ from pytestqt.qtbot import QtBot
 from kiosk.cli.main import recollect
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import RevealCard
-from kiosk.experiment.events import Stage
+from kiosk.experiment.events import CardFlipped, Stage
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
+from kiosk.ui.film import Captions
 from kiosk.ui.replay import Replay
+from kiosk.ui.replay_controls import MemoryDrawing
 from kiosk.ui.screens.avatar import PATIENCE_MS
 from kiosk.ui.simulated_visitor import lay_out
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
@@ -105,6 +107,27 @@ def test_a_step_back_shows_what_stood_there_before(replay: Replay, steps: tuple[
     assert seen(replay) != before
     replay.player.go_to(flip)
     assert seen(replay) == before
+
+
+def test_it_shows_what_is_remembered_forwards_and_back(
+    replay: Replay, steps: tuple[ReplayStep, ...], played: Driver
+) -> None:
+    flips = [i for i, step in enumerate(steps, 1) if any(isinstance(e, CardFlipped) for e in step.outcome.events)]
+    captions = Captions(played.plan.catalogue, memory=True)
+    replay.show_memory()
+    for step in steps[: flips[3]]:
+        captions.follow(step)
+    replay.player.go_to(flips[3])
+    drawing = replay.window.findChild(MemoryDrawing)
+    assert drawing is not None
+    assert drawing.memory is not None
+    assert any(drawing.memory.chances)
+    assert drawing.memory == captions.remembered
+    replay.player.go_to(flips[0] - 1)
+    assert drawing.memory is not None
+    assert not any(drawing.memory.chances)
+    replay.player.go_to(0)
+    assert drawing.memory is None
 
 
 def test_the_avatar_does_not_search_for_words_that_were_found_then(replay: Replay, qtbot: QtBot) -> None:

@@ -29,6 +29,8 @@ Window {
     required property int motion
     // A replay drives the screens from a bar below them; a kiosk has none.
     property ReplayControls replay: null
+    // The same, where a replay shows what is remembered.
+    property ReplayControls replayMemory: null
     required property bool highContrast
     required property bool boardOnRight
     required property color accent
@@ -50,7 +52,7 @@ Window {
     readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
     readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
     readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
-    readonly property real room: height - (replay === null ? 0 : controls.height)
+    readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
 
     width: 1920
     height: 1080
@@ -383,6 +385,21 @@ Window {
     Item {
         anchors.fill: parent
         PointHandler { onActiveChanged: if (active) Theme.byKeyboard = false }
+    }
+    Loader {
+        id: memory
+        // Not by anchors: pictures are also taken before the window's content has its size.
+        y: root.room
+        width: root.width
+        height: root.replayMemory === null ? 0 : 176
+        active: root.replayMemory !== null
+        sourceComponent: Rectangle {
+            color: Theme.ink
+            MemoryDrawing {
+                anchors.fill: parent
+                replay: root.replayMemory
+            }
+        }
     }
     Loader {
         id: controls
