@@ -31,7 +31,7 @@ Flow {
     }
     readonly property real tile: Math.floor((width - (columns - 1) * spacing) / columns)
 
-    spacing: 0.5 * Theme.gap
+    spacing: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : 0.5 * Theme.gap
     flow: stacked ? Flow.TopToBottom : Flow.LeftToRight
 
     Repeater {

@@ -28,7 +28,9 @@ Rectangle {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : 13) * Theme.unit
+    readonly property real margin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    // Letters have some air above them already; what stands below them does not.
+    readonly property real raised: alone || beside || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
         likert: points, differential: points, pictures: points, slider: line, single: choice, multiple: choice,
         integer: number, text: letters, page: null
@@ -75,7 +77,7 @@ Rectangle {
 
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; margins: box.alone ? 0 : 1.2 * Theme.gap }
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: -box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
 
         Item {

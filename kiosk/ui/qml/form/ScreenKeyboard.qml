@@ -30,8 +30,10 @@ Rectangle {
     readonly property real room: parent.width
     // Whether a number's keys have an upright screen's width below the page.
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
-    readonly property real keyWidth: numbers ? (broad ? 150 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? 68 : 60) * Theme.unit
+    // Or a wide screen's margin beside it.
+    readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
+    readonly property real keyWidth: numbers ? (broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? (roomy ? 76 : 68) : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
