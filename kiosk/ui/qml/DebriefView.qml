@@ -18,7 +18,7 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small)
-    readonly property real size: signed ? [34, 32, 29].map(Theme.size).find(size => fits(size, noted)) ?? Theme.small
+    readonly property real size: signed ? [34, 32, 30, 29].map(Theme.size).find(size => fits(size, noted)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: width < height && fits(Theme.size(32), Theme.reading) ? Theme.reading : Theme.small
@@ -29,13 +29,15 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real): bool {
-        const wide = (column - 2.5 * size - Theme.gap) * 0.95
-        const tall = debrief.lines.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.5 * size), 0)
-        const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.9
+        // Small letters are set on whole pixels, which makes them wider.
+        const exact = Theme.unit < 0.9 ? 0.95 : 0.98
+        const wide = (column - 2.5 * size - Theme.gap) * exact
+        const tall = debrief.lines.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
+        const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
         const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
-        const card = 1.4 * (heading * Theme.body + Theme.figure + noted * cardSize) + 2.7 * Theme.gap
-        return tall + (debrief.lines.length + 1) * 0.5 * Theme.gap + Math.max(312 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
+        const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.figure + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
+        return tall + (debrief.lines.length + 1) * 0.5 * Theme.gap + Math.max(326 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
     }
     function lines(text: string, size: real, room: real): int {
         return Math.ceil(letters.advanceWidth(text) * size / 100 / room)
@@ -52,136 +54,144 @@ PageFrame {
         width: parent?.width ?? 0
         y: view.sink(height)
         room: view.room
-        spacing: Theme.gap
         more: view.words["scroll-more"]
         // Short lines are read with less effort than long ones: in two columns where there is room.
-        Row {
-            id: texts
-            readonly property var lines: view.debrief.lines
-            readonly property bool halved: pane.width > 1100 * Theme.unit && lines.length > 1 && !view.signed
-            readonly property int first: halved ? view.half(lines.map(line => line.text)) : lines.length
+        Item {
+            id: parts
+            // What is taken home is seen without scrolling.
+            readonly property bool cardFirst: keepsake.visible && texts.height + keepsake.height + Theme.gap > view.room
             width: pane.width
-            spacing: 2 * Theme.gap
-            Repeater {
-                model: texts.halved ? 2 : 1
-                Column {
-                    id: part
-                    required property int index
-                    width: texts.halved ? (texts.width - texts.spacing) / 2 : texts.width
-                    spacing: (view.signed ? 0.5 : 1) * Theme.gap
-                    Repeater {
-                        model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
-                        SignedLine {
-                            required property var modelData
-                            width: part.width
-                            text: modelData.text
-                            sign: view.signed ? modelData.sign : ""
-                            size: view.size
+            height: texts.height + keepsake.height + (keepsake.visible ? Theme.gap : 0)
+            Row {
+                id: texts
+                y: parts.cardFirst ? keepsake.height + Theme.gap : 0
+                readonly property var lines: view.debrief.lines
+                readonly property bool halved: pane.width > 1100 * Theme.unit && lines.length > 1 && !view.signed
+                readonly property int first: halved ? view.half(lines.map(line => line.text)) : lines.length
+                width: pane.width
+                spacing: 2 * Theme.gap
+                Repeater {
+                    model: texts.halved ? 2 : 1
+                    Column {
+                        id: part
+                        required property int index
+                        width: texts.halved ? (texts.width - texts.spacing) / 2 : texts.width
+                        spacing: (view.signed ? 0.5 : 1) * Theme.gap
+                        Repeater {
+                            model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
+                            SignedLine {
+                                required property var modelData
+                                width: part.width
+                                text: modelData.text
+                                sign: view.signed ? modelData.sign : ""
+                                size: view.size
+                            }
                         }
                     }
                 }
             }
-        }
-        Rectangle {
-            id: keepsake
-            width: pane.width
-            height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
-            // Who is not stored has no code, and may have questions all the same.
-            visible: view.debrief.code !== "" || view.debrief.questions !== ""
-            radius: Theme.radius
-            color: Theme.white
-            border { color: Theme.amber; width: 4 * Theme.unit }
-
-            // On white even where the theme is dark: a camera needs it.
             Rectangle {
-                id: qr
-                objectName: "qr"
-                visible: view.debrief.code !== ""
-                anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
-                width: view.square * view.debrief.squares
-                height: width
-                color: "white"
-                Image {
-                    anchors.fill: parent
-                    source: view.debrief.picture
-                    smooth: false
-                    cache: false
-                    Accessible.ignored: true
-                }
-            }
-            Column {
-                id: told
-                anchors {
-                    left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
-                    right: parent.right; rightMargin: Theme.gap
-                    verticalCenter: parent.verticalCenter
-                }
-                spacing: 0.3 * Theme.gap
-                PlainText {
-                    width: parent.width
-                    text: view.kept
-                    font { pixelSize: Theme.body; bold: true }
-                    horizontalAlignment: Text.AlignLeft
-                    wrapMode: Text.Wrap
-                }
-                Item {
-                    width: parent.width
-                    height: Math.max(called.height, code.height)
+                id: keepsake
+                y: parts.cardFirst ? 0 : texts.height + Theme.gap
+                width: pane.width
+                height: visible ? Math.max(qr.height, told.height) + 1.5 * Theme.gap : 0
+                // Who is not stored has no code, and may have questions all the same.
+                visible: view.debrief.code !== "" || view.debrief.questions !== ""
+                radius: Theme.radius
+                color: Theme.white
+                border { color: Theme.amber; width: 4 * Theme.unit }
+
+                // On white even where the theme is dark: a camera needs it.
+                Rectangle {
+                    id: qr
+                    objectName: "qr"
                     visible: view.debrief.code !== ""
+                    anchors { left: parent.left; leftMargin: 0.75 * Theme.gap; verticalCenter: parent.verticalCenter }
+                    width: view.square * view.debrief.squares
+                    height: width
+                    color: "white"
+                    Image {
+                        anchors.fill: parent
+                        source: view.debrief.picture
+                        smooth: false
+                        cache: false
+                        Accessible.ignored: true
+                    }
+                }
+                Column {
+                    id: told
+                    anchors {
+                        left: qr.right; leftMargin: (qr.visible ? 1.5 : 0.25) * Theme.gap
+                        right: parent.right; rightMargin: Theme.gap
+                        verticalCenter: parent.verticalCenter
+                    }
+                    spacing: 0.3 * Theme.gap
                     PlainText {
-                        id: called
-                        x: Theme.across(0, width, parent.width)
-                        y: (parent.height - height) / 2
-                        width: Math.min(implicitWidth, 0.45 * parent.width)
-                        text: view.words["debrief-code"]
-                        font.pixelSize: Theme.small
+                        width: parent.width
+                        text: view.kept
+                        font { pixelSize: Theme.body; bold: true }
                         horizontalAlignment: Text.AlignLeft
                         wrapMode: Text.Wrap
+                    }
+                    Item {
+                        width: parent.width
+                        height: Math.max(called.height, code.height)
+                        visible: view.debrief.code !== ""
+                        PlainText {
+                            id: called
+                            x: Theme.across(0, width, parent.width)
+                            y: (parent.height - height) / 2
+                            width: Math.min(implicitWidth, 0.45 * parent.width)
+                            text: view.words["debrief-code"]
+                            font.pixelSize: Theme.small
+                            horizontalAlignment: Text.AlignLeft
+                            wrapMode: Text.Wrap
+                            color: Theme.faintInk
+                        }
+                        PlainText {
+                            id: code
+                            objectName: "code"
+                            x: Theme.across(called.width + Theme.gap, width, parent.width)
+                            width: parent.width - called.width - Theme.gap
+                            text: view.debrief.code
+                            horizontalAlignment: Text.AlignLeft
+                            font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
+                            fontSizeMode: Text.HorizontalFit
+                            minimumPixelSize: Theme.body
+                            color: Theme.sea
+                        }
+                    }
+                    Balanced {
+                        width: parent.width
+                        visible: text !== ""
+                        text: view.debrief.withdrawing
+                        font.pixelSize: view.noted
+                        color: Theme.ink
+                    }
+                    Balanced {
+                        objectName: "returning"
+                        width: parent.width
+                        visible: text !== ""
+                        text: view.debrief.returning
+                        font.pixelSize: view.noted
+                        color: Theme.ink
+                    }
+                    Balanced {
+                        objectName: "questions"
+                        width: parent.width
+                        visible: text !== ""
+                        text: view.debrief.questions
+                        font.pixelSize: view.noted
+                        color: Theme.ink
+                    }
+                    Balanced {
+                        objectName: "summary"
+                        width: parent.width
+                        visible: text !== ""
+                        text: view.debrief.summary
+                        font.pixelSize: view.noted
                         color: Theme.faintInk
                     }
-                    PlainText {
-                        id: code
-                        objectName: "code"
-                        x: Theme.across(called.width + Theme.gap, width, parent.width)
-                        width: parent.width - called.width - Theme.gap
-                        text: view.debrief.code
-                        horizontalAlignment: Text.AlignLeft
-                        font { pixelSize: Theme.figure; bold: true; letterSpacing: 4 * Theme.unit }
-                        fontSizeMode: Text.HorizontalFit
-                        minimumPixelSize: Theme.body
-                        color: Theme.sea
-                    }
-                }
-                Balanced {
-                    width: parent.width
-                    visible: text !== ""
-                    text: view.debrief.withdrawing
-                    font.pixelSize: view.noted
-                    color: Theme.ink
-                }
-                Balanced {
-                    objectName: "returning"
-                    width: parent.width
-                    visible: text !== ""
-                    text: view.debrief.returning
-                    font.pixelSize: view.noted
-                    color: Theme.ink
-                }
-                Balanced {
-                    objectName: "questions"
-                    width: parent.width
-                    visible: text !== ""
-                    text: view.debrief.questions
-                    font.pixelSize: view.noted
-                    color: Theme.ink
-                }
-                Balanced {
-                    objectName: "summary"
-                    width: parent.width
-                    visible: text !== ""
-                    text: view.debrief.summary
-                    font.pixelSize: view.noted
-                    color: Theme.faintInk
                 }
             }
         }
