@@ -422,7 +422,9 @@ def test_title_and_ways_stand_at_the_same_places_on_all_pages(
         title, leave = find_item(ground, "page-title"), find_item(ground, "back")
         assert title is not None
         assert leave is not None
-        titles.add((round(whole(title).left()), round(whole(title).top()), title.property("font").pixelSize()))
+        # The word of thanks stands in the middle, above the hand of cards.
+        if moment != "thanks":
+            titles.add((round(whole(title).left()), round(whole(title).top()), title.property("font").pixelSize()))
         back.add(round(whole(leave).left()))
         go = find_item(ground, "agree" if moment == "consent" else "continue")
         if go is not None:

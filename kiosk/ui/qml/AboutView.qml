@@ -14,6 +14,8 @@ PageFrame {
     label: words["about-continue"]
     other: returning.offered ? words["return-offer"] : ""
     way.otherName: "return-offer"
+    // No less than the lines above it; large texts need the room themselves.
+    way.size: Theme.textSize > 1.15 ? Theme.body : Theme.size(40)
     onTurnedDown: kiosk.ask("code")
     onWent: about.proceed()
     // Whatever the last visitor's keyboard was at, the next one's is at the button.
@@ -21,16 +23,19 @@ PageFrame {
     Keys.onPressed: event => pane.turn(event)
 
     // Where the lines are short they are set larger: a page that is read at a glance.
+    readonly property real close: 1.8 * Theme.gap
     FontMetrics {
         id: letters
         font.pixelSize: 100
     }
     readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
     function fits(size: real): bool {
+        return tall(size) + about.lines.length * close <= 0.92 * room
+    }
+    function tall(size: real): real {
         const wide = (column - 2.5 * size - Theme.gap) * 0.88
-        const tall = about.lines.reduce((sum, line) =>
+        return about.lines.reduce((sum, line) =>
             sum + Math.max(2.5 * size, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
-        return tall + about.lines.length * pane.spacing <= 0.92 * room
     }
 
     ScrollPane {
@@ -39,7 +44,8 @@ PageFrame {
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
-        spacing: 1.8 * Theme.gap
+        // Further apart where the page has room for it.
+        spacing: Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.about.lines.length)))
         Repeater {
             model: view.about.lines
             SignedLine {

@@ -52,8 +52,8 @@ PageFrame {
     }
 
     Column {
-        // In the middle, as there is nothing else to read.
-        y: Math.max(0, (view.room - height) / 2.6)
+        // Close to the question that it explains.
+        y: Math.max(0, Math.min(0.7 * Theme.gap, view.room - height))
         width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
@@ -70,7 +70,10 @@ PageFrame {
             // Side by side, or where large words are too wide for that, one above the other.
             readonly property bool abreast: Theme.textSize <= 1.15 || view.column > 1000 * Theme.unit
             readonly property real wish: abreast ? (width - spacing) / 2 : width
-            readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, (abreast ? view.width < view.height ? 440 : 320 : 260) * Theme.unit)
+            // How high they are at least; large texts need the room themselves.
+            readonly property bool airy: Theme.textSize <= 1.15
+            readonly property real least: !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
+            readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1
             spacing: 1.5 * Theme.gap

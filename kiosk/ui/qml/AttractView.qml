@@ -157,7 +157,7 @@ FocusScope {
     }
     Column {
         id: words
-        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - 1.5 * Theme.gap) / 2 }
+        anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: (view.height - view.head - height - cards.height - 1.5 * Theme.gap) / (view.width < view.height ? 8 : 2) }
         spacing: Theme.gap
 
         Line {

@@ -11,7 +11,7 @@ Button {
     // How wide it may be at most; its words then take more lines.
     property real most: Infinity
     property bool quiet: false
-    // A quiet one that is the way on, once something else is done: pale, but not hollow as the others.
+    // A quiet one that is the way on, once something else is done: paler than the others, and not filled as what is ticked.
     property bool waits: false
 
     width: Math.min(implicitWidth, most)
@@ -36,7 +36,7 @@ Button {
         textFormat: Text.PlainText
         text: button.words
         font: button.font
-        color: !button.quiet ? Theme.white : button.waits ? Theme.ink : Theme.sea
+        color: !button.quiet ? Theme.white : button.waits ? Theme.faintInk : Theme.sea
         horizontalAlignment: Text.AlignHCenter
         verticalAlignment: Text.AlignVCenter
         // Not where it fits: a width less the paddings can lack the last fraction of what the words need.
@@ -44,8 +44,8 @@ Button {
     }
     background: Rectangle {
         radius: Math.min(height / 2, button.topPadding + button.font.pixelSize)
-        color: button.quiet ? (button.waits ? Theme.sand : "transparent") : button.hovered ? Theme.lightSea : Theme.sea
-        border.color: Theme.sea
+        color: button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
+        border.color: button.waits ? Theme.edge : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
         FocusRing { around: button }

@@ -9,6 +9,7 @@ FocusScope {
 
     required property string title
     property string line: ""
+    property real lineSize: Theme.body
     // What is to be noted down, large on a line of its own; empty for none.
     property string code: ""
     // The lines of a drawing above the title, on a square of 24; empty for none.
@@ -77,7 +78,7 @@ FocusScope {
                 width: parent.width
                 visible: text !== ""
                 text: calm.line
-                font.pixelSize: Theme.body
+                font.pixelSize: calm.lineSize
                 color: Theme.faintInk
                 horizontalAlignment: Text.AlignHCenter
             }

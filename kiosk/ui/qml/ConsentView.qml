@@ -126,7 +126,7 @@ PageFrame {
             Column {
                 id: boxes
                 width: pane.width
-                spacing: 0.5 * Theme.gap
+                spacing: (points.airy && view.short ? 0.67 : 0.5) * Theme.gap
                 Repeater {
                     id: purposes
                     model: view.consent.purposes
@@ -134,6 +134,7 @@ PageFrame {
                         required property var modelData
                         objectName: "purpose-" + modelData.id
                         width: boxes.width
+                        large: points.airy && view.short
                         words: modelData.text
                         on: view.consent.ticks.includes(modelData.id)
                         note: view.words[modelData.required ? "consent-required" : "consent-optional"]

@@ -115,7 +115,7 @@ Window {
               : unwatched ? root.room - corner.height - Theme.gap : root.room * upright
         // Board and assistant stand close together: the board takes what its cards need, at least half of the screen.
         readonly property real upright: !root.speaks ? (root.texts > 1.15 && root.kiosk.screen !== "form" ? 0.86 : 0.78)
-              : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.56, 0.56 + 0.25 * (root.texts - 1)))
+              : attractView.visible ? (root.texts > 1.3 ? 0.76 : Math.max(0.57, 0.57 + 0.25 * (root.texts - 1)))
               : !boardView.visible ? 0.64
               : Math.max(0.5, Math.min(0.64, boardView.wish / root.room))
         // A screen that has only just come takes no input: a double click belongs to the one before.
@@ -269,7 +269,7 @@ Window {
         yields: formView.visible && formView.keysBelow && !root.kiosk.paused
         rests: root.kiosk.paused
         // Large sentences need the room.
-        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.76 : 0.72) : 0.64
+        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.76 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
@@ -314,6 +314,7 @@ Window {
         sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
         title: root.words["still-there-title"]
         line: root.words["still-there-line"]
+        lineSize: Theme.size(36)
         choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
         onChosen: root.kiosk.confirm()
     }

@@ -16,22 +16,33 @@ PageFrame {
     // Who found no pair sees some of the cards.
     readonly property list<url> pictures: result.pictures.length > 0 ? result.pictures : attract.pictures
     readonly property int count: Math.min(5, pictures.length)
-    readonly property real overlap: 0.72
+    readonly property real overlap: width > height ? 0.72 : 0.62
     // With room for the cards' slant.
     readonly property real slot: Math.max(0, Math.min((width > height ? 300 : 280) * Theme.unit, column / (overlap * (count - 1) + 1.25),
-        room / 1.5))
+        (room - parting.height - parting.space) / 1.5))
     // The hand opens as the screen comes.
     property real open: visible ? 1 : 0
     Behavior on open { enabled: view.visible; NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.OutBack } }
 
-    title: words["thanks-title"]
     label: words["thanks-continue"]
     onWent: thanks.proceed()
     onVisibleChanged: way.focus = true
 
+    // Large and in the middle, above the hand.
+    PlainText {
+        id: parting
+        objectName: "page-title"
+        readonly property real space: 2.5 * Theme.gap
+        y: Math.max(0, (view.room - height - space - 1.3 * view.slot) / 2.4)
+        width: parent?.width ?? 0
+        text: view.words["thanks-title"]
+        horizontalAlignment: Text.AlignHCenter
+        font { pixelSize: Theme.size(90); bold: true }
+        wrapMode: Text.Wrap
+    }
     Item {
         anchors.horizontalCenter: parent?.horizontalCenter
-        y: (view.room - height) / 2
+        y: parting.y + parting.height + parting.space
         visible: view.slot >= 60 * Theme.unit
         width: (view.overlap * (view.count - 1) + 1) * view.slot
         height: 1.3 * view.slot

@@ -8,10 +8,12 @@ Choosable {
 
     property string note: ""
     property string warning: ""
+    // On a page with much height.
+    property bool large: false
 
     horizontalPadding: 0.7 * Theme.gap
     verticalPadding: 0.45 * Theme.gap
-    font.pixelSize: Theme.reading
+    font.pixelSize: large ? Theme.size(36) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
     Accessible.description: warning || note
@@ -32,7 +34,7 @@ Choosable {
         // What the box is, at its right; where that leaves the words little room, below them.
         readonly property real room: box.availableWidth - mark.width - Theme.gap
         readonly property bool beside: tag.visible
-        implicitHeight: Math.max(mark.height, told.height)
+        implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
         Rectangle {
             id: mark

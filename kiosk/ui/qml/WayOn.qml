@@ -13,6 +13,8 @@ FocusScope {
     property string label: ""
     property bool quiet: false
     property bool waits: false
+    // How large the letters of the way on are.
+    property real size: Theme.body
     // What the other way on says, such as a no; and what the two are called.
     property string other: ""
     property string name: "continue"
@@ -48,6 +50,7 @@ FocusScope {
         quiet: ways.quiet
         waits: ways.waits
         words: ways.label
+        font.pixelSize: ways.size
         focus: true
         onClicked: ways.went()
     }
