@@ -12,11 +12,11 @@ from PySide6.QtCore import QCoreApplication, QRect
 from PySide6.QtGui import QImage, QPainter
 
 from kiosk import UserInputError
-from kiosk.assistance.policy import ActionSpec, GateDecision
+from kiosk.assistance.policy import PRAISE, ActionSpec, GateDecision
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.events import Event, HintCue, RemarkTrigger, Stage
 from kiosk.experiment.memory_replay import BoardMemory, MemoryFollower
 from kiosk.experiment.replay import ReplayStep
 from kiosk.files import check_writable, write_file
@@ -137,6 +137,8 @@ class Captions:
                 self.reason = self._no_hint(event)
             case happened.HintGiven():
                 self.reason = self._hint(event)
+            case happened.RemarkGiven():
+                self.reason = self._catalogue.text(_comment(event))
 
     def _no_hint(self, decided: happened.AssistanceDecided) -> str:
         if not decided.gate.is_open:
@@ -147,7 +149,8 @@ class Captions:
         places = {"row": hint.row, "column": hint.column}
         told = {name: number + 1 for name, number in places.items() if number is not None}
         # A hint that tells both is about one card.
-        message = "-".join(("film-hint", *(("card",) if len(told) == len(places) else told)))
+        how = "film-look" if hint.cue is HintCue.GAZE else "film-hint"
+        message = "-".join((how, *(("card",) if len(told) == len(places) else told)))
         counts = self._catalogue.text("film-counts", seen=hint.seen, other=hint.mate_seen)
         return f"{self._catalogue.text(message, **told)} {counts}"
 
@@ -191,6 +194,13 @@ class Captions:
         room = QRect(WIDTH - MARGIN - width, HEIGHT + 8, width, self.height - 16)
         draw_memory(painter, memory, self._catalogue.text("film-memory"), room)
         return width + MARGIN
+
+
+def _comment(remark: happened.RemarkGiven) -> str:
+    """Return the message that tells what a remark is about."""
+    if remark.trigger is RemarkTrigger.DECISION:
+        return "film-remark"
+    return "film-praise" if remark.action is PRAISE else "film-encouragement"
 
 
 class _Film:

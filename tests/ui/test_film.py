@@ -14,8 +14,10 @@ from PySide6.QtQuick import QQuickWindow
 
 from kiosk import UserInputError
 from kiosk.assistance.memory_model import MemoryModel
+from kiosk.assistance.policy import Gate
 from kiosk.cli.main import recollect
 from kiosk.experiment import events as happened
+from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage
 from kiosk.experiment.replay import ReplayStep, replay_events
 from kiosk.experiment.session_config import SessionKind
@@ -24,8 +26,8 @@ from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.film import LEFT_OUT_MS, PERSONAL, WIDTH, Captions, write_film
 from kiosk.ui.replay import Replay
 from kiosk.ui.window import ClockMode, RunMode, WindowMode
-from tests.experiment.driver import Driver, with_memory
-from tests.samples import whole
+from tests.experiment.driver import Driver, forgetful, with_memory
+from tests.samples import mixed, plan, whole
 
 SEED = 5
 SPEED = 16.0
@@ -100,6 +102,31 @@ def test_the_captions_say_what_was_said_and_why(played: Driver, steps: tuple[Rep
     assert hints > 0
     assert {"", "Hint", "No hint"} <= reasons
     assert captions.remembered is None
+
+
+@pytest.mark.parametrize(
+    ("declared", "told"),
+    [
+        ({"explanation": False, "gaze_only": True}, {"Look without words"}),
+        (
+            {"praise": 1.0, "encourage": 1.0},
+            {"Hint", "Comment: the last move was a pair.", "Comment: the last move was not a pair."},
+        ),
+    ],
+)
+def test_the_captions_tell_looks_and_comments_from_hints(declared: dict[str, float], told: set[str]) -> None:
+    driver = Driver(plan(Condition("own"), mixed(SEED, Gate()), conditions={"own": declared}), SEED)
+    driver.to_the_game()
+    driver.play(forgetful(SEED))
+    captions, reasons = Captions(driver.plan.catalogue, memory=False), set[str]()
+    for step in replay_events(driver.plan, SEED, driver.events):
+        captions.follow(step)
+        for event in step.outcome.events:
+            if isinstance(event, happened.HintGiven):
+                reasons.add(captions.reason.partition(":")[0])
+            elif isinstance(event, happened.RemarkGiven):
+                reasons.add(captions.reason)
+    assert reasons == told
 
 
 def test_the_captions_show_what_the_memory_model_says(played: Driver, steps: tuple[ReplayStep, ...]) -> None:
