@@ -13,53 +13,62 @@ PanelSection {
 
     title: words["console-actions"]
 
+    // What is pressed in a hurry is large.
+    component Action: PanelButton { verticalPadding: 13 * Theme.unit }
+
     Flow {
         width: parent.width
-        spacing: 9 * Theme.unit
-        PanelButton {
+        spacing: 12 * Theme.unit
+        Action {
             objectName: "action-mute"
             words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
             onClicked: actions.panel.wish("mute", "")
         }
-        PanelButton {
+        Action {
             objectName: "action-again"
             visible: actions.choices.underWay
             words: actions.words["console-repeat"]
             onClicked: actions.panel.wish("repeat", "")
         }
-        PanelButton {
+        Action {
             objectName: "action-pause"
             visible: actions.choices.underWay
             words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
             chosen: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")
         }
-        PanelButton {
-            objectName: "action-end"
-            filled: true
-            visible: actions.choices.underWay
-            words: actions.words["console-abort"]
-            onClicked: actions.panel.wish("abort", "")
-        }
-        PanelButton {
+        Action {
             objectName: "action-next"
             filled: true
             visible: actions.choices.canBeNext
             words: actions.words["console-next"]
             onClicked: actions.panel.wish("next", "")
         }
-        PanelButton {
+        Action {
             objectName: "action-backup"
             enabled: actions.choices.backup === ""
             words: actions.words["console-backup"] + (enabled ? "" : ": " + actions.choices.backup)
             onClicked: actions.panel.wish("backup", "")
         }
-        PanelButton {
+        Action {
             objectName: "break-end"
             filled: true
             visible: actions.choices.onBreak ?? false
             words: actions.words["console-break-end"]
             onClicked: actions.panel.wish("break", "")
+        }
+    }
+    // On a line of its own: it takes a game from a visitor.
+    Item {
+        width: parent.width
+        height: end.height + 24 * Theme.unit
+        visible: actions.choices.underWay
+        Action {
+            id: end
+            y: 12 * Theme.unit
+            objectName: "action-end"
+            words: actions.words["console-abort"]
+            onClicked: actions.panel.wish("abort", "")
         }
     }
     PanelChoice {
