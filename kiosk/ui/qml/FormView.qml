@@ -24,7 +24,7 @@ PageFrame {
         let tall = 60 * Theme.unit
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * size / 100 / wide)
-            tall += form.hidden.includes(item.id) ? 0 : !scales(item) ? 170 * Theme.unit
+            tall += form.hidden.includes(item.id) ? 0 : !scales(item) ? (dense || tight ? 170 : 210) * Theme.unit
                 : Math.max((dense ? 72 : 92) * Theme.unit, lines * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
             if (scales(item) && lines > 3)
                 return false

@@ -4,7 +4,7 @@ import QtQuick
 import Recollect
 import ".."
 
-Rectangle {
+Item {
     id: box
 
     required property var item          // as the form's object describes it
@@ -70,23 +70,30 @@ Rectangle {
             guest.focus = false
         }
     }
-    height: content.height + 2 * margin
-    radius: Theme.radius
-    color: alone ? "transparent" : Theme.white
-    border { color: missed ? Theme.deepAmber : Theme.edge; width: alone ? 0 : (missed ? 5 : 3) * Theme.unit }
+    // The words for the ends stand above the first card of a table.
+    readonly property real head: beside && headed ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
+
+    height: head + content.height + 2 * margin
+
+    Rectangle {
+        anchors { fill: parent; topMargin: box.head }
+        radius: Theme.radius
+        color: box.alone ? "transparent" : Theme.white
+        border { color: box.missed ? Theme.deepAmber : Theme.edge; width: box.alone ? 0 : (box.missed ? 5 : 3) * Theme.unit }
+    }
 
     Column {
         id: content
-        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: -box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
+        anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
         spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
 
         Item {
             id: asked
             width: parent.width
-            // Where the middle of a row is: that of the points, below the words for their ends.
+            // Where the middle of a row is: that of the points, and not of the words for their ends.
             readonly property real scaled: (way.item as PointScale)?.size ?? 0
-            readonly property real middle: Math.max(way.height - scaled / 2, told.height / 2)
-            height: box.beside ? middle + Math.max(scaled, told.height) / 2 : told.height + (way.active ? content.spacing + way.height : 0)
+            readonly property real middle: Math.max(scaled, told.height) / 2
+            height: box.beside ? 2 * middle : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
@@ -98,7 +105,8 @@ Rectangle {
                     text: box.item.text
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
-                            : box.beside ? box.rowText : box.dense ? Theme.reading : Theme.body
+                            : box.beside || (box.item.kind === "slider" && box.rowText > 0) ? box.rowText
+                            : box.dense ? Theme.reading : box.airy ? Theme.size(38) : Theme.body
                         bold: box.item.kind !== "page"
                     }
                     lineHeight: box.item.kind === "page" ? 1.15 : 1
@@ -190,6 +198,7 @@ Rectangle {
             width: way.room
             beside: box.beside
             headed: box.headed
+            lift: box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points
@@ -219,6 +228,7 @@ Rectangle {
             answered: box.answer !== undefined
             given: box.answer ?? 0
             alone: box.alone
+            dense: box.dense || box.tight || (Theme.textSize > 1.15 && !box.large)
             onChosen: value => box.form.rate(box.item.id, value)
         }
     }

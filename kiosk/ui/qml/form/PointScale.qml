@@ -21,6 +21,8 @@ Item {
     // Whether it is a row of a table, and whether the words for its ends stand above it there.
     property bool beside: false
     property bool headed: true
+    // How far above the points they stand then.
+    property real lift: 0
     signal chosen(int point)
 
     readonly property bool pictured: pictures.length > 0
@@ -43,7 +45,7 @@ Item {
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
     // In a table the ends stand above the points: they head the rows below, too.
-    readonly property real head: beside && headed ? words + 0.4 * Theme.gap : 0
+    readonly property real head: beside && headed ? words + lift : 0
 
     height: beside ? head + row.height : below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
 
@@ -56,7 +58,7 @@ Item {
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: scale.large ? Theme.reading : Theme.small
+        font.pixelSize: scale.beside ? Theme.size(30) : scale.large ? Theme.reading : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -69,7 +71,7 @@ Item {
         width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: scale.large ? Theme.reading : Theme.small
+        font.pixelSize: scale.beside ? Theme.size(30) : scale.large ? Theme.reading : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }

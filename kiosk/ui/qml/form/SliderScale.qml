@@ -18,6 +18,7 @@ Item {
     required property bool answered
     required property int given
     required property bool alone
+    required property bool dense        // whether there is little height for it
     signal chosen(int value)
 
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -28,7 +29,8 @@ Item {
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
     // The words stand in the line, above its marks.
-    readonly property real rail: hint.implicitHeight + 26 * Theme.unit
+    readonly property real rail: hint.implicitHeight + (dense ? 26 : 52) * Theme.unit
+    readonly property real tick: (dense ? 10 : 24) * Theme.unit
     readonly property real thickness: rail + 10 * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
@@ -114,9 +116,9 @@ Item {
                     readonly property bool end: index === 0 || index === ticks.model - 1
                     readonly property real middle: scale.thickness / 2 + index / (ticks.model - 1) * (slider.width - scale.thickness)
                     x: middle - width / 2
-                    y: scale.rail - height - 6 * Theme.unit
+                    y: scale.rail - height - (scale.dense ? 6 : 12) * Theme.unit
                     width: (end ? 4 : 3) * Theme.unit
-                    height: (end ? 18 : 10) * Theme.unit
+                    height: scale.tick + (end ? 8 * Theme.unit : 0)
                     radius: width / 2
                     color: Theme.lightSea
                 }
@@ -144,9 +146,9 @@ Item {
         objectName: `touch-${scale.item}`
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - height) / 2 - 5 * Theme.unit
+        y: slider.y + (slider.height - height) / 2 - (scale.dense ? 5 : 18) * Theme.unit
         text: scale.touch
-        font.pixelSize: Theme.small
+        font.pixelSize: scale.dense ? Theme.small : Theme.body
         color: Theme.faintInk
     }
 }
