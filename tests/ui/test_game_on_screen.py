@@ -380,6 +380,31 @@ def test_on_an_upright_screen_the_columns_numbers_stand_nearer_to_the_cards_than
 
 
 @STILL
+def test_on_an_upright_screen_the_tray_is_as_wide_as_the_cards_and_its_places_are_lower(app: App) -> None:
+    resize(app.window, "upright")
+    lay_out(app.window)
+    tray = place(next(item for item in items(app.window.contentItem()) if lies_in(item, "Tray")))
+    first, last = place(find(app, "card-0")), place(find(app, "card-5"))
+    assert first.left() < tray.left() < first.center().x()
+    assert last.center().x() < tray.right() < last.right()
+    assert tray.height() / 2 < 0.7 * first.height()
+
+
+@STILL
+@pytest.mark.parametrize("layout", ["wide", "upright"])
+def test_no_control_moves_when_a_sentence_can_be_heard_again(app: App, layout: str) -> None:
+    app.screens.kiosk.begin(["en"], "en", QUIET.consent)
+    resize(app.window, layout)
+    lay_out(app.window)
+    stop = find(app, "control-stop")
+    before = place(stop)
+    app.screens.avatar.say("Look at column 2.")
+    lay_out(app.window)
+    assert find(app, "control-say-again").isVisible()
+    assert place(stop) == before
+
+
+@STILL
 def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: App) -> None:
     app.screens.avatar.say("Look at column 2.")
     app.screens.avatar.feel(Mood.HAPPY)

@@ -29,6 +29,8 @@ FocusScope {
     readonly property int markColumn: board.markColumn
     // How much of a cell a card takes.
     readonly property real share: 0.91
+    // On an upright screen, what stands above the cards begins and ends with them.
+    readonly property real inset: upright ? 0.06 * cell : 0
 
     // Columns are counted from the left in every language, on the board and in what is said.
     LayoutMirroring.enabled: false
@@ -41,8 +43,9 @@ FocusScope {
     readonly property int shelfLines: pairs > 6 ? 2 : 1
     readonly property int lines: upright ? shelfLines : tall ? 2 : 1
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
-    readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 16) * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min((shelfLines > 1 ? 152 : 132) * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
+    readonly property real wordsApart: (practises ? 20 : 8) * Theme.unit
+    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
@@ -50,19 +53,20 @@ FocusScope {
     // smaller by it.
     readonly property real apart: upright ? 48 * Theme.unit : 0
     readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
-    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip + Math.max(0, Math.min(apart, spare))
+    readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
+        + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare))
     // Where the words about the game stand: above the tray, or beside it in the same line.
     readonly property real wordsAt: 12 * Theme.unit
-    readonly property real wordsHigh: upright ? wordsLine - 8 * Theme.unit : tray.height
+    readonly property real wordsHigh: upright ? wordsLine - 12 * Theme.unit - wordsApart : tray.height
     // The way to the game stands above the cards, with the tray; or below them, where large words leave no room there.
     readonly property bool skipsBelow: !broad
         && practice.width + progress.implicitWidth + skip.implicitWidth + (upright ? 0 : 240 * Theme.unit) + 5 * Theme.gap > width
     // Beside the numbers there is room for a mark's arrow.
     readonly property real numbers: (upright ? 64 : 78) * Theme.unit
-    readonly property real footer: pill.height + 14 * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
+    readonly property real footer: pill.height + (upright ? 32 : 22) * Theme.unit + (practises && skipsBelow ? skip.height + Theme.gap : 0)
     // How high this item has to be on an upright screen, for cells as wide as there is room for.
     readonly property real widest: (width - 2 * side - numbers - (upright ? 1.2 : 2) * Theme.gap) / Math.max(1, columns)
-    readonly property real wish: 34 * Theme.unit + shelf + apart + numbers + pill.height
+    readonly property real wish: 52 * Theme.unit + shelf + apart + numbers + pill.height
         + rows * (width - numbers - 1.2 * Theme.gap) / Math.max(1, columns)
     // A whole number, or the last column might not fit into the sum of all by a rounding error.
     readonly property real cell: Math.floor(Math.min(widest, (height - header - numbers - footer) / Math.max(1, rows)))
@@ -93,7 +97,7 @@ FocusScope {
     // Loads the pictures when the cards are dealt, in the sizes of the cards and of the tray, and not in the frame in
     // which the first one is turned or found.
     Repeater {
-        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * view.share), Math.round(tray.slot * 0.74)]
+        model: view.board.pictures.length === 0 ? [] : [Math.floor(view.cell * view.share), tray.card]
         Item {
             id: loaded
             required property int modelData
@@ -134,7 +138,7 @@ FocusScope {
     }
     PlainText {
         id: progress
-        x: !view.practises ? (view.broad ? Theme.gap : table.x) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
+        x: !view.practises ? (view.broad ? Theme.gap : table.x + view.inset) : view.broad ? Theme.gap : practice.x + practice.width + Theme.gap
         y: !view.broad ? view.wordsAt : view.practises ? practice.y + practice.height + 0.7 * Theme.gap : table.y
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -148,7 +152,7 @@ FocusScope {
         id: moves
         // Nothing counts in a practice.
         visible: !view.practises
-        x: view.broad ? Theme.gap : table.x + table.width - width
+        x: view.broad ? Theme.gap : table.x + table.width - width - view.inset
         y: view.broad ? progress.y + progress.height + 0.5 * Theme.gap : view.wordsAt
         width: view.broad ? view.side - Theme.gap : implicitWidth
         height: view.broad ? implicitHeight : view.wordsHigh
@@ -160,12 +164,13 @@ FocusScope {
     }
     Tray {
         id: tray
-        x: view.broad ? view.width - view.side : view.upright ? table.x - 2 * Theme.gap : progress.x + progress.width + Theme.gap
+        x: view.broad ? view.width - view.side : view.upright ? table.x + view.inset : progress.x + progress.width + Theme.gap
         y: view.broad ? table.y : view.upright ? view.wordsAt + view.wordsLine : 12 * Theme.unit
-        width: view.broad ? view.side - Theme.gap : view.upright ? table.width + 4 * Theme.gap : Math.max(0, end - x - Theme.gap)
+        width: view.broad ? view.side - Theme.gap : view.upright ? table.width - 2 * view.inset : Math.max(0, end - x - Theme.gap)
         readonly property real end: !view.practises ? moves.x : view.skipsBelow ? view.width : skip.x
         height: view.broad ? table.height : view.upright ? view.lines * view.shelfSlot : view.strip - 8 * Theme.unit
         places: view.pairs
+        spreads: view.upright
         lines: view.broad ? Math.ceil(places / 2) : view.lines
         pictures: view.board.tray
         landed: Math.max(0, view.board.tray.length - (joy.under ? 1 : 0))
@@ -176,11 +181,11 @@ FocusScope {
     Rectangle {
         id: pill
         objectName: "pill"
-        anchors { top: cards.bottom; topMargin: 8 * Theme.unit; horizontalCenter: cards.horizontalCenter }
+        anchors { top: cards.bottom; topMargin: (view.upright ? 20 : 8) * Theme.unit; horizontalCenter: cards.horizontalCenter }
         // A hint that is seen or read needs no announcement any more.
         visible: view.board.wait !== "" && !(view.speaking && (view.marks || view.said))
         width: waiting.width + dots.width + 3.5 * 0.8 * Theme.gap
-        height: Math.max(waiting.height + 6 * Theme.unit, 46 * Theme.unit)
+        height: waiting.height + (view.upright ? 20 : 6) * Theme.unit
         radius: height / 2
         color: Theme.sand
         Row {
@@ -203,7 +208,7 @@ FocusScope {
             width: Math.min(implicitWidth, view.width - dots.width - 5 * Theme.gap)
             wrapMode: width < implicitWidth ? Text.Wrap : Text.NoWrap
             text: view.board.wait
-            font.pixelSize: Theme.body
+            font.pixelSize: view.upright && Theme.textSize <= 1.15 ? Theme.size(38) : Theme.body
             color: Theme.ink
             Accessible.role: Accessible.AlertMessage
             Accessible.name: text
@@ -243,7 +248,8 @@ FocusScope {
             PlainText {
                 required property int index
                 x: index * view.cell
-                y: -view.numbers
+                // Above a mark's arrow, also in large letters.
+                y: Math.min(-view.numbers, -42 * Theme.unit - baselineOffset)
                 width: view.cell
                 text: index + 1
                 font { pixelSize: Theme.body; bold: true }
@@ -471,7 +477,7 @@ FocusScope {
                 if (view.board.tray.length === 1)
                     view.firstFound()
                 joy.celebrate([view.centre(first), view.centre(second)], Qt.point(tray.x + goal.x, tray.y + goal.y),
-                              Math.floor(view.cell * view.share), tray.slot, picture)
+                              Math.floor(view.cell * view.share), tray.card, picture)
             }
         }
     }

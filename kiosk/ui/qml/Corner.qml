@@ -15,6 +15,11 @@ Grid {
     required property int places
 
     readonly property real step: 64 * Theme.unit + spacing
+    // Its size with the sentence to be heard again, whether or not there is one now: nothing moves when that comes.
+    readonly property int slots: 2 + (kiosk.inSession ? 1 : 0) + (kiosk.inSession && kiosk.languages.length > 1 ? 1 : 0)
+        + (kiosk.audible ? 1 : 0)
+    readonly property real fullWidth: Math.min(slots, places) * step - spacing
+    readonly property real fullHeight: Math.ceil(slots / places) * step - spacing
 
     columns: places
     spacing: 10 * Theme.unit

@@ -10,7 +10,7 @@ Item {
     property list<point> from: []
     property point to
     property real cardSize: 0
-    property real slotSize: 0
+    property real smallSize: 0
     property url picture
 
     // Not yet in the tray.
@@ -25,7 +25,7 @@ Item {
         from = places
         to = goal
         cardSize = large
-        slotSize = small
+        smallSize = small
         picture = what
         if (Theme.motion === 0) {
             landed()
@@ -81,7 +81,7 @@ Item {
             readonly property real bow: Math.sin(joy.flight * Math.PI) * joy.cardSize * 0.35
             width: joy.cardSize
             height: width
-            scale: 1 + (joy.slotSize * 0.74 / Math.max(1, joy.cardSize) - 1) * joy.flight
+            scale: 1 + (joy.smallSize / Math.max(1, joy.cardSize) - 1) * joy.flight
             x: start.x + (joy.to.x - start.x) * joy.flight + (index === 0 ? -1 : 1) * bow - width / 2
             y: start.y + (joy.to.y - start.y) * joy.flight - height / 2
             source: joy.picture

@@ -101,7 +101,8 @@ Window {
         id: stage
         x: root.wide && root.boardOnRight ? root.width - width : 0
         y: root.wide || !boardView.visible ? 0
-         : Math.round(root.high ? Math.max(0, (free - height) / 2) : 0.01 * root.room)
+         : Math.round(root.high ? Math.max(0, (free - height) / 2)
+                      : Math.max(0.01 * root.room, Math.min(0.06 * root.room, 0.65 * root.room - height)))
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
@@ -260,7 +261,9 @@ Window {
         // A whole number: edges that move by fractions do not come back to the last bit.
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
         y: below ? stage.y + stage.height : above
-        width: below ? root.width * (broad ? 0.88 : 0.76) : root.width - stage.width - Theme.gap
+        // Beside a robot on a wide screen, what is said ends before the controls.
+        width: !below ? root.width - stage.width - Theme.gap : broad ? 0.88 * root.width
+             : Math.min(0.76 * root.width, root.width - 2 * (3 * corner.step + 1.7 * Theme.gap))
         height: root.high ? root.sentence : below ? root.room - y : root.room - above
         visible: !root.whole || root.speaks
         avatar: root.avatar
@@ -269,7 +272,7 @@ Window {
         yields: formView.visible && formView.keysBelow && !root.kiosk.paused
         rests: root.kiosk.paused
         // Large sentences need the room.
-        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.76 : attractView.visible ? 0.88 : 0.72) : 0.64
+        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
@@ -286,8 +289,10 @@ Window {
         opacity: root.kiosk.paused ? 0 : 1
         places: !root.wide ? (stage.unwatched || root.high ? 5 : 1) : root.whole && root.speaks ? 3 : 5
         visible: (kiosk.inSession || kiosk.screen === "attract") && root.replay === null
-        x: atLeft ? Theme.gap : root.width - width - 0.7 * Theme.gap
-        y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - height - 0.5 * Theme.gap
+        // Where the game speaks, there is always a place for the button that comes and goes.
+        readonly property bool keeps: root.speaks && root.kiosk.inSession
+        x: atLeft ? Theme.gap + (keeps ? fullWidth - width : 0) : root.width - width - 0.7 * Theme.gap
+        y: root.wide && !root.whole ? 0.7 * Theme.gap : root.room - (keeps ? fullHeight : height) - 0.5 * Theme.gap
     }
     // How far the visit is; quiet, beside the controls or in the other corner.
     Progress {

@@ -49,7 +49,7 @@ Item {
         radius: Theme.radius
         color: Theme.amber
         border { color: Theme.deepAmber; width: 4 * Theme.unit }
-        Arrow { y: -height; anchors.horizontalCenter: parent.horizontalCenter; rotation: 90 }
+        Arrow { y: 2 * Theme.unit - height; anchors.horizontalCenter: parent.horizontalCenter; rotation: 90 }
     }
     Rectangle {
         visible: mark.marksCard

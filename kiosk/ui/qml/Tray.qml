@@ -9,6 +9,8 @@ Item {
     required property int places
     required property list<string> pictures
     required property int lines
+    // Whether the places take all of its width; the two cards of a pair then lie further apart.
+    property bool spreads: false
     // How many of the pictures have arrived.
     required property int landed
     required property url back
@@ -17,9 +19,13 @@ Item {
     readonly property int columns: Math.ceil(places / Math.max(1, lines))
     readonly property real slot: Math.floor(Math.min(width / Math.max(1, columns), height / Math.max(1, lines)))
 
+    // A whole number, as the board loads them beforehand.
+    readonly property int card: Math.round(slot * (spreads ? 0.66 : 0.74))
+    readonly property real pitch: spreads ? width / Math.max(1, columns) : slot
+
     // Where the picture with this number lies, in the tray.
     function middle(number: int): point {
-        return Qt.point((width - slot * columns) / 2 + (number % columns + 0.5) * slot,
+        return Qt.point((width - pitch * columns) / 2 + (number % columns + 0.5) * pitch,
                         (height - slot * lines) / 2 + (Math.floor(number / columns) + 0.5) * slot)
     }
 
@@ -27,7 +33,7 @@ Item {
     Rectangle {
         anchors.centerIn: parent
         visible: tray.places > 0
-        width: tray.slot * tray.columns + 0.2 * tray.slot
+        width: tray.spreads ? tray.width : (tray.columns + 0.2) * tray.slot
         height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + 12 * Theme.unit)
         radius: 0.24 * tray.slot
         color: Theme.shelf
@@ -40,26 +46,29 @@ Item {
             required property int index
             readonly property bool filled: index < tray.landed
             readonly property point centre: tray.middle(index)
-            x: centre.x - tray.slot / 2
+            x: centre.x - width / 2
             y: centre.y - tray.slot / 2
-            width: tray.slot
+            width: tray.spreads ? Math.min(tray.pitch, 1.5 * tray.slot) : tray.slot
             height: tray.slot
 
             Rectangle {
-                anchors { fill: parent; margins: parent.width * (place.filled ? 0.06 : 0.12) }
-                radius: width * 0.18
+                anchors { fill: parent; margins: parent.height * (place.filled ? 0.06 : 0.12) }
+                radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
                 opacity: place.filled ? 1 : 0.7
             }
-            // Two cards, one on the other.
+            // Two cards, one on the other or side by side.
             Repeater {
                 model: place.filled ? 2 : 0
                 Image {
                     required property int index
-                    readonly property real away: place.width * (index === 0 ? -0.05 : 0.05)
-                    anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
-                    // A whole number, as the board loads them beforehand.
-                    width: Math.round(place.width * 0.74)
+                    readonly property int side: index === 0 ? -1 : 1
+                    anchors {
+                        centerIn: parent
+                        horizontalCenterOffset: side * Math.max(0.05 * tray.slot, Math.min(0.5 * tray.card + Theme.unit, (place.width - tray.card) / 2 - 0.09 * tray.slot))
+                        verticalCenterOffset: tray.spreads ? 0 : side * 0.05 * tray.slot
+                    }
+                    width: tray.card
                     height: width
                     source: Qt.resolvedUrl(tray.pictures[place.index] ?? "")
                     sourceSize: Qt.size(width, height)
