@@ -27,6 +27,8 @@ class BoardWait(Enum):
     """Why cards cannot be tapped just now."""
 
     SPEAKING = "speaking"
+    LOOKING = "looking"
+    """The hint is a look, and words about it would be a hint of another kind."""
     TURNING_BACK = "turning_back"
 
 

@@ -400,7 +400,7 @@ class GameStage(StageHandler):
         self._given, self._trailing = given, None
         outcome.emit(given.hint_event(hint))
         if self._timing.taps_wait:
-            outcome.effect(do.LockBoard(BoardWait.SPEAKING))
+            outcome.effect(do.LockBoard(BoardWait.LOOKING))
         else:
             outcome.emit(happened.BoardUnlocked(at_ms=outcome.at_ms))
             outcome.effect(do.UnlockBoard())

@@ -19,6 +19,7 @@ from kiosk.cli.study import summarised
 from kiosk.config import ASSETS, PAPER_CONDITIONS, ConditionConfig, Settings, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment.condition import CONDITIONS, Condition, Help, help_in, target_rule
+from kiosk.experiment.effects import BoardWait
 from kiosk.experiment.events import HintCue, HintGiven, HintHighlighted, Stage
 from kiosk.experiment.projections import measure
 from kiosk.experiment.replay import first_difference, replay_events
@@ -189,6 +190,8 @@ def test_a_hint_can_be_a_look_that_says_nothing_and_marks_nothing() -> None:
     assert {(hint.sentence, hint.utterance, hint.cue) for hint in hints} == {("", 0, HintCue.GAZE)}
     state = SessionState.from_events(driver.events)
     assert not driver.noted(HintHighlighted)
+    waits = {each.wait for each in driver.effects if isinstance(each, do.LockBoard)}
+    assert waits == {BoardWait.LOOKING, BoardWait.TURNING_BACK}
     assert not [said for said in state.sentences if said.purpose is SentencePurpose.HINT]
 
 

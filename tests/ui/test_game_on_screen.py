@@ -238,6 +238,13 @@ def test_the_helper_is_glad_at_a_pair_and_thoughtful_at_a_miss_and_calm_again_so
     qtbot.waitUntil(lambda: mood() == "idle")
 
 
+def test_a_look_holds_the_board_without_a_word_on_the_screen(app: App) -> None:
+    board = app.screens.board
+    for wait, words in ((BoardWait.SPEAKING, True), (BoardWait.LOOKING, False)):
+        renderer(app).perform([do.LockBoard(wait)])
+        assert (board.accepts_taps, board.property("wait") != "", board.property("speaking")) == (False, words, words)
+
+
 @pytest.mark.parametrize("moves", [True], indirect=True)
 def test_the_eyes_of_the_helper_follow_the_pointer(app: App) -> None:
     face = find(app, "face")

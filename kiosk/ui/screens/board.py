@@ -31,6 +31,7 @@ QML_IMPORT_MAJOR_VERSION = 1
 
 _NOWHERE = -1
 _WAITS = {BoardWait.SPEAKING: "game-wait-speaking", BoardWait.TURNING_BACK: "game-wait-turning-back"}
+"""What the screen says while taps do not count; it says nothing during a look."""
 
 
 class Role(IntEnum):
@@ -318,8 +319,9 @@ class BoardScreen(QAbstractListModel):
 
     @Property(str, notify=waited)
     def wait(self) -> str:
-        """Why taps do not count, in words."""
-        return "" if self._wait is None else self._catalogue.text(_WAITS[self._wait])
+        """Why taps do not count, in words; empty where they count, and during a look."""
+        message = _WAITS.get(self._wait) if self._wait is not None else None
+        return "" if message is None else self._catalogue.text(message)
 
     @Property(int, notify=marked)
     def markRow(self) -> int:  # noqa: N802 - QML's convention
