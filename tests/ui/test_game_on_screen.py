@@ -424,6 +424,33 @@ def test_in_a_pause_the_helper_is_seen_with_its_eyes_shut_and_says_nothing(app: 
 
 
 @STILL
+def test_the_last_pair_stays_forward_until_other_cards_are_dealt(app: App) -> None:
+    board = app.screens.board
+    board.deal(2, 2, 2, "animals")
+    lay_out(app.window)
+    for row, card in enumerate(("cat", "owl")):
+        places = (Position(row, 0), Position(row, 1))
+        for position in places:
+            board.reveal(position, card)
+        board.mark_matched(places)
+    assert [find(app, f"card-{i}").property("proud") for i in range(4)] == [0, 0, 1, 1]
+    board.deal(2, 2, 2, "animals")
+    assert {find(app, f"card-{i}").property("proud") for i in range(4)} == {0}
+
+
+@STILL
+def test_behind_a_question_the_helper_is_calm(app: App) -> None:
+    app.screens.avatar.feel(Mood.HAPPY)
+    face = find(app, "face")
+    assert face.property("mood") == "happy"
+    app.screens.kiosk.ask("stop")
+    assert face.property("mood") == "idle"
+    app.screens.kiosk.ask("")
+    app.screens.kiosk.ask_still_there(asks=True)
+    assert face.property("mood") == "idle"
+
+
+@STILL
 def test_dots_tell_how_far_a_visit_is(app: App) -> None:
     kiosk = app.screens.kiosk
     kiosk.begin(["en"], "en", QUIET.consent)

@@ -157,11 +157,11 @@ def health_parts(state: HealthInputs, catalogue: Catalogue) -> Iterator[PartStat
 
 
 def health_summary(found: tuple[HealthLine, ...], catalogue: Catalogue) -> HealthLine:
-    """One line for all."""
+    """One line for all, or one for each thing that is not well."""
     ill = [line for line in found if not line.is_ok]
     if not ill:
         return HealthLine("", catalogue.text("console-all-well"))
-    return HealthLine("", "  ·  ".join(f"{line.name}: {line.message}" for line in ill), is_ok=False)
+    return HealthLine("", "\n".join(f"{line.name}: {line.message}" for line in ill), is_ok=False)
 
 
 def _robot(state: HealthInputs, catalogue: Catalogue) -> HealthLine:

@@ -73,14 +73,16 @@ FocusScope {
     // What was last touched or turned, in this item; the assistant looks at it.
     property point touched: Qt.point(width / 2, height / 2)
     signal touchedSomething()
-    // The middle of what a hint marks, in this item.
+    // The middle of what a hint marks, in this item; from below, the end of a row where its number stands.
     readonly property bool marks: board.markRow >= 0 || board.markColumn >= 0
     readonly property point marked: Qt.point(
-        table.x + (board.markColumn < 0 ? table.width * 0.75 : (board.markColumn + 0.5) * cell),
+        table.x + (board.markColumn >= 0 ? (board.markColumn + 0.5) * cell : upright ? -0.5 * numbers : table.width * 0.75),
         table.y + (board.markRow < 0 ? 0 : (board.markRow + 0.5) * cell))
     // Whether a card turns, or a pair is on its way to the tray: what else moves on the screen had better wait.
     readonly property bool moves: turning > 0 || joy.under
     property int turning: 0
+    // Where the last pair lies, once all are found.
+    property list<int> last: []
     // Every pair was found, and is in the tray.
     signal won()
     // The first pair was found.
@@ -328,6 +330,12 @@ FocusScope {
             readonly property real cheer: view.wave === 0 || view.wave === 1 ? 0
                 : Math.max(0, 1 - Math.abs(view.wave * (view.rows + view.columns + 1) - row - column - 1) / 1.6)
             Behavior on rest { NumberAnimation { duration: Theme.motion } }
+            // The last pair stays a little forward, and the frames of all others step back.
+            readonly property bool closes: view.last.includes(index)
+            property real proud: closes && (settles || !coming.running) ? 1 : 0
+            property real frame: view.last.length > 0 && !closes ? Theme.past : 1
+            Behavior on proud { NumberAnimation { duration: Theme.motion } }
+            Behavior on frame { NumberAnimation { duration: Theme.motion } }
 
             readonly property real turning: face.turn
             readonly property bool turns: turning > 0 && turning < 1
@@ -336,7 +344,7 @@ FocusScope {
             objectName: "card-" + index
             width: GridView.view.cellWidth
             height: GridView.view.cellHeight
-            z: coming.running ? 2 : up ? 1 : 0
+            z: coming.running || closes ? 2 : up ? 1 : 0
             Accessible.role: Accessible.Button
             Accessible.name: label
             Accessible.onPressAction: view.board.tap(index)
@@ -361,10 +369,10 @@ FocusScope {
             Rectangle {
                 visible: place.rest > 0
                 anchors { fill: parent; margins: parent.width * 0.05 }
-                opacity: place.rest
+                opacity: place.rest * place.frame
                 radius: width * 0.12
                 color: Theme.leaf
-                scale: 1 + 0.09 * place.cheer
+                scale: (1 + 0.24 * place.proud) * (1 + 0.09 * place.cheer)
             }
             Rectangle {
                 visible: place.forward > 0
@@ -389,7 +397,7 @@ FocusScope {
                 // Closed cards step back while a tap would not count, unless they are meant.
                 opacity: view.speaking && !place.up && !place.marked ? Theme.held : 1
                 Behavior on opacity { NumberAnimation { duration: Theme.motion } }
-                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
+                scale: (tap.pressed ? 0.95 : 1) * (1 + 0.07 * lift) * (1 - 0.14 * place.rest + 0.26 * place.proud) * (1 + 0.16 * place.forward) * (1 + 0.09 * place.cheer)
             }
             // These two are no pair; in a while they close again.
             Rectangle {
@@ -466,6 +474,7 @@ FocusScope {
             // A new board begins at its first card for those who play by keyboard.
             function onModelReset() {
                 view.turning = 0
+                view.last = []
                 sweep.stop()
                 view.wave = 0
                 cards.currentIndex = 0
@@ -474,6 +483,8 @@ FocusScope {
             }
             function onPairFound(first, second, picture) {
                 const goal = tray.middle(view.board.tray.length - 1)
+                if (view.board.tray.length === view.pairs)
+                    view.last = [first, second]
                 if (view.board.tray.length === 1)
                     view.firstFound()
                 joy.celebrate([view.centre(first), view.centre(second)], Qt.point(tray.x + goal.x, tray.y + goal.y),

@@ -35,7 +35,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.large ? 6 : 0))
+        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.large ? 4 : 0))
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }

@@ -271,6 +271,7 @@ Window {
         thinks: boardView.visible && root.board.speaking
         yields: formView.visible && formView.keysBelow && !root.kiosk.paused
         rests: root.kiosk.paused
+        waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
         share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide

@@ -20,6 +20,8 @@ Item {
     property bool yields: false
     // Whether it rests, with its eyes shut and in silence.
     property bool rests: false
+    // Whether a question lies over everything: its face is then neither glad nor sad.
+    property bool waits: false
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
@@ -103,7 +105,7 @@ Item {
         anchors { horizontalCenter: parent.horizontalCenter; bottom: parent.bottom; bottomMargin: -1.05 * height * gone }
         width: Math.min(parent.width - 40 * Theme.unit, parent.height * (panel.speaks ? panel.share : 0.94) * 400 / 440)
         height: width * 440 / 400
-        mood: panel.rests ? "idle" : panel.avatar.mood
+        mood: panel.rests || panel.waits ? "idle" : panel.avatar.mood
         // Without motion it speaks with its mouth shut: the bubble stands there meanwhile.
         mouth: Theme.motion === 0 ? 0 : panel.avatar.mouth
         mouthShape: panel.avatar.mouthShape

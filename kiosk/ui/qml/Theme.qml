@@ -40,6 +40,8 @@ QtObject {
     // How much of a card is still to be seen when it is found for good, and while a tap on it would not count.
     readonly property real done: highContrast ? 1 : 0.6
     readonly property real held: highContrast ? 1 : 0.72
+    // And of the frame of a pair that was found before the last one.
+    readonly property real past: highContrast ? 1 : 0.35
 
     readonly property real title: size(76)
     readonly property real pageTitle: size(60)

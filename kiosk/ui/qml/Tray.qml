@@ -55,7 +55,7 @@ Item {
                 anchors { fill: parent; margins: parent.height * (place.filled ? 0.06 : 0.12) }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
-                opacity: place.filled ? 1 : 0.7
+                opacity: !place.filled ? 0.7 : tray.landed === tray.places && place.index < tray.places - 1 ? Theme.past : 1
             }
             // Two cards, one on the other or side by side.
             Repeater {

@@ -10,11 +10,20 @@ PanelSection {
     required property PanelScreen panel
     readonly property var words: panel.words
     readonly property var choices: panel.choices
+    // Whether the buttons end in line: two in a row, or one where its words need more.
+    property bool even: false
 
     title: words["console-actions"]
 
     // What is pressed in a hurry is large.
-    component Action: PanelButton { verticalPadding: 13 * Theme.unit }
+    component Action: PanelButton {
+        verticalPadding: 13 * Theme.unit
+        width: {
+            const room = parent?.width ?? Infinity
+            const half = (room - 12 * Theme.unit) / 2
+            return !actions.even ? Math.min(implicitWidth, room) : implicitWidth <= half ? half : room
+        }
+    }
 
     Flow {
         width: parent.width

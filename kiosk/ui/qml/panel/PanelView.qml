@@ -98,7 +98,7 @@ FocusScope {
             id: sentence
             objectName: "panel-summary"
             anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
-            text: (view.panel.health.well ? "✓   " : "▲   ") + view.panel.health.summary
+            text: view.panel.health.summary.split("\n").map(line => (view.panel.health.well ? "✓   " : "▲   ") + line).join("\n")
             font { pixelSize: Theme.dense * 1.12; bold: true }
             color: view.panel.health.well ? Theme.white : Theme.ink
             wrapMode: Text.Wrap
