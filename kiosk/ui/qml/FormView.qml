@@ -14,19 +14,22 @@ PageFrame {
     readonly property bool dense: form.items.length > 4
     // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
     readonly property real rowText: width <= height || alone || Theme.textSize > 1.15 ? 0
-        : [36, 32, 29].map(Theme.size).find(size => fits(size)) ?? 0
+        : sizes.find(size => fits(size, 2)) ?? sizes.find(size => fits(size, 3)) ?? 0
+    readonly property list<real> sizes: [36, 32, 29].map(Theme.size)
+    // How much of a row is the text's, and the points' is what is left: more of a longer row.
+    readonly property real textShare: wider ? 0.46 : 0.42
     FontMetrics {
         id: letters
         font { pixelSize: 100; bold: true }
     }
-    function fits(size: real): bool {
-        const wide = 0.42 * (column - 2.4 * Theme.gap) * 0.88
+    function fits(size: real, most: int): bool {
+        const wide = textShare * (column - 2.4 * Theme.gap) * 0.88
         let tall = 60 * Theme.unit
         for (const item of form.items) {
             const lines = Math.ceil(letters.advanceWidth(item.text) * size / 100 / wide)
             tall += form.hidden.includes(item.id) ? 0 : !scales(item) ? (dense || tight ? 170 : 210) * Theme.unit
-                : Math.max((dense ? 72 : 92) * Theme.unit, lines * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
-            if (scales(item) && lines > 3)
+                : Math.max((dense ? 72 : 92) * Theme.unit, (dense ? lines : Math.max(2, lines)) * 1.37 * size) + (dense ? 18 : 40) * Theme.unit + spread
+            if (scales(item) && lines > most)
                 return false
         }
         return tall <= room
@@ -38,6 +41,7 @@ PageFrame {
     // Whether the keys of a number stand below this page, where the helper is on an upright screen.
     readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
 
+    wider: !alone && form.items.every(item => scales(item) || item.kind === "slider")
     title: words["form-title"]
     quiet: form.skips
     label: words[form.skips ? "form-skip" : "form-next"]
@@ -131,7 +135,7 @@ PageFrame {
         textFormat: Text.PlainText
         visible: text !== ""
         text: view.form.progress
-        font.pixelSize: Theme.reading
+        font.pixelSize: Theme.size(34)
         // Beside the title on a wide screen, where the controls and the dots of the visit are at the end of its line.
         readonly property bool follows: view.width > view.height && view.titleWidth + width + 2 * Theme.gap < view.column
         x: Theme.across(follows ? view.titleWidth + Theme.gap : view.column - width, width, view.column)
@@ -183,6 +187,7 @@ PageFrame {
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.rowText > 0 && view.scales(modelData)
                     rowText: view.rowText
+                    textShare: view.textShare
                     headed: !view.repeats(index)
                     onEntered: field => keyboard.field = field
                 }

@@ -21,6 +21,8 @@ Item {
     property bool headed: true
     // How large its text is then.
     property real rowText: Theme.body
+    // How much of the row is its text's.
+    property real textShare: 0.42
     // Large texts need that height themselves.
     readonly property bool airy: large && Theme.textSize <= 1.15
     signal entered(Item field)
@@ -92,13 +94,14 @@ Item {
             width: parent.width
             // Where the middle of a row is: that of the points, and not of the words for their ends.
             readonly property real scaled: (way.item as PointScale)?.size ?? 0
-            readonly property real middle: Math.max(scaled, told.height) / 2
+            // Rows of one line and of two are as high.
+            readonly property real middle: Math.max(scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
             height: box.beside ? 2 * middle : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
                 x: Theme.across(0, width, asked.width)
                 y: box.beside ? asked.middle - height / 2 : 0
-                width: box.beside ? 0.42 * asked.width : asked.width
+                width: box.beside ? box.textShare * asked.width : asked.width
                 spacing: content.spacing
                 Balanced {
                     width: parent.width
@@ -125,7 +128,7 @@ Item {
             }
             Loader {
                 id: way
-                readonly property real room: box.beside ? 0.54 * asked.width : asked.width
+                readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : 0, width, asked.width)
                 y: box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null

@@ -58,7 +58,7 @@ Item {
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: scale.beside ? Theme.size(30) : scale.large ? Theme.reading : Theme.small
+        font.pixelSize: scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -71,9 +71,18 @@ Item {
         width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: scale.beside ? Theme.size(30) : scale.large ? Theme.reading : Theme.small
+        font.pixelSize: scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
+    }
+    // The line that joins the points to a scale.
+    Rectangle {
+        visible: !scale.pictured
+        x: row.x + scale.size / 2
+        y: row.y + (scale.size - height) / 2
+        width: scale.span - scale.size
+        height: 4 * Theme.unit
+        color: Theme.edge
     }
     Row {
         id: row

@@ -44,7 +44,7 @@ Item {
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: Theme.small
+        font.pixelSize: Theme.size(30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -55,7 +55,7 @@ Item {
         width: scale.below ? lower.width : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: Theme.small
+        font.pixelSize: Theme.size(30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -100,6 +100,7 @@ Item {
         }
 
         background: Rectangle {
+            id: groove
             x: 0
             y: (slider.height - height) / 2
             width: slider.width
@@ -107,6 +108,15 @@ Item {
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
+            readonly property real line: scale.rail - scale.tick / 2 - (scale.dense ? 6 : 12) * Theme.unit
+            Rectangle {
+                x: scale.thickness / 2
+                y: groove.line - height / 2
+                width: slider.width - scale.thickness
+                height: (scale.dense ? 4 : 6) * Theme.unit
+                radius: height / 2
+                color: Theme.lightSea
+            }
             // A tenth of the way each, or a step where there are fewer, and one at each end; where the middle of the handle can be.
             Repeater {
                 id: ticks
@@ -116,7 +126,7 @@ Item {
                     readonly property bool end: index === 0 || index === ticks.model - 1
                     readonly property real middle: scale.thickness / 2 + index / (ticks.model - 1) * (slider.width - scale.thickness)
                     x: middle - width / 2
-                    y: scale.rail - height - (scale.dense ? 6 : 12) * Theme.unit
+                    y: groove.line - height / 2
                     width: (end ? 4 : 3) * Theme.unit
                     height: scale.tick + (end ? 8 * Theme.unit : 0)
                     radius: width / 2
