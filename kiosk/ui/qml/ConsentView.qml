@@ -135,6 +135,7 @@ PageFrame {
                         objectName: "purpose-" + modelData.id
                         width: boxes.width
                         large: points.airy && view.short
+                        roomy: view.short && Theme.textSize <= 1.15
                         words: modelData.text
                         on: view.consent.ticks.includes(modelData.id)
                         note: view.words[modelData.required ? "consent-required" : "consent-optional"]

@@ -169,7 +169,7 @@ PageFrame {
                 return sum
             }
             spacing: Math.max(view.spread,
-                Math.min((view.width < view.height ? 72 : 26) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
+                Math.min((view.width < view.height ? 72 : view.wider ? 26 : 44) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
             Repeater {
                 id: boxes
                 model: view.form.items

@@ -8,11 +8,13 @@ Choosable {
 
     property string note: ""
     property string warning: ""
+    // Where there is height for it.
+    property bool roomy: false
     // On a page with much height.
     property bool large: false
 
     horizontalPadding: 0.7 * Theme.gap
-    verticalPadding: 0.45 * Theme.gap
+    verticalPadding: (roomy ? 0.7 : 0.45) * Theme.gap
     font.pixelSize: large ? Theme.size(36) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -22,7 +24,7 @@ Choosable {
         radius: Theme.radius
         // Only what is ticked is filled; the pointer over it changes the edge alone.
         color: box.on ? Theme.sand : Theme.white
-        border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.hovered ? 4 : 2) * Theme.unit }
+        border { color: box.warning ? Theme.deepAmber : Theme.sea; width: (box.warning || box.hovered || box.on ? 4 : 2) * Theme.unit }
         FocusRing {
             around: box
             reach: 7 * Theme.unit
@@ -90,7 +92,9 @@ Choosable {
             x: Theme.across(parts.width - width, width, parts.width)
             y: (parts.height - height) / 2
             text: box.note
-            font.pixelSize: Theme.small
+            // It has been done; its place stays, so that the words do not move.
+            opacity: box.on ? 0 : 1
+            font { pixelSize: Theme.small; bold: true }
             color: Theme.faintInk
         }
     }

@@ -19,6 +19,9 @@ Flow {
     readonly property bool stacked: alone && options.length <= 6
     // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
+    // How far apart they are in columns, and in rows that are filled.
+    readonly property real packed: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : 0.5 * Theme.gap
+    readonly property real apart: 0.67 * Theme.gap
     readonly property real widest: {
         let most = 0
         for (let i = 0; i < buttons.count; i++)
@@ -26,12 +29,40 @@ Flow {
         return most
     }
     readonly property int columns: {
-        const fit = Math.max(1, Math.min(options.length, Math.floor((width + spacing) / (widest + spacing))))
+        const fit = Math.max(1, Math.min(options.length, Math.floor((width + packed) / (widest + packed))))
         return Math.ceil(options.length / Math.ceil(options.length / fit))
     }
-    readonly property real tile: Math.floor((width - (columns - 1) * spacing) / columns)
+    // On a wide screen, what takes fewer rows so: each as wide as its words need, and then wider until its row is full.
+    readonly property var filled: {
+        const rows = [], wide = width - 0.5
+        let left = -1
+        for (let i = 0; i < buttons.count; i++) {
+            const wish = (buttons.itemAt(i) as Choosable)?.implicitWidth ?? 0
+            if (left < wish + apart) {
+                rows.push([])
+                left = wide + apart
+            }
+            rows[rows.length - 1].push(wish)
+            left -= wish + apart
+        }
+        if (rows.length >= Math.ceil(options.length / columns))
+            return []
+        const widths = []
+        for (const row of rows) {
+            const spare = (wide - row.reduce((sum, wish) => sum + wish + apart, -apart)) / row.length
+            // Whole pixels, and the row ends where the others do.
+            let at = 0
+            for (const wish of row) {
+                widths.push(Math.floor(at + wish + spare) - Math.floor(at))
+                at += wish + spare
+            }
+        }
+        return widths
+    }
+    readonly property bool flowing: tiled && width >= 1020 * Theme.unit && filled.length > 0
+    readonly property real tile: Math.floor((width - (columns - 1) * packed) / columns)
 
-    spacing: !dense && !alone && width >= 1020 * Theme.unit ? 8 * Theme.unit : 0.5 * Theme.gap
+    spacing: flowing ? apart : packed
     flow: stacked ? Flow.TopToBottom : Flow.LeftToRight
 
     Repeater {
@@ -52,7 +83,7 @@ Flow {
             focusPolicy: list.several || on || (list.chosen.length === 0 && index === 0) ? Qt.StrongFocus : Qt.ClickFocus
             focus: index === 0
             height: Math.max(implicitHeight, list.tall)
-            width: list.stacked ? list.width : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
+            width: list.stacked ? list.width : list.flowing ? list.filled[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.alone ? Theme.body : Theme.reading
             leftPadding: 22 * Theme.unit

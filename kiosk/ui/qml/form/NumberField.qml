@@ -89,11 +89,14 @@ Row {
         objectName: `number-${number.item}`
         focus: true
         label: `${number.label} ${number.range}`
+        // What there may be invites to type it; it stands beside the field as soon as something is typed.
+        hint: number.range
+        Accessible.description: ""
         digits: true
         form: number.form
         minus: number.minus
         // As wide as the longest number; digits of another script may be wider still.
-        width: Math.max(170 * Theme.unit * Theme.textSize,
+        width: Math.max(170 * Theme.unit * Theme.textSize, Math.min(asked.implicitWidth + leftPadding + rightPadding, 0.4 * number.room),
                         Math.max(metrics.advanceWidth(number.widest), contentWidth) + leftPadding + rightPadding + 8 * Theme.unit)
         horizontalAlignment: TextInput.AlignHCenter
         longest: number.widest.length
@@ -112,6 +115,8 @@ Row {
         by: 1
     }
     PlainText {
+        id: asked
+        opacity: field.length > 0 ? 1 : 0
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap
         width: Math.min(implicitWidth, number.room - 2 * field.height - field.width - 3 * number.spacing)

@@ -74,7 +74,7 @@ Rectangle {
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: 10 * Theme.unit
+            radius: keyboard.numbers ? Theme.radius : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Shape {

@@ -78,6 +78,7 @@ TextField {
         visible: field.length === 0 && field.preeditText === ""
         textFormat: Text.PlainText
         text: field.hint
+        horizontalAlignment: field.digits ? Text.AlignHCenter : undefined
         font: field.font
         fontSizeMode: Text.HorizontalFit
         minimumPixelSize: Theme.size(24)
