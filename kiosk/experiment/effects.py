@@ -256,6 +256,9 @@ class HidePause:
 class AskStillThere:
     """Ask whether anybody is there, over whatever is shown."""
 
+    wait_ms: int = 0
+    """How long an answer is waited for; 0 shows no time."""
+
 
 @dataclass(frozen=True)
 class HideStillThere:

@@ -73,7 +73,8 @@ class IdleTimeout:
         match event:
             case happened.TimerExpired(timer=Timer.IDLE):
                 self._asked = True
-                outcome.effect(do.AskStillThere(), do.StartTimer(Timer.STILL_THERE, self._idle.still_there))
+                wait_ms = self._idle.still_there
+                outcome.effect(do.AskStillThere(wait_ms), do.StartTimer(Timer.STILL_THERE, wait_ms))
             case happened.TimerExpired(timer=Timer.STILL_THERE | Timer.PAUSE):
                 outcome.emit(happened.IdleTimedOut(at_ms=outcome.at_ms))
             case happened.PauseRequested():

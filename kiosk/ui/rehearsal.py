@@ -522,7 +522,7 @@ class CoversRehearsal(Rehearsal):
         kiosk.ask("stop")
         self._pictures.take("stop")
         kiosk.ask("")
-        kiosk.ask_still_there(asks=True)
+        kiosk.ask_still_there(asks=True, wait_ms=20_000)
         self._pictures.take("still-there")
         kiosk.ask_still_there(asks=False)
         kiosk.pause(paused=True)

@@ -190,8 +190,8 @@ class Renderer:
                     screens.kiosk.pause(paused=True)
                 case do.HidePause():
                     screens.kiosk.pause(paused=False)
-                case do.AskStillThere():
-                    screens.kiosk.ask_still_there(asks=True)
+                case do.AskStillThere(wait_ms=wait_ms):
+                    screens.kiosk.ask_still_there(asks=True, wait_ms=wait_ms)
                 case do.HideStillThere():
                     screens.kiosk.ask_still_there(asks=False)
                 case do.OfferBack(offered=offered):

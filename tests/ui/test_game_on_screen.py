@@ -439,6 +439,19 @@ def test_the_last_pair_stays_forward_until_other_cards_are_dealt(app: App) -> No
 
 
 @STILL
+def test_the_time_left_to_say_that_one_is_there_is_shown_where_it_is_known(app: App) -> None:
+    def shows_time() -> bool:
+        return any(i.objectName() == "time-left" and i.isVisible() for i in items(app.window.contentItem()))
+
+    kiosk = app.screens.kiosk
+    kiosk.ask_still_there(asks=True, wait_ms=20_000)
+    assert shows_time()
+    kiosk.ask_still_there(asks=False)
+    kiosk.ask_still_there(asks=True)
+    assert not shows_time()
+
+
+@STILL
 def test_behind_a_question_the_helper_is_calm(app: App) -> None:
     app.screens.avatar.feel(Mood.HAPPY)
     face = find(app, "face")

@@ -45,7 +45,7 @@ FocusScope {
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
     readonly property real wordsApart: (practises ? 20 : 8) * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min(90 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip

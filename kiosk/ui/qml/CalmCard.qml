@@ -19,6 +19,21 @@ FocusScope {
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
+    // How long it stays, in ms; 0 where that is not known. A ring around the drawing empties meanwhile, in small steps.
+    property int lasts: 0
+    readonly property int steps: 40
+    property int stepsLeft: 0
+    property real begun: 0
+    onLastsChanged: {
+        begun = Date.now()
+        stepsLeft = lasts > 0 ? steps : 0
+    }
+    Timer {
+        interval: Math.max(50, calm.lasts / calm.steps)
+        repeat: true
+        running: calm.stepsLeft > 0
+        onTriggered: calm.stepsLeft = Math.max(0, Math.round(calm.steps * (1 - (Date.now() - calm.begun) / calm.lasts)))
+    }
 
     onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
 
@@ -50,6 +65,30 @@ FocusScope {
                 height: width
                 radius: width / 2
                 color: Theme.sand
+                Shape {
+                    id: ring
+                    objectName: "time-left"
+                    readonly property real far: parent.width / 2 + 10 * Theme.unit
+                    anchors.centerIn: parent
+                    visible: calm.lasts > 0
+                    width: 2 * far
+                    height: 2 * far
+                    antialiasing: true
+                    ShapePath {
+                        strokeColor: Theme.sea
+                        strokeWidth: 8 * Theme.unit
+                        capStyle: ShapePath.FlatCap
+                        fillColor: "transparent"
+                        PathAngleArc {
+                            centerX: ring.far
+                            centerY: ring.far
+                            radiusX: ring.far
+                            radiusY: ring.far
+                            startAngle: -90
+                            sweepAngle: 360 * calm.stepsLeft / calm.steps
+                        }
+                    }
+                }
                 Shape {
                     anchors.centerIn: parent
                     width: 24

@@ -102,7 +102,7 @@ Window {
         x: root.wide && root.boardOnRight ? root.width - width : 0
         y: root.wide || !boardView.visible ? 0
          : Math.round(root.high ? Math.max(0, (free - height) / 2)
-                      : Math.max(0.01 * root.room, Math.min(0.06 * root.room, 0.65 * root.room - height)))
+                      : Math.max(0.01 * root.room, Math.min(0.08 * root.room, 0.65 * root.room - height)))
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
@@ -321,6 +321,8 @@ Window {
         title: root.words["still-there-title"]
         line: root.words["still-there-line"]
         lineSize: Theme.size(36)
+        // A replay has a time of its own.
+        lasts: root.replay === null ? root.kiosk.answerMs : 0
         choices: [{ name: "still-here", words: root.words["still-there-yes"] }]
         onChosen: root.kiosk.confirm()
     }

@@ -28,7 +28,7 @@ QtObject {
     readonly property color sand: highContrast ? "#FFD54A" : "#E9D8B4"
     readonly property color edge: highContrast ? "#000000" : sand
     // What lies below things that are put down on it.
-    readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.5))
+    readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"
     readonly property color sea: highContrast ? "#0A3A44" : accent

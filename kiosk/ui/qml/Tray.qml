@@ -48,7 +48,7 @@ Item {
             readonly property point centre: tray.middle(index)
             x: centre.x - width / 2
             y: centre.y - tray.slot / 2
-            width: tray.spreads ? Math.min(tray.pitch, 1.5 * tray.slot) : tray.slot
+            width: tray.spreads ? Math.min(tray.pitch, 1.75 * tray.slot) : tray.slot
             height: tray.slot
 
             Rectangle {

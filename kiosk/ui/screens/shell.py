@@ -142,6 +142,7 @@ class KioskScreen(QObject):
         self._words = fixed_texts(catalogue)
         self._screen = "attract"
         self._asks_still_there = False
+        self._answer_ms = 0
         self._paused = self._behind_panel = self._waits = False
         self._back_at = ""
         self._leaving = False
@@ -219,10 +220,11 @@ class KioskScreen(QObject):
         self._takes_input = True
         self.changed.emit()
 
-    def ask_still_there(self, *, asks: bool) -> None:
-        """Ask over whatever is shown, or stop asking."""
+    def ask_still_there(self, *, asks: bool, wait_ms: int = 0) -> None:
+        """Ask over whatever is shown, with the time left where one is given; or stop asking."""
         if asks != self._asks_still_there:
             self._asks_still_there = asks
+            self._answer_ms = wait_ms if asks else 0
             self._asks = ""
             self.controls.emit()
             self._start_input_guard()
@@ -305,6 +307,11 @@ class KioskScreen(QObject):
     def asksStillThere(self) -> bool:  # noqa: N802 - QML's convention
         """Whether the visitor is asked if they are still there."""
         return self._asks_still_there and not (self._paused or self._waits)
+
+    @Property(int, notify=changed)
+    def answerMs(self) -> int:  # noqa: N802 - QML's convention
+        """How long an answer to that question is waited for; 0 where nothing is asked, or no time is known."""
+        return self._answer_ms
 
     @Property(bool, notify=changed)
     def waits(self) -> bool:
