@@ -19,8 +19,11 @@ ROOT = Path(__file__).parents[1]
 
 LOADED = ("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsal")
 
+LONGEST_S = 300
+"""A command that is at work for longer is ended, so that its test fails and the others go on."""
+
 SERVER = f"""
-import gc, json, os, sys
+import gc, json, os, signal, sys
 from importlib import import_module
 for name in {LOADED!r}:
     import_module(name)
@@ -33,6 +36,7 @@ for line in iter(sys.stdin.readline, ""):
         print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
         continue
     os.setsid()
+    signal.alarm({LONGEST_S})
     os.chdir(job["folder"])
     os.environ.clear()
     os.environ.update(job["environment"])
