@@ -23,16 +23,18 @@ FocusScope {
     property int lasts: 0
     readonly property int steps: 40
     property int stepsLeft: 0
-    property real begun: 0
     onLastsChanged: {
-        begun = Date.now()
+        emptying.stop()
         stepsLeft = lasts > 0 ? steps : 0
+        if (lasts > 0)
+            emptying.start()
     }
-    Timer {
-        interval: Math.max(50, calm.lasts / calm.steps)
-        repeat: true
-        running: calm.stepsLeft > 0
-        onTriggered: calm.stepsLeft = Math.max(0, Math.round(calm.steps * (1 - (Date.now() - calm.begun) / calm.lasts)))
+    NumberAnimation {
+        id: emptying
+        target: calm
+        property: "stepsLeft"
+        to: 0
+        duration: calm.lasts
     }
 
     onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
