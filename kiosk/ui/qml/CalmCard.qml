@@ -26,6 +26,7 @@ FocusScope {
     onLastsChanged: {
         emptying.stop()
         stepsLeft = lasts > 0 ? steps : 0
+        emptying.duration = lasts
         if (lasts > 0)
             emptying.start()
     }
@@ -34,7 +35,6 @@ FocusScope {
         target: calm
         property: "stepsLeft"
         to: 0
-        duration: calm.lasts
     }
 
     onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
