@@ -30,11 +30,13 @@ FocusScope {
         if (lasts > 0)
             emptying.start()
     }
+    // It tells the time, so it goes on where nothing else moves, in steps.
     NumberAnimation {
         id: emptying
         target: calm
         property: "stepsLeft"
         to: 0
+        duration: 0
     }
 
     onVisibleChanged: if (visible && buttons.count > 0) buttons.itemAt(0).focus = true
