@@ -86,7 +86,7 @@ MADE_BEFORE = (
 )
 """What the examples of a command take from another one."""
 
-WITHOUT_A_WINDOW = {"--headless", "--film", "--frames", "--shots"}
+WITHOUT_A_WINDOW = {"--headless", "--film", "--frames"}
 
 RUN_ONCE = ("check --study study.toml", "study set-pin")
 """Commands of many pages that change nothing and do the same everywhere."""
@@ -295,8 +295,8 @@ def typed(command: str, desk: Desk, loaded: LoadedProgram) -> subprocess.Complet
     words = [given.get(word, word).replace("~", str(desk.home)) for word in shlex.split(command)]
     less = next((more for pattern, more in LESS.items() if fnmatch(command, pattern)), ())
     yes = ("--yes",) if words[0] == "withdraw" else ()
-    has_a_window = words[0] == "run" or words[:2] == ["study", "preview"] or words[0] == "replay"
-    has_a_window &= WITHOUT_A_WINDOW.isdisjoint(words)
+    opens = words[0] in {"run", "replay"} or words[:2] == ["study", "preview"]
+    has_a_window = opens and WITHOUT_A_WINDOW.isdisjoint(words)
     how = LEFT_AT_ONCE if has_a_window else PROGRAM
     if "--host" not in words:
         return loaded.run([*words, *less, *yes], desk.folder, desk.environment, "258013\n258013\n", how)

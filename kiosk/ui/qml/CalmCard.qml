@@ -93,19 +93,12 @@ FocusScope {
                         }
                     }
                 }
-                Shape {
+                Drawing {
                     anchors.centerIn: parent
-                    width: 24
-                    height: 24
                     scale: 2.6 * Theme.unit
-                    ShapePath {
-                        strokeColor: Theme.ink
-                        strokeWidth: 2.2
-                        capStyle: ShapePath.RoundCap
-                        joinStyle: ShapePath.RoundJoin
-                        fillColor: "transparent"
-                        PathSvg { path: calm.sign }
-                    }
+                    path: calm.sign
+                    ink: Theme.ink
+                    thick: 2.2
                 }
             }
             Balanced {

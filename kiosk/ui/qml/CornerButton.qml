@@ -1,7 +1,6 @@
 // A round button of the corner: a drawing, and a word for those who do not see it.
 import QtQuick
 import QtQuick.Controls.Basic
-import QtQuick.Shapes
 import "."
 
 AbstractButton {
@@ -22,19 +21,11 @@ AbstractButton {
     Keys.onEnterPressed: event => { if (!event.isAutoRepeat) clicked() }
 
     contentItem: Item {
-        Shape {
+        Drawing {
             anchors.centerIn: parent
-            width: 24
-            height: 24
             scale: 1.5 * Theme.unit
-            ShapePath {
-                strokeColor: Theme.sea
-                strokeWidth: 2
-                capStyle: ShapePath.RoundCap
-                joinStyle: ShapePath.RoundJoin
-                fillColor: "transparent"
-                PathSvg { path: button.drawing }
-            }
+            path: button.drawing
+            ink: Theme.sea
         }
     }
     background: Rectangle {

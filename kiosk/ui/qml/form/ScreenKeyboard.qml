@@ -3,7 +3,6 @@
 pragma ComponentBehavior: Bound
 import QtQuick
 import QtQuick.Controls.Basic
-import QtQuick.Shapes
 import Recollect
 import ".."
 
@@ -77,20 +76,9 @@ Rectangle {
             radius: keyboard.numbers ? Theme.radius : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
-            Shape {
+            Backspace {
                 visible: key.drawn
                 anchors.centerIn: parent
-                width: 24
-                height: 24
-                scale: 1.5 * Theme.unit
-                ShapePath {
-                    strokeColor: Theme.ink
-                    strokeWidth: 2
-                    capStyle: ShapePath.RoundCap
-                    joinStyle: ShapePath.RoundJoin
-                    fillColor: "transparent"
-                    PathSvg { path: "M8 5 H21 V19 H8 L2.5 12 Z M11.5 9 L17 15 M17 9 L11.5 15" }
-                }
             }
         }
     }
