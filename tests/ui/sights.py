@@ -25,6 +25,8 @@ from tests.ui.looking import (
 
 BOARD_SHARE = 0.715
 """How much of a wide window the board and all other screens have; the assistant has the rest."""
+ATTRACT_SHARE = 0.64
+"""The same of the attract screen, whose assistant is larger."""
 OVER_EVERYTHING = ("CalmCard", *EXPERIMENTERS)
 
 
@@ -55,11 +57,12 @@ def look(window: QQuickWindow, moment: str, side: str) -> Sight:
     """Look closely at what stands there."""
     picture = window.grabWindow()
     shown = [text for text in texts(window.contentItem()) if _is_in_front(window, text)]
+    share = ATTRACT_SHARE if moment.startswith("attract") else BOARD_SHARE
     return Sight(
         moment,
         tuple(untold(window)),
         tuple(_written(picture, text) for text in shown if not painted(text).isEmpty()),
-        tuple(_name(item) for item in _laid_out(window) if _is_astray(window, item, side)),
+        tuple(_name(item) for item in _laid_out(window) if _is_astray(window, item, side, share)),
         tuple(_name(text) for text in shown if any(bar.intersects(painted(text)) for bar in _bars(window))),
     )
 
@@ -111,13 +114,13 @@ def _bars(window: QQuickWindow) -> list[QRect]:
     return [bar for bar in found if not any(over.contains(bar.center()) for over in keys)]
 
 
-def _is_astray(window: QQuickWindow, item: QQuickItem, side: str) -> bool:
+def _is_astray(window: QQuickWindow, item: QQuickItem, side: str, share: float) -> bool:
     """Whether the middle of an item is not on its side: screens where the board is, the assistant on the other."""
     across = place(item).center().x() / window.width()
     from_the_board = across if side == "left" else 1 - across
     # The keys of a number stand in the assistant's place, and those of letters below the page.
     return not lies_in(item, "ScreenKeyboard") and (
-        (from_the_board > BOARD_SHARE) is not lies_in(item, "SidePanel", "Corner")
+        (from_the_board > share) is not lies_in(item, "SidePanel", "Corner")
     )
 
 

@@ -10,6 +10,9 @@ PageFrame {
     required property AboutScreen about
     required property ReturnScreen returning
 
+    aside: sayable(about.lines)
+    readonly property var read: aside === "" ? about.lines : about.lines.slice(0, -1)
+
     title: about.title
     label: words["about-continue"]
     other: returning.offered ? words["return-offer"] : ""
@@ -30,11 +33,11 @@ PageFrame {
     }
     readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
     function fits(size: real): bool {
-        return tall(size) + about.lines.length * close <= 0.92 * room
+        return tall(size) + read.length * close <= 0.92 * room
     }
     function tall(size: real): real {
         const wide = (column - 2.5 * size - Theme.gap) * 0.88
-        return about.lines.reduce((sum, line) =>
+        return read.reduce((sum, line) =>
             sum + Math.max(2.5 * size, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
     }
 
@@ -45,9 +48,9 @@ PageFrame {
         room: view.room
         more: view.words["scroll-more"]
         // Further apart where the page has room for it.
-        spacing: Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.about.lines.length)))
+        spacing: Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
-            model: view.about.lines
+            model: view.read
             SignedLine {
                 required property int index
                 required property var modelData
@@ -55,7 +58,7 @@ PageFrame {
                 text: modelData.text
                 sign: modelData.sign
                 // What it takes of the visitor, by which they decide.
-                strong: index > 0 && index === view.about.lines.length - 1
+                strong: index > 0 && view.aside === "" && index === view.read.length - 1
                 size: view.size
             }
         }

@@ -10,12 +10,18 @@ PageFrame {
     required property AgeScreen age
 
     title: age.question
+    aside: accompanied ? words["age-line"] : ""
     onVisibleChanged: yes.focus = true
+
+    // Each answer has a picture where the page is high enough for it.
+    readonly property bool pictured: accompanied && room > 700 * Theme.unit && Theme.textSize <= 1.15
 
     component Answer: BigButton {
         id: answer
         // What the short word means here.
         required property string meaning
+        // A drawing of it.
+        required property string sign
         readonly property real inside: answers.wish - 2 * horizontalPadding
 
         width: answers.wish
@@ -30,6 +36,25 @@ PageFrame {
                 id: both
                 anchors.centerIn: parent
                 spacing: 0.5 * Theme.gap
+                Item {
+                    anchors.horizontalCenter: parent.horizontalCenter
+                    visible: view.pictured
+                    width: 190 * Theme.unit
+                    height: 200 * Theme.unit
+                    Rectangle {
+                        width: parent.width
+                        height: width
+                        radius: width / 2
+                        color: Theme.white
+                        Drawing {
+                            anchors.centerIn: parent
+                            scale: 6.2 * Theme.unit
+                            path: answer.sign
+                            ink: Theme.sea
+                            thick: 1.6
+                        }
+                    }
+                }
                 PlainText {
                     id: short
                     anchors.horizontalCenter: parent.horizontalCenter
@@ -59,6 +84,7 @@ PageFrame {
 
         Balanced {
             width: parent.width
+            visible: view.aside === ""
             text: view.words["age-line"]
             horizontalAlignment: Text.AlignLeft
             font.pixelSize: Theme.size(view.width < view.height ? 42 : 36)
@@ -72,7 +98,7 @@ PageFrame {
             readonly property real wish: abreast ? (width - spacing) / 2 : width
             // How high they are at least; large texts need the room themselves.
             readonly property bool airy: Theme.textSize <= 1.15
-            readonly property real least: !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
+            readonly property real least: view.pictured ? 560 : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1
@@ -82,6 +108,7 @@ PageFrame {
                 objectName: "age-yes"
                 words: view.words["age-yes"]
                 meaning: view.age.older
+                sign: "M12 3 A2.4 2.4 0 0 1 12 7.8 A2.4 2.4 0 0 1 12 3 M8 15 V12 A2.4 2.4 0 0 1 10.4 9.8 H13.6 A2.4 2.4 0 0 1 16 12 V15 M10.2 12.6 V21 M13.8 12.6 V21 M10.2 15.6 H13.8"
                 focus: true
                 onClicked: view.age.answer(true)
             }
@@ -90,6 +117,7 @@ PageFrame {
                 objectName: "age-no"
                 words: view.words["age-no"]
                 meaning: view.age.younger
+                sign: "M12 9 A2.2 2.2 0 0 1 12 13.4 A2.2 2.2 0 0 1 12 9 M9.4 18 V16.8 A1.8 1.8 0 0 1 11.2 15 H12.8 A1.8 1.8 0 0 1 14.6 16.8 V18 M11 17 V21 M13 17 V21"
                 onClicked: view.age.answer(false)
             }
         }

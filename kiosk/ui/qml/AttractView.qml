@@ -12,6 +12,8 @@ FocusScope {
     required property url cardShadow
     required property string labName
     required property url labLogo
+    // Whether the helper stands beside it on a wide screen: then it says the invitation itself.
+    property bool accompanied: false
 
     // The lab stands above everything, if it says who it is.
     readonly property real head: lab.visible ? lab.height + Theme.gap : 0
@@ -170,6 +172,7 @@ FocusScope {
         Line {
             anchors.horizontalCenter: parent.horizontalCenter
             room: view.width - 4 * Theme.gap
+            visible: !view.accompanied
             text: view.attract.line
             font.pixelSize: Theme.size(44)
             color: Theme.ink
@@ -187,14 +190,21 @@ FocusScope {
         Grid {
             id: starts
             anchors.horizontalCenter: parent.horizontalCenter
-            // All in one row; or where that is too narrow, one above the other.
+            // All in one row; or where that is too narrow, in rows that are as long.
+            readonly property real widest: {
+                let most = 0
+                for (let i = 0; i < ways.count; i++)
+                    most = Math.max(most, ways.itemAt(i)?.width ?? 0)
+                return most + columnSpacing
+            }
             readonly property real wish: {
                 let sum = 0
                 for (let i = 0; i < ways.count; i++)
                     sum += (ways.itemAt(i)?.width ?? 0) + columnSpacing
                 return sum
             }
-            columns: wish <= view.width - 2 * Theme.gap ? ways.count : 1
+            readonly property int fit: Math.max(1, Math.floor((view.width - 2 * Theme.gap) / Math.max(1, widest)))
+            columns: wish <= view.width - 2 * Theme.gap ? ways.count : Math.ceil(ways.count / Math.ceil(ways.count / fit))
             columnSpacing: (Theme.textSize > 1 ? 1 : 1.5) * Theme.gap
             rowSpacing: 0.7 * Theme.gap
             horizontalItemAlignment: Grid.AlignHCenter

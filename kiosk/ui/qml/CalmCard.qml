@@ -21,6 +21,8 @@ FocusScope {
     signal chosen(string name)
     // How long it stays, in ms; 0 where that is not known. A ring around the drawing empties meanwhile, in small steps.
     property int lasts: 0
+    // Whether a ring around the drawing swells and shrinks slowly, as a sign that all is well.
+    property bool breathes: false
     readonly property int steps: 40
     property int stepsLeft: 0
     onLastsChanged: {
@@ -93,6 +95,22 @@ FocusScope {
                         }
                     }
                 }
+                Rectangle {
+                    id: breath
+                    anchors.centerIn: parent
+                    visible: calm.breathes
+                    width: parent.width + 20 * Theme.unit
+                    height: width
+                    radius: width / 2
+                    color: "transparent"
+                    border { color: Theme.sand; width: 6 * Theme.unit }
+                    SequentialAnimation on scale {
+                        running: calm.breathes && calm.visible && Theme.motion > 0
+                        loops: Animation.Infinite
+                        NumberAnimation { from: 1; to: 1.16; duration: 8 * Theme.motion; easing.type: Easing.InOutSine }
+                        NumberAnimation { from: 1.16; to: 1; duration: 8 * Theme.motion; easing.type: Easing.InOutSine }
+                    }
+                }
                 Drawing {
                     anchors.centerIn: parent
                     scale: 2.6 * Theme.unit
@@ -131,6 +149,15 @@ FocusScope {
             }
             Flow {
                 id: flow
+                // Two that fit beside each other are as wide, and far apart.
+                readonly property real half: (content.width - spacing) / 2
+                readonly property bool pair: buttons.count === 2 && widest <= half
+                readonly property real widest: {
+                    let most = 0
+                    for (let i = 0; i < buttons.count; i++)
+                        most = Math.max(most, (buttons.itemAt(i) as BigButton)?.implicitWidth ?? 0)
+                    return most
+                }
                 readonly property real needed: {
                     let sum = 0
                     for (let i = 0; i < buttons.count; i++)
@@ -139,7 +166,7 @@ FocusScope {
                 }
                 anchors.horizontalCenter: parent.horizontalCenter
                 width: Math.min(content.width, Math.ceil(needed))
-                spacing: Theme.gap
+                spacing: (buttons.count === 2 ? 2 : 1) * Theme.gap
                 visible: calm.choices.length > 0
                 Repeater {
                     id: buttons
@@ -148,6 +175,9 @@ FocusScope {
                         required property var modelData
                         objectName: modelData.name
                         most: content.width
+                        width: flow.pair ? Math.floor(flow.half) : Math.min(implicitWidth, most)
+                        font.pixelSize: Theme.size(36)
+                        verticalPadding: 30 * Theme.unit
                         words: modelData.words
                         quiet: modelData.quiet ?? false
                         onClicked: calm.chosen(modelData.name)

@@ -13,6 +13,9 @@ PageFrame {
     property bool whole: false
     readonly property bool short: consent.points.length > 0 && !whole
 
+    aside: short ? sayable(consent.points) : ""
+    readonly property var read: aside === "" ? consent.points : consent.points.slice(0, -1)
+
     title: consent.title
     label: words["consent-agree"]
     quiet: !consent.complete
@@ -73,7 +76,7 @@ PageFrame {
                 readonly property bool airy: view.width < view.height && Theme.textSize <= 1.15
                 spacing: (airy ? 1.2 : 0.6) * Theme.gap
                 Repeater {
-                    model: view.short ? view.consent.points : []
+                    model: view.short ? view.read : []
                     SignedLine {
                         required property var modelData
                         width: parent?.width ?? 0

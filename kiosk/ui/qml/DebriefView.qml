@@ -32,16 +32,19 @@ PageFrame {
         // Small letters are set on whole pixels, which makes them wider.
         const exact = Theme.unit < 0.9 ? 0.95 : 0.98
         const wide = (column - 2.5 * size - Theme.gap) * exact
-        const tall = debrief.lines.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
+        const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
         const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
         const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.figure + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
-        return tall + (debrief.lines.length + 1) * 0.5 * Theme.gap + Math.max(326 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
+        return tall + (read.length + 1) * 0.5 * Theme.gap + Math.max(326 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
     }
     function lines(text: string, size: real, room: real): int {
         return Math.ceil(letters.advanceWidth(text) * size / 100 / room)
     }
+
+    aside: sayable(debrief.lines)
+    readonly property var read: aside === "" ? debrief.lines : debrief.lines.slice(0, -1)
 
     title: debrief.title
     label: words["debrief-continue"]
@@ -65,7 +68,7 @@ PageFrame {
             Row {
                 id: texts
                 y: parts.cardFirst ? keepsake.height + Theme.gap : 0
-                readonly property var lines: view.debrief.lines
+                readonly property var lines: view.read
                 readonly property bool halved: pane.width > 1100 * Theme.unit && lines.length > 1 && !view.signed
                 readonly property int first: halved ? view.half(lines.map(line => line.text)) : lines.length
                 width: pane.width

@@ -51,6 +51,10 @@ Window {
     readonly property real sentence: speaks ? 260 * Math.max(1, texts) * Theme.unit : 0
     readonly property bool speaks: ["attract", "introduction", "practice", "game", "result", "thanks"].includes(kiosk.screen)
     readonly property real texts: Math.min(1.5, textSize * kiosk.textScale)
+    // On a wide screen the helper stands beside every page, and says some of its lines.
+    readonly property bool accompanied: wide && avatar.present
+    // Whether it then stays in sight beside a question that lies over everything, as the one who asks.
+    readonly property bool asking: accompanied && !avatar.away && !kiosk.paused && !kiosk.waits && (kiosk.asksStillThere || kiosk.asks === "stop")
     readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
     readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
 
@@ -90,6 +94,8 @@ Window {
     component Page: Loader {
         required property string name
         readonly property bool shown: root.kiosk.screen === name
+        // What of it the helper says.
+        readonly property string aside: (item as PageFrame)?.aside ?? ""
         anchors.fill: parent
         asynchronous: !shown
         visible: shown && status === Loader.Ready
@@ -107,8 +113,9 @@ Window {
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
         // A form without an onlooker stands in the middle.
+        readonly property point middle: Qt.point(x + width / 2, root.room / 2)
         readonly property bool unwatched: root.avatar.away && root.kiosk.screen === "form"
-        width: root.wide && !root.whole && !unwatched ? root.width * 0.715 : root.width
+        width: root.wide && !root.whole && !unwatched ? root.width * (attractView.visible ? 0.64 : 0.715) : root.width
         // On an upright screen the assistant stands below: with its sentence, alone, or not at all. It makes room for
         // large texts, but on a form, where the keys of a number stand in its place.
         height: root.wide ? root.room - root.said
@@ -132,12 +139,15 @@ Window {
             cardShadow: root.cardShadow
             labName: root.labName
             labLogo: root.labLogo
+            accompanied: root.accompanied
             onVisibleChanged: if (visible) helper.stopNoticing()
             onLooked: place => helper.notice(helper.mapFromItem(attractView, place.x, place.y))
         }
         Page {
+            id: aboutPage
             name: "about"
             sourceComponent: AboutView {
+                accompanied: root.accompanied
                 focus: true
                 about: root.about
                 returning: root.returning
@@ -146,8 +156,10 @@ Window {
             }
         }
         Page {
+            id: consentPage
             name: "consent"
             sourceComponent: ConsentView {
+                accompanied: root.accompanied
                 focus: true
                 consent: root.consent
                 kiosk: root.kiosk
@@ -155,8 +167,10 @@ Window {
             }
         }
         Page {
+            id: agePage
             name: "age"
             sourceComponent: AgeView {
+                accompanied: root.accompanied
                 focus: true
                 age: root.age
                 kiosk: root.kiosk
@@ -213,8 +227,10 @@ Window {
             }
         }
         Page {
+            id: debriefPage
             name: "debrief"
             sourceComponent: DebriefView {
+                accompanied: root.accompanied
                 focus: true
                 debrief: root.debrief
                 labName: root.labName
@@ -247,7 +263,8 @@ Window {
         visible: root.kiosk.paused || root.kiosk.screen === "pause"
         // Beside the assistant, or above it.
         middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
-              : root.wide ? Qt.point(stage.x + stage.width / 2, root.room / 2) : Qt.point(root.width / 2, 0.36 * root.room)
+              : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
+        breathes: true
         sign: "M8 5 V19 M16 5 V19"
         title: root.words["pause-title"]
         line: root.kiosk.pauseLine
@@ -255,7 +272,7 @@ Window {
     SidePanel {
         id: helper
         // The keys of a number stand in its place.
-        z: root.kiosk.screen === "form" && !root.kiosk.paused ? -1 : 0
+        z: root.asking ? 1 : root.kiosk.screen === "form" && !root.kiosk.paused ? -1 : 0
         readonly property bool below: !root.wide || root.whole
         x: below ? (root.width - width) / 2 : root.boardOnRight ? Theme.gap : stage.width
         // A whole number: edges that move by fractions do not come back to the last bit.
@@ -273,8 +290,12 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? 0.52 : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide
+        leads: root.asking || !root.speaks
+        aside: !root.accompanied ? "" : root.kiosk.asksStillThere ? root.words["still-there-line"]
+             : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
+             : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
@@ -319,7 +340,8 @@ Window {
         enabled: root.kiosk.takesInput
         sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
         title: root.words["still-there-title"]
-        line: root.words["still-there-line"]
+        middle: root.asking ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+        line: root.asking ? "" : root.words["still-there-line"]
         lineSize: Theme.size(36)
         // A replay has a time of its own.
         lasts: root.replay === null ? root.kiosk.answerMs : 0
@@ -331,7 +353,9 @@ Window {
         visible: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
-        sign: "M8.5 9 C8.5 4 16 4 16 8.7 C16 12 12 12 12 15 M12 19 V19.2"
+        middle: root.asking ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+        // A door, and the way out of it.
+        sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
         title: root.words["stop-title"]
         line: root.kiosk.stopLine
         code: root.kiosk.stopCode

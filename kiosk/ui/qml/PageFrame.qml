@@ -21,6 +21,9 @@ FocusScope {
     property real covered: 0
     // What stands at the end of the title's line, if anything.
     property Item beside: null
+    // Whether the helper stands beside this page on a wide screen, and what is then read in its bubble instead of here.
+    property bool accompanied: false
+    property string aside: ""
     default property alias content: body.data
     signal went()
     signal turnedDown()
@@ -40,6 +43,12 @@ FocusScope {
     // How far below the title a content of this height stands: a little lower where there is much room.
     function sink(tall: real): real {
         return Math.max(0, Math.min((room - tall) / 3, (width < height ? 6 : 2.5) * Theme.gap))
+    }
+
+    // The last of several lines, if the helper can say it: a bubble holds a short text only.
+    function sayable(lines: var): string {
+        const last = lines[lines.length - 1]?.text ?? ""
+        return accompanied && lines.length > 1 && last.length <= 130 ? last : ""
     }
 
     // How many of these texts stand in the first of two columns, so that both are about as long.

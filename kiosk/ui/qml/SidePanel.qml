@@ -22,6 +22,9 @@ Item {
     property bool rests: false
     // Whether a question lies over everything: its face is then neither glad nor sad.
     property bool waits: false
+    // What is to be read in its bubble: while it says nothing, or where it leads, whatever it said last.
+    property string aside: ""
+    property bool leads: false
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
@@ -41,7 +44,8 @@ Item {
     readonly property bool notices: attention.running
 
     // Whether a sentence is to be read.
-    readonly property bool says: bubble.sentence !== ""
+    readonly property string said: speaks && !rests && avatar.bubble !== stale ? avatar.bubble : ""
+    readonly property bool says: said !== ""
 
     // Takes away what stands in the bubble; the next sentence is shown again.
     function fade() {
@@ -90,11 +94,11 @@ Item {
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
         anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: panel.avatar.present ? -0.14 * face.height : 4 * Theme.unit }
-        sentence: panel.speaks && !panel.rests && panel.avatar.bubble !== panel.stale ? panel.avatar.bubble : ""
-        thinks: panel.speaks && !panel.rests && panel.thinks && panel.avatar.bubble === ""
+        sentence: panel.rests ? "" : panel.said === "" || (panel.leads && panel.aside !== "") ? panel.aside : panel.said
+        thinks: panel.speaks && !panel.rests && panel.thinks && sentence === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
-        large: panel.broad
+        large: panel.broad || panel.aside !== ""
     }
     Avatar {
         id: face
