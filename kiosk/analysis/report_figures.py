@@ -22,7 +22,7 @@ from kiosk.analysis.sample import NOT_COMPLETED, Measure, Sample
 from kiosk.analysis.statistics import ROBUSTNESS
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage
-from kiosk.export.participants import FlowQuantity
+from kiosk.export.flow import FlowQuantity
 
 COLOURS = {
     Condition.TOM.name: "#0072B2",

@@ -10,9 +10,9 @@ from pathlib import Path
 from kiosk import UserInputError
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
+from kiosk.export.flow import FlowQuantity, ParticipantFlow
 from kiosk.export.layouts import DatasetContents, Layout, PsychDs, new_folder
 from kiosk.export.parallel import WORTH_IT, ExportTask, written_elsewhere
-from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
 from kiosk.garbage import rare_collections

@@ -34,12 +34,8 @@ from kiosk.export.columns import (
     Variable,
     distinct,
 )
-from kiosk.export.participants import (
-    EMPTY_MARKS,
-    ParticipantFlow,
-    exported_items,
-    item_variable,
-)
+from kiosk.export.flow import ParticipantFlow
+from kiosk.export.item_columns import EMPTY_MARKS, exported_items, item_variable
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import DatasetTables
 from kiosk.store.connecting import atomic_directory

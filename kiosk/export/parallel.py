@@ -17,8 +17,8 @@ from typing import NamedTuple
 from kiosk import StorageError
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
+from kiosk.export.flow import FlowQuantity, ParticipantFlow
 from kiosk.export.layouts import csv_texts
-from kiosk.export.participants import FlowQuantity, ParticipantFlow
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import DatasetTables, all_tables
 from kiosk.garbage import rare_collections

@@ -8,6 +8,7 @@ from typing import Any
 from kiosk.assistance.policy import ActionSpec
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.export.columns import ExportOption, Table, TableShape
+from kiosk.export.flow import ParticipantFlow, flow_table
 from kiosk.export.game_tables import (
     CARDS,
     DECISIONS,
@@ -19,7 +20,7 @@ from kiosk.export.game_tables import (
     hints_table,
 )
 from kiosk.export.log_tables import SENTENCES, deviations_table, events_table
-from kiosk.export.participants import ParticipantFlow, flow_table, participants_table, renamed
+from kiosk.export.participants import participants_table, renamed
 from kiosk.export.records import StudyMaterials
 from kiosk.export.responses import SCORES, answers_table
 from kiosk.store.session_records import SessionRecord

@@ -22,7 +22,7 @@ from kiosk.export.columns import (
     enum_levels,
     variables,
 )
-from kiosk.export.participants import MEASURED, MEASURES
+from kiosk.export.person import MEASURED, MEASURES
 from kiosk.export.records import StudyMaterials
 from kiosk.export.tables import all_tables
 from tests.export.visitors import study_plan

@@ -24,9 +24,9 @@ from kiosk.experiment.events import (
 from kiosk.experiment.session_config import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset
+from kiosk.export.flow import ParticipantFlow
 from kiosk.export.layouts import PsychDs
 from kiosk.export.log_tables import SoundDevice
-from kiosk.export.participants import ParticipantFlow
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.session_records import SessionRecord
