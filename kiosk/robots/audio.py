@@ -184,7 +184,8 @@ def loudness_lufs(clip: Clip) -> float:
     if not length:
         return -np.inf
     starts = range(0, len(clip.samples) - length + 1, max(1, int(clip.rate * _STEP_S)))
-    blocks = np.stack([clip.values[start : start + length] for start in starts])
+    values = clip.values
+    blocks = np.stack([values[start : start + length] for start in starts])
     power = np.abs(np.fft.rfft(blocks, axis=1)) ** 2 * _k_weight(length, clip.rate)
     power[:, 1:] *= 2
     squares = power.sum(axis=1) / length**2
