@@ -19,14 +19,39 @@ ROOT = Path(__file__).parents[1]
 
 LOADED = ("kiosk.store.queries", "kiosk.study.loader", "kiosk.export.dataset", "kiosk.ui.app", "kiosk.ui.rehearsal")
 
+ANALYSES = (
+    *("kiosk.analysis.calibrate", "kiosk.analysis.plan", "kiosk.analysis.policy_figures", "kiosk.analysis.power"),
+    *("kiosk.analysis.report_page", "kiosk.training.simulation", "matplotlib.backends.backend_svg", "scipy.stats"),
+)
+"""What the commands of the analysis take a second and more to load."""
+
+PLAYED = """
+from dataclasses import replace
+from kiosk.assistance.mentaliser import TargetRule
+from kiosk.assistance.policy import QTable
+from kiosk.training.learning import RECIPES, Learner, Reward
+from kiosk.training.simulated_players import MemoryPlayer
+from kiosk.training.simulation import record_games, simulate_games
+simulate_games(QTable.named("default"), MemoryPlayer(), TargetRule.MOST_RECENT, 2, 1)
+list(record_games(QTable.named("default"), MemoryPlayer(), TargetRule.MOST_RECENT, 1, 1))
+Learner(replace(RECIPES[Reward.RETRIEVAL], episodes=2)).study()
+"""
+"""A few games, after which the compiled rules are in memory."""
+
 LONGEST_S = 300
 """A command that is at work for longer is ended, so that its test fails and the others go on."""
 
-SERVER = f"""
-import gc, json, os, signal, sys
+SERVER = """
+import atexit, gc, json, os, signal, sys, threading
 from importlib import import_module
-for name in {LOADED!r}:
+for name in sys.argv[1:]:
     import_module(name)
+from kiosk.assistance.wording import Catalogue
+from kiosk.config import ASSETS
+for folder in (ASSETS / "sentences").iterdir():
+    # Its parsed files stay in memory.
+    Catalogue(folder)
+@FIRST@
 assert "kiosk.cli" not in sys.modules
 gc.freeze()
 for line in iter(sys.stdin.readline, ""):
@@ -36,7 +61,7 @@ for line in iter(sys.stdin.readline, ""):
         print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
         continue
     os.setsid()
-    signal.alarm({LONGEST_S})
+    signal.alarm(job["longest_s"])
     os.chdir(job["folder"])
     os.environ.clear()
     os.environ.update(job["environment"])
@@ -46,7 +71,17 @@ for line in iter(sys.stdin.readline, ""):
         os.close(file)
     sys.stdin, sys.stdout, sys.stderr = open(0), open(1, "w"), open(2, "w")
     sys.argv = ["recollect", *job["arguments"]]
-    exec(job["program"])
+    try:
+        exec(job["program"])
+    except SystemExit as end:
+        if not isinstance(end.code, str) and sys.modules["PySide6.QtCore"].QCoreApplication.instance() is None:
+            # Without a window there is nothing to be taken down but the shared memory, and that takes long.
+            threading._shutdown()
+            atexit._run_exitfuncs()
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(end.code or 0)
+        raise
     sys.exit()
 """
 
@@ -56,8 +91,9 @@ PROGRAM = "from kiosk.cli.main import main\nmain()\n"
 class LoadedProgram:
     """The program, loaded and waiting for commands."""
 
-    def __init__(self) -> None:
-        command = [sys.executable, "-c", SERVER]
+    def __init__(self, *modules: str, first: str = "") -> None:
+        """Load further modules, and run what is to be done once before all commands."""
+        command = [sys.executable, "-c", SERVER.replace("@FIRST@", first), *LOADED, *modules]
         self._server = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def __enter__(self) -> Self:
@@ -85,6 +121,7 @@ class LoadedProgram:
                 "folder": str(folder),
                 "environment": dict(environment),
                 "program": program,
+                "longest_s": LONGEST_S,
             }
             assert self._server.stdin is not None
             assert self._server.stdout is not None

@@ -27,7 +27,7 @@ from kiosk.training.simulated_players import PEOPLE_FORMAT
 from tests.cli.test_readme import DECK, LEFT_AT_ONCE
 from tests.experiment.driver import Driver, at_random
 from tests.export.visitors import store, visitor
-from tests.forked import PROGRAM, LoadedProgram
+from tests.forked import ANALYSES, PLAYED, PROGRAM, LoadedProgram
 from tests.robots.furhat_fake import FurhatFake
 from tests.samples import ANIMALS, WITH_PIN, plan
 from tests.store.visitors import new_code
@@ -72,6 +72,8 @@ LESS = {
     "simulate *": ("--games", "50"),
     "policy card *": ("--games", "200"),
     "rehearse *": ("--study", "smallest.toml", "--sessions", "1"),
+    "replay * --frames *": ("--speed", "32"),
+    "replay * --film *": ("--speed", "32"),
     "plan power *": ("--studies", "10", "--n", "6", "--workers", "1"),
     "plan freeze plan.toml": ("--data", "new-data"),
     "voice import *": ("--study", "study.toml", "--language", "en"),
@@ -85,6 +87,15 @@ MADE_BEFORE = (
     "voice render --study study.toml --language en --out voices/anna",
 )
 """What the examples of a command take from another one."""
+
+CHECKED = """
+import kiosk.cli.check
+from kiosk.cli.main import main
+from kiosk.preflight import CheckResult
+kiosk.cli.check.run_check_process = lambda what, *_: [CheckResult.ok(what, "tried once")]
+main()
+"""
+"""The program, which does not start the processes that draw and look for screens again for each form of a command."""
 
 WITHOUT_A_WINDOW = {"--headless", "--film", "--frames"}
 
@@ -185,9 +196,9 @@ class Desk:
         }
 
 
-def a_visit(seed: int, rows: int = 2) -> Driver:
-    """Return a session on a small board, which is soon replayed."""
-    driver = Driver(plan(stages=("introduction", "game", "result"), game={"rows": rows, "columns": 4}), seed)
+def a_visit(seed: int) -> Driver:
+    """Return a session on a small board, which is soon replayed; after some seeds it has few flips."""
+    driver = Driver(plan(stages=("introduction", "game", "result"), game={"rows": 2, "columns": 4}), seed)
     driver.to(Stage.GAME)
     choose = at_random(seed)
     while driver.stage is Stage.GAME:
@@ -201,7 +212,7 @@ def a_visit(seed: int, rows: int = 2) -> Driver:
 @pytest.fixture(scope="module")
 def loaded() -> Iterator[LoadedProgram]:
     """Provide the program, loaded once for all pages."""
-    with LoadedProgram() as program:
+    with LoadedProgram(*ANALYSES, first=PLAYED) as program:
         yield program
 
 
@@ -213,12 +224,12 @@ def desk(loaded: LoadedProgram, tmp_path_factory: pytest.TempPathFactory) -> Des
     stored = home / "share" / "recollect"
     two = (Condition.TOM, Condition.NOTOM)
     people = [(visitor(seed, two[seed % 2]), seed) for seed in range(2, 12)]
-    store(stored, [(a_visit(1, rows=3), 1), *people, (a_visit(12), 12)])
+    store(stored, [(a_visit(8), 1), *people, (a_visit(21), 12)])
     code = new_code(stored, 2)
     for name in ("both", "DIR"):
         shutil.copytree(stored, folder / name)
     for name, site in (("booth-1", "ROME"), ("booth-2", "PISA")):
-        store(folder / name, [(a_visit(3), 3)], site=site)
+        store(folder / name, [(a_visit(34), 3)], site=site)
     for name in ("data-set", "study", "simulated"):
         export_dataset(stored, folder / name, PsychDs)
     _write_studies(folder)
@@ -285,11 +296,13 @@ def test_every_command_of_a_page_works_as_it_is_printed(
 @pytest.mark.parametrize("command", RUN_ONCE)
 def test_what_many_pages_have_you_type_works(command: str, desk: Desk, loaded: LoadedProgram) -> None:
     assert sum(command in block.commands for block in BLOCKS) > 1
-    done = typed(command, desk, loaded)
+    done = typed(command, desk, loaded, PROGRAM)
     assert (done.returncode in {0, 1}, "Traceback" in done.stderr) == (True, False), done.stderr
 
 
-def typed(command: str, desk: Desk, loaded: LoadedProgram) -> subprocess.CompletedProcess[str]:
+def typed(
+    command: str, desk: Desk, loaded: LoadedProgram, program: str | None = None
+) -> subprocess.CompletedProcess[str]:
     """Run a command of a page with what is yours to fill in, and short work."""
     given = {"7KQ2M-XR4T4": desk.code, "FILE": "items.csv", "age1...": AGE_KEY}
     words = [given.get(word, word).replace("~", str(desk.home)) for word in shlex.split(command)]
@@ -297,7 +310,7 @@ def typed(command: str, desk: Desk, loaded: LoadedProgram) -> subprocess.Complet
     yes = ("--yes",) if words[0] == "withdraw" else ()
     opens = words[0] in {"run", "replay"} or words[:2] == ["study", "preview"]
     has_a_window = opens and WITHOUT_A_WINDOW.isdisjoint(words)
-    how = LEFT_AT_ONCE if has_a_window else PROGRAM
+    how = program or (LEFT_AT_ONCE if has_a_window else CHECKED if words[0] == "check" else PROGRAM)
     if "--host" not in words:
         return loaded.run([*words, *less, *yes], desk.folder, desk.environment, "258013\n258013\n", how)
     with FurhatFake(character_ms=2) as robot:
