@@ -21,8 +21,7 @@ from urllib3.connectionpool import HTTPConnectionPool
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.robots.clip_server import ClipServer
-from kiosk.robots.embodiment import (
-    BoardPoint,
+from kiosk.robots.driver import (
     Capabilities,
     Capability,
     FailureKind,
@@ -34,6 +33,7 @@ from kiosk.robots.embodiment import (
     chosen_voice,
     mismatch,
 )
+from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.lookup import NameLookup
 from kiosk.units import MS_PER_SECOND
 

@@ -21,15 +21,8 @@ from websockets.sync.client import ClientConnection, connect
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.language_codes import with_region
-from kiosk.robots.embodiment import (
-    BoardPoint,
-    Capabilities,
-    Capability,
-    FailureKind,
-    RobotDriver,
-    RobotError,
-    Utterance,
-)
+from kiosk.robots.driver import Capabilities, Capability, FailureKind, RobotDriver, RobotError, Utterance
+from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat import WISHES, to_robot_location
 from kiosk.robots.lookup import NameLookup
 from kiosk.units import MS_PER_SECOND

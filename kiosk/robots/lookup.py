@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 from threading import Condition, Thread
 
-from kiosk.robots.embodiment import FailureKind, RobotError
+from kiosk.robots.driver import FailureKind, RobotError
 
 LOOKUP_S = 3.0
 """How long a driver waits for a name; a robot's own .local name takes up to a second."""

@@ -17,15 +17,8 @@ from kiosk.config import RobotConfig as RobotSettings
 from kiosk.errors import validation_messages
 from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.preflight import CheckResult
-from kiosk.robots.embodiment import (
-    Capability,
-    Health,
-    InspectableRobot,
-    RobotDriver,
-    RobotError,
-    chosen_voice,
-    mismatch,
-)
+from kiosk.robots.driver import Capability, InspectableRobot, RobotDriver, RobotError, chosen_voice, mismatch
+from kiosk.robots.embodiment import Health
 from kiosk.units import MS_PER_SECOND
 
 
@@ -36,7 +29,7 @@ def load_driver(extension: Extension) -> type[RobotDriver]:
     """
     driver = extension.load()
     if not isinstance(driver, type) or not issubclass(driver, RobotDriver):
-        raise extension.broken(f"{extension.entry.value} is no class derived from kiosk.robots.embodiment.RobotDriver")
+        raise extension.broken(f"{extension.entry.value} is no class derived from kiosk.robots.driver.RobotDriver")
     if getattr(driver, "name", None) != extension.name:
         raise extension.broken(f"its class must have name = {extension.name!r}")
     if missing := sorted(driver.__abstractmethods__):

@@ -7,16 +7,8 @@ from threading import Event, Lock
 from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
-from kiosk.robots.embodiment import (
-    BoardPoint,
-    Capabilities,
-    Capability,
-    FailureKind,
-    RobotDriver,
-    RobotError,
-    RobotVoice,
-    Utterance,
-)
+from kiosk.robots.driver import Capabilities, Capability, FailureKind, RobotDriver, RobotError, RobotVoice, Utterance
+from kiosk.robots.embodiment import BoardPoint
 
 FAILS = 0.015
 """How often a call fails before anything is done, while the robot is up."""

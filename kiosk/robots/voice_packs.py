@@ -24,7 +24,7 @@ from kiosk.robots.tts_engines import ENGINES, SpeechEngine, is_installed
 
 if TYPE_CHECKING:
     from kiosk.config import VoiceConfig
-    from kiosk.robots.embodiment import SpokenClip
+    from kiosk.robots.driver import SpokenClip
 
 _log = logging.getLogger(__name__)
 
@@ -195,7 +195,7 @@ class PackClips:
         if pack is None or not parts:
             return None
         clip = joined(parts, PAUSE_MS)
-        from kiosk.robots.embodiment import SpokenClip  # noqa: PLC0415 - the voice's process needs nothing of it
+        from kiosk.robots.driver import SpokenClip  # noqa: PLC0415 - the voice's process needs nothing of it
 
         return SpokenClip(clip.to_bytes(), clip.duration_ms, pack.spoken_by | {"pack": pack.sha256})
 

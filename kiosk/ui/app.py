@@ -20,8 +20,10 @@ from kiosk.config import MarkersConfig, Settings, VoiceConfig
 from kiosk.experiment.events import EmbodimentName, SessionSetup
 from kiosk.experiment.session_config import SessionKind
 from kiosk.remote import StatusPublisher, booth_name
-from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, RobotDriver
+from kiosk.robots.adapter import AsyncRobotAdapter
+from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder
 from kiosk.ui.event_loop import (
     Clock,

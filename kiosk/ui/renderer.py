@@ -14,7 +14,8 @@ from kiosk.experiment.effects import BoardWait, Effect, Mood
 from kiosk.experiment.events import EmbodimentName, Timer
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Position
-from kiosk.robots.embodiment import ASIDE, Embodiment, EmbodimentSelector
+from kiosk.robots.embodiment import ASIDE, Embodiment
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.ui.event_loop import Clock, TimerWait
 from kiosk.ui.screens.registry import ScreenSet
 

@@ -14,7 +14,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.experiment import effects as do
 from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
-from kiosk.robots.embodiment import EmbodimentSelector
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.ui.event_loop import Clock, EventLoop, WallClock
 from kiosk.ui.rehearsal import unwritten
 from kiosk.ui.renderer import Renderer

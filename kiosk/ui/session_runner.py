@@ -20,7 +20,7 @@ from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionKind, StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
-from kiosk.robots.embodiment import EmbodimentSelector
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.participants import Participant, ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy
 from kiosk.ui.event_loop import Clock, TimerWait

@@ -17,7 +17,7 @@ from kiosk.cli.composition import read_settings
 from kiosk.cli.devices import greet
 from kiosk.cli.main import recollect
 from kiosk.config import Settings
-from kiosk.robots.embodiment import SpokenClip
+from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.robots.realtime_fake import RealtimeFake

@@ -51,11 +51,11 @@ def test_options_that_it_does_not_take_are_told(
         assert sentence in refusal(study(tmp_path, f"[robot.options]\n{options}\n"))
 
 
-DERIVED = "from kiosk.robots.embodiment import RobotDriver\nclass PrintingRobot(RobotDriver):\n"
+DERIVED = "from kiosk.robots.driver import RobotDriver\nclass PrintingRobot(RobotDriver):\n"
 BROKEN = {
     "missing library": ("import no_such_library\n", "the package no_such_library is missing"),
     "fault while it is imported": ("1 / 0\n", "ZeroDivisionError: division by zero"),
-    "no driver": ("PrintingRobot = 7\n", "is no class derived from kiosk.robots.embodiment.RobotDriver"),
+    "no driver": ("PrintingRobot = 7\n", "is no class derived from kiosk.robots.driver.RobotDriver"),
     "nothing of the name": ("", "AttributeError"),
     "half a driver": (f"{DERIVED}    name = 'printing'\n", "its class lacks connect, say"),
     "another name": (f"{DERIVED}    name = 'other'\n", "its class must have name = 'printing'"),

@@ -9,16 +9,9 @@ from typing import ClassVar
 
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import (
-    AsyncRobotAdapter,
-    BoardPoint,
-    Capabilities,
-    Capability,
-    Health,
-    RobotDriver,
-    RobotVoice,
-    Utterance,
-)
+from kiosk.robots.adapter import AsyncRobotAdapter
+from kiosk.robots.driver import Capabilities, Capability, RobotDriver, RobotVoice, Utterance
+from kiosk.robots.embodiment import BoardPoint, Health
 
 PATIENCE_S = 10
 

@@ -13,11 +13,13 @@ import pytest
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, FailureKind, RobotDriver, RobotError
+from kiosk.robots.adapter import AsyncRobotAdapter
+from kiosk.robots.driver import FailureKind, RobotDriver, RobotError
 from kiosk.robots.furhat import Furhat
 from kiosk.robots.furhat_realtime import FurhatRealtime
 from kiosk.robots.lookup import NameLookup
 from kiosk.robots.registry import robot_check
+from kiosk.robots.selector import EmbodimentSelector
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode
 from tests.robots.realtime_fake import Mode as RealtimeMode
 from tests.robots.realtime_fake import RealtimeFake

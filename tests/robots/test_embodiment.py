@@ -11,7 +11,9 @@ import pytest
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector, FailureKind, RobotError, Utterance
+from kiosk.robots.adapter import AsyncRobotAdapter
+from kiosk.robots.driver import FailureKind, RobotError, Utterance
+from kiosk.robots.selector import EmbodimentSelector
 from tests.robots.recording import BodyFake, Interface, Reports, RobotFake, Waits
 
 GONE = RobotError(FailureKind.UNREACHABLE, "saying hello")

@@ -15,16 +15,8 @@ from kiosk import UserInputError
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.robots.clip_server import ClipServer
-from kiosk.robots.embodiment import (
-    BoardPoint,
-    FailureKind,
-    RobotError,
-    RobotVoice,
-    SpokenClip,
-    Utterance,
-    chosen_voice,
-    speakable,
-)
+from kiosk.robots.driver import FailureKind, RobotError, RobotVoice, SpokenClip, Utterance, chosen_voice, speakable
+from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat import Furhat
 from kiosk.robots.registry import create_robot
 from tests.robots.furhat_fake import FAULTS, FurhatFake, Mode

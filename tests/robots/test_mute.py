@@ -7,7 +7,9 @@ from functools import partial
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import WHY, AsyncRobotAdapter, EmbodimentSelector
+from kiosk.robots.adapter import AsyncRobotAdapter
+from kiosk.robots.embodiment import WHY
+from kiosk.robots.selector import EmbodimentSelector
 from tests.robots.recording import BodyFake, Interface, Reports, RobotFake, Waits
 
 SETTINGS = RobotSettings(kind="furhat")

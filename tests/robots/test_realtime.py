@@ -9,7 +9,8 @@ import pytest
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
-from kiosk.robots.embodiment import BoardPoint, FailureKind, RobotError, Utterance
+from kiosk.robots.driver import FailureKind, RobotError, Utterance
+from kiosk.robots.embodiment import BoardPoint
 from kiosk.robots.furhat_realtime import FurhatRealtime
 from tests.robots.realtime_fake import Mode, RealtimeFake
 

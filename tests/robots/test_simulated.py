@@ -6,7 +6,7 @@ import pytest
 
 from kiosk.experiment.effects import Mood
 from kiosk.robots import simulated
-from kiosk.robots.embodiment import FailureKind, RobotError, Utterance
+from kiosk.robots.driver import FailureKind, RobotError, Utterance
 from kiosk.robots.simulated import FlakyRobot
 
 SENTENCES = 100

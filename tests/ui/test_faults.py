@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import EmbodimentName
-from kiosk.robots.embodiment import SpokenClip
+from kiosk.robots.driver import SpokenClip
 from kiosk.robots.voice_packs import PackClips
 from kiosk.store.database import open_for_reading
 from kiosk.store.queries import open_repository

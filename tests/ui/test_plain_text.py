@@ -27,9 +27,10 @@ from kiosk.experiment.information import ConsentPage, Information
 from kiosk.experiment.items import Single
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import StudyConfig
-from kiosk.robots.embodiment import AsyncRobotAdapter, EmbodimentSelector
+from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.furhat import Furhat
 from kiosk.robots.furhat_rules import VOICES
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.view_model import AuthorisationStep, PanelScreen
 from kiosk.ui.screens.registry import ScreenSet

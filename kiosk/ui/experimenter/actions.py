@@ -18,7 +18,8 @@ from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import EmbodimentName, Stage
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
 from kiosk.experiment.transitions import InvalidTransition
-from kiosk.robots.embodiment import EmbodimentSelector, Health
+from kiosk.robots.embodiment import Health
+from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder, StoreBusy
 from kiosk.store.snapshot import InterruptedSession, OpenBreak, UnreadableSession
 from kiosk.ui.event_loop import Clock, TimerWait

@@ -20,7 +20,7 @@ from kiosk.experiment import events as happened
 from kiosk.experiment.events import Stage, WorldEvent
 from kiosk.experiment.experimenter import SALT_BYTES, Action, hash_pin
 from kiosk.game import Position
-from kiosk.robots.embodiment import RobotDriver
+from kiosk.robots.driver import RobotDriver
 from kiosk.store.database import open_for_reading
 from kiosk.ui.app import App
 from kiosk.ui.experimenter.view_model import AuthorisationStep, CardScreen, NoteScreen, PanelScreen

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from kiosk.config import ConfigModel, RobotConfig
-from kiosk.robots.embodiment import Capabilities, FailureKind, RobotDriver, RobotError, Utterance
+from kiosk.robots.driver import Capabilities, FailureKind, RobotDriver, RobotError, Utterance
 
 
 class PrintingOptions(ConfigModel):
