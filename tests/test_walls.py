@@ -9,9 +9,12 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+
+from tests.shared import made_once
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
@@ -147,36 +150,75 @@ def breaches(package: Path) -> list[str]:
     return found
 
 
-def loaded_by(part: str) -> set[str]:
-    """Return what is in memory once every module of a part has been imported by a fresh interpreter."""
-    names = [name for name, of, _ in modules(PACKAGE) if of == part and not name.endswith("__main__")]
-    program = (
-        "import importlib, json, sys\n"
-        f"for name in {names!r}: importlib.import_module(name)\n"
-        "print(json.dumps(sorted(sys.modules)))"
+LOADER = """
+import importlib, json, os, sys
+names, allowed = json.load(sys.stdin)
+
+def in_a_copy(part):
+    end, other = os.pipe()
+    copy = os.fork()
+    if copy:
+        os.close(other)
+        with open(end) as file:
+            found = file.read()
+        os.waitpid(copy, 0)
+        return json.loads(found or "{}")
+    os.close(end)
+    for name in names[part]:
+        importlib.import_module(name)
+    found = {part: sorted(sys.modules)}
+    for each in above.get(part, ()):
+        found |= in_a_copy(each)
+    with open(other, "w") as file:
+        file.write(json.dumps(found))
+    os._exit(0)
+
+above = {}
+for part in names:
+    below = [each for each in names if each in allowed[part]]
+    above.setdefault(below[-1] if below else None, []).append(part)
+found = {}
+for part in above[None]:
+    found |= in_a_copy(part)
+print(json.dumps(found))
+"""
+"""Prints the modules in memory by part. A part is imported in a copy of a process with a part that it may import."""
+
+
+@pytest.fixture(scope="module")
+def loaded(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
+    """Return what is in memory once every module of a part has been imported, for every part."""
+
+    def make(folder: Path) -> None:
+        names: dict[str, list[str]] = {part: [] for part in PACKAGES}
+        for name, part, _ in modules(PACKAGE):
+            if not name.endswith("__main__") and all(map(find_spec, NEEDED.get(part, ()))):
+                names[part].append(name)
+        given = json.dumps([names, {part: sorted(known) for part, known in PACKAGES.items()}])
+        command = [sys.executable, "-c", LOADER]
+        done = subprocess.run(command, cwd=PACKAGE.parent, input=given, capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, "")
+        (folder / "loaded.json").write_text(done.stdout, "utf-8")
+
+    found: dict[str, list[str]] = json.loads(
+        (made_once(tmp_path_factory, "loaded", make) / "loaded.json").read_text("utf-8")
     )
-    done = subprocess.run(
-        [sys.executable, "-c", program], cwd=PACKAGE.parent, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    return set(json.loads(done.stdout.splitlines()[-1]))
+    return found
 
 
 def test_every_import_is_allowed() -> None:
     assert breaches(PACKAGE) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a process cannot be copied there")
 @pytest.mark.parametrize("part", [part for part in PACKAGES if part != "__main__"])
-def test_a_part_loads_no_library_that_it_may_not_import(part: str) -> None:
-    if part not in {of for _, of, _ in modules(PACKAGE)}:
-        pytest.skip(f"the part {part} is not built yet")
+def test_a_part_loads_no_library_that_it_may_not_import(part: str, loaded: dict[str, list[str]]) -> None:
     for library in NEEDED.get(part, ()):
         pytest.importorskip(library)
     known = {part, *PACKAGES[part]}
-    loaded = loaded_by(part)
-    parts = {name.split(".")[1] for name in loaded if name.startswith("kiosk.")}
+    parts = {name.split(".")[1] for name in loaded[part] if name.startswith("kiosk.")}
     assert parts <= known | BELOW_ALL
-    outsiders = {name.split(".")[0] for name in loaded} & set(OUTSIDE) - LOADED_ANYWAY
+    outsiders = {name.split(".")[0] for name in loaded[part]} & set(OUTSIDE) - LOADED_ANYWAY
     strangers = {name for name in outsiders if not OUTSIDE[name] & known}
     assert strangers <= BROUGHT_ALONG.get(part, set())
 
@@ -215,6 +257,17 @@ def test_tests_of_packages_without_windows_import_no_qt() -> None:
 # The check itself is tested
 
 
+@pytest.fixture(scope="module")
+def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the package with all its folders and modules, and nothing in them."""
+    package = tmp_path_factory.mktemp("walls") / "kiosk"
+    for _, _, file in modules(PACKAGE):
+        copy = package / file.relative_to(PACKAGE)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.touch()
+    return package
+
+
 @pytest.mark.parametrize(
     ("part", "planted", "cry"),
     [
@@ -249,12 +302,12 @@ def test_tests_of_packages_without_windows_import_no_qt() -> None:
         ("attic", "", "there is no package attic"),
     ],
 )
-def test_a_planted_import_is_found(tmp_path: Path, part: str, planted: str, cry: str) -> None:
-    package = tmp_path / "kiosk"
-    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
-    (package / part).mkdir(exist_ok=True)
-    (package / part / "planted.py").write_text(planted)
-    (found,) = set(breaches(package)) - set(breaches(PACKAGE))
+def test_a_planted_import_is_found(empty: Path, part: str, planted: str, cry: str) -> None:
+    file = empty / part / "planted.py"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(planted)
+    (found,) = breaches(empty)
+    file.unlink()
     assert f"kiosk.{part}.planted" in found
     assert cry in found
 
