@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 _RARELY = (50_000, 20, 100)
@@ -18,3 +18,13 @@ def rare_collections() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*before)
+
+
+@contextmanager
+def no_collections() -> Iterator[Callable[[], None]]:
+    """Look for none while a program is loaded, of which nothing becomes garbage; gives what ends this early."""
+    gc.disable()
+    try:
+        yield gc.enable
+    finally:
+        gc.enable()

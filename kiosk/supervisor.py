@@ -18,8 +18,6 @@ from enum import Enum
 from pathlib import Path
 from typing import NoReturn, Protocol
 
-import psutil
-
 from kiosk import why
 from kiosk.sd_notify import BEAT_WITHIN, PIPE, SOCKET, Notice, Notifier, Presence, notify_listener
 
@@ -177,7 +175,7 @@ def _start(
 ) -> subprocess.Popen[bytes]:
     """Start a program without input, in a group of its own."""
     if sys.platform == "win32":
-        import msvcrt  # noqa: PLC0415 - there is none elsewhere
+        import msvcrt
 
         handles = [msvcrt.get_osfhandle(descriptor) for descriptor in inherited]
         return subprocess.Popen(  # noqa: S603
@@ -223,8 +221,14 @@ class Limits:
     tick: float = 0.25
 
 
+# psutil is loaded where it is used, and by a kiosk in its guard alone, so that the first picture need not wait for it.
+# ruff: noqa: PLC0415
+
+
 def memory_mib(process: int) -> int:
     """How much memory a process takes; 0 if it is gone."""
+    import psutil
+
     try:
         return int(psutil.Process(process).memory_info().rss) // MIB
     except psutil.Error:
@@ -233,6 +237,8 @@ def memory_mib(process: int) -> int:
 
 def _processor_s(process: int) -> float:
     """How much time on a processor a process has had; 0 if it is gone."""
+    import psutil
+
     try:
         times = psutil.Process(process).cpu_times()
     except psutil.Error:
@@ -245,6 +251,8 @@ def _is_ready(process: int) -> bool:
 
     On a busy machine, silence is no fault of its own.
     """
+    import psutil
+
     try:
         return psutil.Process(process).status() == psutil.STATUS_RUNNING
     except psutil.Error:
@@ -263,10 +271,9 @@ def guarded(limits: Limits = Limits(), environment: Mapping[str, str] = os.envir
         return
     reader, writer = os.pipe()
     guarded_process = os.getpid()
-    before_mib = memory_mib(guarded_process)
     guard = os.fork()
     if guard == 0:
-        _guard(guarded_process, reader, writer, limits, before_mib)
+        _guard(guarded_process, reader, writer, limits)
     os.close(reader)
     os.set_blocking(writer, False)
     before = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
@@ -285,7 +292,7 @@ def _beat(writer: int) -> None:
         os.write(writer, bytes([BEAT]))
 
 
-def _guard(process: int, reader: int, writer: int, limits: Limits, before_mib: int) -> NoReturn:
+def _guard(process: int, reader: int, writer: int, limits: Limits) -> NoReturn:
     """Be the guard; nothing of the process that it was forked from is used, or cleared away."""
     try:
         gc.disable()
@@ -296,7 +303,7 @@ def _guard(process: int, reader: int, writer: int, limits: Limits, before_mib: i
         nothing = os.open(os.devnull, os.O_RDWR)
         os.dup2(nothing, 0)
         os.dup2(nothing, 1)
-        fault = _watch(process, reader, limits, before_mib)
+        fault = _watch(process, reader, limits)
         if fault and os.getppid() == process:
             with suppress(OSError):
                 os.write(2, f"recollect: {fault}, so it was ended\n".encode())
@@ -305,10 +312,10 @@ def _guard(process: int, reader: int, writer: int, limits: Limits, before_mib: i
         os._exit(0)
 
 
-def _watch(process: int, reader: int, limits: Limits, before_mib: int) -> str:
+def _watch(process: int, reader: int, limits: Limits) -> str:
     """Read the pipe to its end; returns what is wrong, or nothing if the process has ended by itself."""
     watch = _Watch(limits)
-    last, used = time.monotonic(), _processor_s(process)
+    last, used, before_mib = time.monotonic(), _processor_s(process), memory_mib(process)
     while (told := _read(reader, limits.tick)) != b"":
         now = time.monotonic()
         # Where everything stood still for a while, the guard too, silence is no fault of the process's.

@@ -31,7 +31,7 @@ DATA = {
     "kiosk/ui/qml": "kiosk/ui/qml",
     "kiosk/site": "kiosk/site",
 }
-"""Folders of the checkout, and where kiosk/config/places.py looks for them in a build."""
+"""Folders of the checkout, and where kiosk/places.py looks for them in a build."""
 HIDDEN = (
     *("_cffi_backend", "pyttsx3.drivers.espeak", "pyttsx3.drivers.sapi5", "websockets.sync.client"),
     "paho.mqtt.client",

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from kiosk import UserInputError, config
+from kiosk import UserInputError, config, places
 from kiosk.cli.composition import read_settings
-from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, host_fault, places, policy_path
+from kiosk.config import ASSETS, POLICIES, Game, Keys, Settings, Timing, host_fault, policy_path
 from kiosk.errors import validation_messages
 
 

@@ -18,9 +18,20 @@ from tests.shared import made_once
 
 PACKAGE = Path(__file__).parents[1] / "kiosk"
 
-BELOW_ALL = {"kiosk", "errors", "config", "extensions", "files", "garbage", "language_codes", "preflight", "units"}
+BELOW_ALL = {
+    "kiosk",
+    "errors",
+    "config",
+    "extensions",
+    "files",
+    "garbage",
+    "language_codes",
+    "places",
+    "preflight",
+    "units",
+}
 """The package itself, user errors, the study file's types, extensions, whole files, Python's collector, language codes,
-check results and units: every package may import them, and they import no package."""
+places of files, check results and units: every package may import them, and they import no package."""
 
 PACKAGES: dict[str, set[str]] = {
     "kiosk": set(),
@@ -30,6 +41,7 @@ PACKAGES: dict[str, set[str]] = {
     "files": set(),
     "garbage": set(),
     "language_codes": set(),
+    "places": set(),
     "preflight": set(),
     "units": set(),
     "sd_notify": set(),
@@ -315,10 +327,10 @@ def test_a_planted_import_is_found(empty: Path, part: str, planted: str, cry: st
 def test_an_import_planted_below_all_is_found(tmp_path: Path) -> None:
     package = tmp_path / "kiosk"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "qml"))
-    for name in ("__init__.py", "config/places.py"):
+    for name in ("__init__.py", "places.py"):
         with (package / name).open("a") as file:
             file.write("\nimport kiosk.game\n")
     assert [line.split(": ")[1] for line in breaches(package)] == [
         "kiosk may not import game (kiosk.game)",
-        "config may not import game (kiosk.game)",
+        "places may not import game (kiosk.game)",
     ]

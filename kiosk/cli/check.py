@@ -22,7 +22,8 @@ from rich.text import Text
 
 from kiosk import UserInputError, __version__, program
 from kiosk.assistance.policy import load_action
-from kiosk.cli.composition import LOG, LOG_BYTES, LOGS_KEPT, code_commit, code_made, read_settings
+from kiosk.cli.composition import code_commit, code_made, read_settings
+from kiosk.cli.log import LOG, LOG_BYTES, LOGS_KEPT
 from kiosk.cli.options import (
     ProgressCallback,
     data_option,

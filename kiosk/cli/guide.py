@@ -13,7 +13,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option
-from kiosk.config import beside_or_inside
+from kiosk.places import beside_or_inside
 
 PAGES_ADDRESS = "docs/"
 """Where the pages are, in a checkout."""

@@ -40,7 +40,7 @@ _GROUPS = {
     "Look at sessions": {
         "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),
         "events": ("kiosk.cli.sessions:events_command", "List what happened in a SESSION, in order."),
-        "replay": ("kiosk.cli.run:replay_command", "Play a stored SESSION on the screen again."),
+        "replay": ("kiosk.cli.replay:replay_command", "Play a stored SESSION on the screen again."),
         "explain": ("kiosk.cli.explain:explain_command", "Explain the decisions of a stored session, or a case."),
         "day": ("kiosk.cli.day:day_command", "Write one page about a day at the booth."),
     },

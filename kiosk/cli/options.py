@@ -14,7 +14,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import DATA
 from kiosk.cli.terminal import console
-from kiosk.store.database import has_database, has_sessions
+from kiosk.places import ASSETS
 
 if TYPE_CHECKING:
     from kiosk.assistance.wording import Catalogue
@@ -56,8 +56,20 @@ def _stored_data_option(is_there: Callable[[Path], bool]) -> Callable[..., Any]:
     )
 
 
-sessions_data_option = _stored_data_option(has_sessions)
-database_data_option = _stored_data_option(has_database)
+def _has_sessions(folder: Path) -> bool:
+    from kiosk.store.database import has_sessions
+
+    return has_sessions(folder)
+
+
+def _has_database(folder: Path) -> bool:
+    from kiosk.store.database import has_database
+
+    return has_database(folder)
+
+
+sessions_data_option = _stored_data_option(_has_sessions)
+database_data_option = _stored_data_option(_has_database)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON, for programs.")
 robot_host_option = click.option("--robot-host", help="The robot's name or address; a Furhat unless told otherwise.")
 robot_port_option = click.option("--robot-port", type=click.IntRange(1, 65535), help="The robot's port.")
@@ -123,7 +135,6 @@ def _ask(prompt: str) -> str:
 def read_catalogue(language: str) -> Catalogue:
     """Return the catalogue of a language; raises UserInputError with all the languages there are."""
     from kiosk.assistance.wording import Catalogue
-    from kiosk.config import ASSETS
 
     if language not in shipped_languages():
         raise UserInputError(f"there is no language {language!r}; there are {', '.join(shipped_languages())}")
@@ -132,7 +143,5 @@ def read_catalogue(language: str) -> Catalogue:
 
 def shipped_languages() -> tuple[str, ...]:
     """Every language that has a folder of sentences, English first, as everything else is measured against it."""
-    from kiosk.config import ASSETS
-
     names = sorted(folder.name for folder in (ASSETS / "sentences").iterdir() if folder.is_dir())
     return tuple(sorted(names, key=lambda name: name != "en"))

@@ -36,22 +36,6 @@ from kiosk.config.models import (
     Size,
     read_text,
 )
-from kiosk.config.places import (
-    ASSETS,
-    ENDINGS,
-    PICTURES,
-    POLICIES,
-    Located,
-    beside_or_inside,
-    code_of,
-    files_in,
-    is_path,
-    is_there,
-    pictures_in,
-    policy_path,
-    shipped_names,
-    shipped_place,
-)
 from kiosk.config.session import (
     CONDITION_NAME,
     KNOWN_CONDITIONS,
@@ -69,6 +53,22 @@ from kiosk.config.session import (
     Timing,
 )
 from kiosk.config.settings import OwnText, PackageOrigin, Settings
+from kiosk.places import (
+    ASSETS,
+    ENDINGS,
+    PICTURES,
+    POLICIES,
+    Located,
+    beside_or_inside,
+    code_of,
+    files_in,
+    is_path,
+    is_there,
+    pictures_in,
+    policy_path,
+    shipped_names,
+    shipped_place,
+)
 
 __all__ = [
     "ASSETS",

@@ -21,7 +21,6 @@ from kiosk import UserInputError
 from kiosk.config.devices import NO_ROBOT, VOICE_ENGINES, MarkersConfig, Remote, RobotConfig, VoiceConfig, host_fault
 from kiosk.config.look import ExperimenterConfig, Keys, Look, Screen
 from kiosk.config.models import MOST_CHARACTERS, MOST_ENTRIES, MOST_IN_TEXT, MOST_QUOTED, ConfigModel, read_text
-from kiosk.config.places import ENDINGS, Located, code_of, is_path, is_there, shipped_place
 from kiosk.config.session import (
     CONDITION_NAME,
     KNOWN_CONDITIONS,
@@ -42,6 +41,7 @@ from kiosk.errors import (
     toml_line,
 )
 from kiosk.extensions import ExtensionGroup, registered_names
+from kiosk.places import ENDINGS, Located, code_of, is_path, is_there, shipped_place
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,7 @@ def screens_check(number: int) -> Iterator[CheckResult]:
     """Everything about the screen of a number and what surrounds it."""
     from PySide6.QtGui import QGuiApplication
 
-    from kiosk.ui.kiosk_window import numbered_screens
+    from kiosk.ui.displays import numbered_screens
 
     found = obstacle()
     if found is not None:

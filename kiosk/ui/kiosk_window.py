@@ -13,14 +13,9 @@ from PySide6.QtGui import QCursor, QGuiApplication, QInputDevice, QPointerEvent,
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.robots.embodiment import Health
+from kiosk.ui.displays import numbered_screens
 
 _log = logging.getLogger(__name__)
-
-
-def numbered_screens() -> list[QScreen]:
-    """All screens, the primary one first, the others in the system's order."""
-    primary = QGuiApplication.primaryScreen()
-    return [primary, *(screen for screen in QGuiApplication.screens() if screen is not primary)]
 
 
 class FullScreen(QObject):

@@ -16,7 +16,7 @@ from PySide6.QtGui import QFont, QFontDatabase, QGuiApplication
 from PySide6.QtQml import QQmlApplicationEngine
 from PySide6.QtQuick import QQuickWindow
 
-from kiosk.config import ASSETS
+from kiosk.places import ASSETS
 from kiosk.sd_notify import Notifier
 from kiosk.ui.event_loop import after_first_frame
 

@@ -16,7 +16,8 @@ import pytest
 from kiosk.cli import check as command
 from kiosk.cli import composition
 from kiosk.cli.check import BUSY, LEAST_MIB, Load, log_check, machine_check, program_check, run_checks
-from kiosk.cli.composition import LOG, LOG_BYTES, code_commit, code_made
+from kiosk.cli.composition import code_commit, code_made
+from kiosk.cli.log import LOG, LOG_BYTES
 from kiosk.cli.main import main
 from kiosk.preflight import Check, CheckResult, Severity
 from kiosk.store.recorder import Recorder

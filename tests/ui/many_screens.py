@@ -15,7 +15,8 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
 from kiosk.ui import kiosk_window
-from kiosk.ui.kiosk_window import KioskWindow, numbered_screens
+from kiosk.ui.displays import numbered_screens
+from kiosk.ui.kiosk_window import KioskWindow
 
 
 def main(number: int) -> None:

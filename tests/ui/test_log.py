@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from kiosk.cli.composition import LOG, LOGS_KEPT, log_file
+from kiosk.cli.log import LOG, LOGS_KEPT, log_file
 from kiosk.config import Settings
 from kiosk.config import VoiceConfig as VoiceSettings
 from kiosk.experiment.events import Stage
@@ -111,7 +111,7 @@ def test_nothing_that_a_visitor_typed_or_was_given_is_in_the_log_when_robot_voic
 
 
 def test_the_log_begins_anew_before_it_grows_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kiosk.cli.composition.LOG_BYTES", 2_000)
+    monkeypatch.setattr("kiosk.cli.log.LOG_BYTES", 2_000)
     handler = log_file(tmp_path)
     for _ in range(200):
         handler.handle(logging.LogRecord("a", logging.WARNING, "a.py", 1, "the voice is gone", (), None))

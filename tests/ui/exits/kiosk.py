@@ -18,7 +18,7 @@ from PySide6.QtTest import QTest
 from Xlib import X
 from Xlib.display import Display
 
-from kiosk.cli.composition import log_into
+from kiosk.cli.log import log_into
 from kiosk.config import Settings
 from kiosk.ui.app import App
 from kiosk.ui.simulated_visitor import find_item, item_centre, lay_out

@@ -32,7 +32,7 @@ import click
 import psutil
 
 from kiosk import UserInputError
-from kiosk.cli.run import LEFTOVER_S
+from kiosk.cli.opening import LEFTOVER_S
 from kiosk.experiment.experimenter import hash_pin
 from kiosk.store.queries import open_repository
 from kiosk.store.verify import verify

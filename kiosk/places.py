@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from kiosk.language_codes import is_right, standard
-
 ENDINGS = {"questionnaires": ".toml", "policies": ".json"}
 """What goes by a name is a file with this ending; anything else is a folder."""
 
@@ -55,6 +53,8 @@ def code_of(name: str) -> str:
 
     Without a code it is the name itself.
     """
+    from kiosk.language_codes import is_right, standard  # noqa: PLC0415 - Babel is not needed to find a folder
+
     last = Path(name.replace("\\", "/")).name
     return standard(last) if is_right(last) else last
 
@@ -86,7 +86,7 @@ def is_there(path: Path, ending: str) -> bool:
 
 def beside_or_inside(name: str) -> Path:
     """Return a folder that stands inside the installed package, or beside it in a checkout."""
-    package = Path(__file__).parents[1]
+    package = Path(__file__).parent
     return package / name if (package / name).is_dir() else package.parent / name
 
 
