@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from enum import Enum, IntEnum
 from functools import lru_cache
@@ -128,9 +128,13 @@ class Table(Generic[Whole, Row]):
 
     def cells(self, whole: Whole) -> Iterator[tuple[str, ...]]:
         """Return the rows as texts, in the order of the columns."""
+        return zip(*self.written(whole), strict=True)
+
+    def written(self, whole: Whole) -> list[Sequence[str]]:
+        """Return the columns as texts, each in the order of the rows."""
         rows = tuple(self.rows(whole))
         # A column's cells are mostly of one kind, so that what writes them is chosen once and not for every cell.
-        return zip(*(_written(map(column.of, rows)) for column in self.columns), strict=True)
+        return [_written(map(column.of, rows)) for column in self.columns]
 
 
 class Label(str):
@@ -151,14 +155,28 @@ class Json(str):
 # json.dumps makes an encoder at each call where it is asked for anything but ASCII.
 _as_json = json.JSONEncoder(ensure_ascii=False, separators=(",", ":")).encode
 
+SEPARATES_OBJECTS = "\x1e"
+"""Stands between objects that are written together; where it is in one of them as well, each is written by itself."""
 
-def _written(cells: Iterable[Cell]) -> Iterable[str]:
+
+def _written(cells: Iterable[Cell]) -> Sequence[str]:
     """Return the cells of a column as they stand in a file."""
     cells = tuple(cells)
     kinds = set(map(type, cells))
     if len(kinds) == 1:
-        return map(_FORMATS.get(kinds.pop(), format_cell), cells)
+        return list(map(_FORMATS.get(kinds.pop(), format_cell), cells))
+    if dict in kinds:
+        texts = iter(_as_jsons([cell for cell in cells if type(cell) is dict]))
+        return [next(texts) if type(cell) is dict else _FORMATS.get(type(cell), format_cell)(cell) for cell in cells]
     return [_FORMATS.get(type(cell), format_cell)(cell) for cell in cells]
+
+
+def _as_jsons(cells: Sequence[dict[str, Any]]) -> list[str]:
+    """Return each of at least one object as JSON; all at once takes a third of the time."""
+    apart: list[dict[str, Any] | str] = [SEPARATES_OBJECTS] * (2 * len(cells) - 1)
+    apart[::2] = cells
+    texts = _as_json(apart)[1:-1].split(f",{_as_json(SEPARATES_OBJECTS)},")
+    return texts if len(texts) == len(cells) else list(map(_as_json, cells))
 
 
 def format_cell(cell: Cell) -> str:

@@ -96,9 +96,11 @@ def _with_help(
     """Do the same with other processes, which work out the tables; this one reads, and writes in the same order."""
     contents = writing.contents
     task = ExportTask(data, stored.kinds, stored.plan_numbers(), contents.study.shuffled, contents.extras)
-    for done, (kind, seen, texts) in enumerate(written_elsewhere(task, stored, processes), 1):
-        flows[kind].seen.update(seen)
-        writing.put(texts)
+    for done, written in enumerate(written_elsewhere(task, stored, processes), 1):
+        if written.unbroken:
+            stored.found_unbroken(written.number)
+        flows[written.kind].seen.update(written.seen)
+        writing.put(written.texts)
         yield done
 
 

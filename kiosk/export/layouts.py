@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import hashlib
-import io
 import json
 import os
 from abc import ABC, abstractmethod
@@ -82,12 +81,25 @@ def _csv_writer(file: TextIO) -> Any:
 
 def csv_texts(tables: DatasetTables, kept: SessionRecord) -> dict[str, str]:
     """Return the rows that one session adds to each table, as they stand in a CSV file."""
-    texts: dict[str, str] = {}
-    for table in tables.sessions:
-        file = io.StringIO(newline="")
-        _csv_writer(file).writerows(table.cells(kept))
-        texts[table.name] = file.getvalue()
-    return texts
+    return {table.name: csv_lines(table.written(kept)) for table in tables.sessions}
+
+
+def csv_lines(written: Sequence[Sequence[str]]) -> str:
+    """Return the lines of a table of at least two columns, as ``csv.writer`` would write them."""
+    lines = list(map(",".join, zip(*map(_quoted, written), strict=True)))
+    return "\r\n".join((*lines, "")) if lines else ""
+
+
+def _quoted(cells: Sequence[str]) -> Sequence[str]:
+    """Return the cells of a column as CSV has them."""
+    # Most columns need no quotes, which one look at all their cells tells.
+    if not _needs_quotes("".join(cells)):
+        return cells
+    return ['"' + cell.replace('"', '""') + '"' if _needs_quotes(cell) else cell for cell in cells]
+
+
+def _needs_quotes(text: str) -> bool:
+    return '"' in text or "," in text or "\r" in text or "\n" in text
 
 
 class TsvFile:
@@ -301,8 +313,7 @@ class PsychDs(Layout):
 
     def add(self, kept: SessionRecord) -> None:
         """Write what one session adds to the tables."""
-        for table in self.contents.tables.sessions:
-            self._files[table.name].write(table.cells(kept))
+        self.put(csv_texts(self.contents.tables, kept))
 
     def put(self, texts: Mapping[str, str]) -> None:
         """Write what ``csv_texts`` made of one session."""

@@ -48,6 +48,8 @@ class ExportTask:
 class WrittenSession(NamedTuple):
     """What a session adds to its flow, and to each table as CSV; nothing if it is left out."""
 
+    number: int
+    unbroken: bool
     kind: SessionKind
     seen: Counter[tuple[FlowQuantity, str]]
     texts: dict[str, str]
@@ -93,7 +95,7 @@ class _Worker:
         kept = self.source.read(stored)
         flow = ParticipantFlow(kept.kind, EnrolmentCounts({}, {}))
         texts = csv_texts(self.tables, kept) if flow.counted(kept, unshared=self.unshared) else {}
-        return WrittenSession(kept.kind, flow.seen, texts)
+        return WrittenSession(kept.id, kept.unbroken, kept.kind, flow.seen, texts)
 
 
 _worker: list[_Worker] = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from functools import lru_cache
 from itertools import chain
 
 from kiosk.experiment.condition import AllocationSource
@@ -148,6 +149,12 @@ def _language_and_condition(study: StudyMaterials) -> tuple[Column[Person], ...]
     )
 
 
+@lru_cache(maxsize=8)
+def _sha256(text: str) -> str:
+    """Return the hash of an allocation list, which thousands of sessions may have followed."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 _NOT_NOTED = "it was not noted"
 
 
@@ -284,7 +291,7 @@ _WHAT_CAME_OF_IT: tuple[Column[Person], ...] = make_columns(
     ),
     (
         Variable("allocation_sha256", "The hash of that list as it is stored.", empty="it took none"),
-        lambda row: hashlib.sha256(row.kept.row["slots"].encode()).hexdigest() if row.slot else None,
+        lambda row: _sha256(row.kept.row["slots"]) if row.slot else None,
     ),
     (EMBODIMENT, lambda row: row.embodiment.kind.value),
     (ROBOT, lambda row: row.embodiment.driver or None),

@@ -25,8 +25,9 @@ from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.files import replace_file
+from kiosk.store.chain import LinkedEvent, is_unbroken
 from kiosk.store.database import in_use, unreadable
-from kiosk.store.queries import BrokenEvent, SessionRepository, StoredEvent, decoded
+from kiosk.store.queries import BrokenEvent, SessionRepository, decoded
 from kiosk.store.schema import open_checked
 
 PADDED = 4
@@ -57,7 +58,7 @@ class StoredRecord(NamedTuple):
     """A session as it is stored, before its events and its plan are read."""
 
     row: Mapping[str, Any]
-    events: Sequence[StoredEvent]
+    events: Sequence[LinkedEvent]
     deviations: tuple[Deviation, ...]
 
 
@@ -84,6 +85,8 @@ class SessionRecord:
     secret: bytes | None = None
     """What participants' names are shuffled with; None if they count in the order in which people came."""
     deviations: tuple[Deviation, ...] = ()
+    unbroken: bool = False
+    """Whether every event was found to match its hash."""
 
     @property
     def id(self) -> int:
@@ -216,6 +219,9 @@ class RecordSource:
     _unended: Status | None
     secret: bytes | None = None
     _plans: dict[tuple[object, ...], SessionConfig | None] = field(default_factory=dict)
+    _lists: dict[int | None, str | None] = field(default_factory=dict)
+    _unbroken: set[int] = field(default_factory=set)
+    """The sessions of which every event is known to match its hash."""
 
     def __len__(self) -> int:
         """How many sessions there are to be read."""
@@ -236,7 +242,12 @@ class RecordSource:
     def broken_events(self) -> Iterator[BrokenEvent]:
         """Yield every event of these sessions that is not what was recorded."""
         for number in self._in_order():
-            yield from self.archive.changed_events(number)
+            if number not in self._unbroken:
+                yield from self.archive.changed_events(number)
+
+    def found_unbroken(self, number: int) -> None:
+        """Note that every event of a session matches its hash, so that it is not read again for that."""
+        self._unbroken.add(number)
 
     def cautions(self) -> Iterator[str]:
         """Yield in words what of these sessions cannot be read, or is not what was recorded."""
@@ -258,16 +269,29 @@ class RecordSource:
     def read(self, stored: StoredRecord) -> SessionRecord:
         """Return a stored session with its events and its plan."""
         records = tuple(_told(stored.events))
-        return SessionRecord(
-            stored.row, self._status(records), self._plan(stored.row), records, self.secret, stored.deviations
-        )
+        plan, unbroken = self._plan(stored.row), is_unbroken(stored.row, stored.events)
+        if unbroken:
+            self.found_unbroken(stored.row["id"])
+        row = {**stored.row, "slots": self._slots(stored.row["allocation_list"])}
+        return SessionRecord(row, self._status(records), plan, records, self.secret, stored.deviations, unbroken)
 
     def _record(self, number: int) -> SessionRecord:
         return self.read(self._stored(number))
 
     def _stored(self, number: int) -> StoredRecord:
         (row,) = self._rows(f"AND session.id = {number}")
-        return StoredRecord(row, self.archive.stored_events(number), self._deviations.get(number, ()))
+        return StoredRecord(row, self._events(number), self._deviations.get(number, ()))
+
+    def _events(self, number: int) -> list[LinkedEvent]:
+        query = "SELECT seq, at_ms, origin, type, wall_ms, payload, hash FROM event WHERE session = ? ORDER BY seq"
+        try:
+            return self.connection.execute(query, (number,)).fetchall()
+        except sqlite3.OperationalError:
+            # Where damaged bytes are no text, the archive reads what it can; no hash matches that.
+            return [
+                (seq, at_ms, origin, kind, None, payload, b"")
+                for seq, at_ms, kind, origin, payload in self.archive.stored_events(number)
+            ]
 
     @cached_property
     def _deviations(self) -> dict[int, tuple[Deviation, ...]]:
@@ -330,7 +354,7 @@ class RecordSource:
     def _rows(self, which: str) -> Iterator[Mapping[str, Any]]:
         cursor = self.connection.execute(
             f"SELECT session.*, participant.number, participant.visit, ({_FIRST_BEGAN}) AS first_began,"  # noqa: S608 - the names are ours
-            " list.block_size, list.slots, hex(head.hash) AS record_sha256"
+            " list.block_size, hex(head.hash) AS record_sha256"
             " FROM session LEFT JOIN participant ON participant.session = session.id"
             " LEFT JOIN head ON head.session = session.id"
             " LEFT JOIN allocation_list AS list ON list.id = session.allocation_list"
@@ -339,6 +363,17 @@ class RecordSource:
         names = [column[0] for column in cursor.description]
         for row in cursor:
             yield dict(zip(names, row, strict=True))
+
+    def _slots(self, allocation_list: int | None) -> str | None:
+        """Return the slots of an allocation list as they are stored.
+
+        All sessions that followed the list share one text, which can be very long.
+        """
+        if allocation_list not in self._lists:
+            query = "SELECT slots FROM allocation_list WHERE id = ?"
+            row = self.connection.execute(query, (allocation_list,)).fetchone()
+            self._lists[allocation_list] = None if row is None else str(row[0])
+        return self._lists[allocation_list]
 
     @property
     def _wanted(self) -> str:
@@ -396,12 +431,12 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
             raise unreadable(error, folder) from error
 
 
-def _told(rows: Sequence[StoredEvent]) -> Iterator[EventRecord]:
+def _told(rows: Sequence[LinkedEvent]) -> Iterator[EventRecord]:
     """Yield the records with the stage that each fell into."""
-    written = decoded(rows)
-    events = (_event(at_ms, kind, fields) for (_, at_ms, kind, _, _), fields in zip(rows, written, strict=True))
+    written = decoded([payload for *_, payload, _ in rows])
+    events = (_event(at_ms, kind, fields) for (_, at_ms, _, kind, *_), fields in zip(rows, written, strict=True))
     for row, fields, (stage, event) in zip(rows, written, with_stages(events), strict=True):
-        seq, at_ms, kind, origin, payload = row
+        seq, at_ms, origin, kind, _, payload, _ = row
         told = ("{}", {}) if fields is None else (payload, fields)
         yield EventRecord(seq, at_ms, origin, kind, *told, stage, event)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
 from collections.abc import Callable
@@ -18,9 +19,20 @@ from hypothesis import strategies as some
 
 from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Integer, ShortText
-from kiosk.export.columns import ExportOption, Label, format_cell, marked, unmarked
+from kiosk.export.columns import (
+    SEPARATES_OBJECTS,
+    Column,
+    ColumnKind,
+    ExportOption,
+    Label,
+    Table,
+    Variable,
+    format_cell,
+    marked,
+    unmarked,
+)
 from kiosk.export.dataset import export_dataset
-from kiosk.export.layouts import Bids, Layout, PsychDs
+from kiosk.export.layouts import Bids, Layout, PsychDs, csv_lines
 from tests.experiment.driver import Driver
 from tests.export.conftest import rows_of
 from tests.export.visitors import answer_all, store, study_plan
@@ -237,3 +249,23 @@ def test_a_picture_with_a_name_like_a_number_stays_a_text(tmp_path: Path) -> Non
     pictures = {row["picture"] for row in rows_of(tmp_path / "out", "cards") if row["stage"] == "game"}
     assert {"'1E5", "'nan", "'=1"} <= pictures
     assert {unmarked(picture) for picture in pictures} == set(named[:12])
+
+
+@settings(derandomize=True)
+@given(some.lists(some.tuples(TROUBLE, some.just(""), some.text()), max_size=4))
+@example([("a", "b", "c,")])
+@example([('"', ",", "\r\n")])
+def test_lines_are_written_as_pythons_own_writer_writes_them(rows: list[tuple[str, ...]]) -> None:
+    written = io.StringIO(newline="")
+    csv.writer(written, lineterminator="\r\n").writerows(rows)
+    assert csv_lines(list(zip(*rows, strict=True))) == written.getvalue()
+
+
+@pytest.mark.parametrize(
+    "value", ["plain", SEPARATES_OBJECTS, [SEPARATES_OBJECTS, "between", SEPARATES_OBJECTS], [1, None]]
+)
+def test_each_object_of_a_column_is_written_as_it_is_alone(value: object) -> None:
+    objects: list[dict[str, object] | None] = [{"a": 1}, {"value": value}, None, {}, {"b": [{"c": "é"}]}]
+    column = Column[int](Variable("v", "A value.", ColumnKind.JSON, empty="none"), lambda row: objects[row])
+    table = Table[int, int]("t", "One row for each.", ("v",), (column,), range)
+    assert [cell for (cell,) in table.cells(len(objects))] == list(map(format_cell, objects))
