@@ -18,7 +18,7 @@ from rich.table import Table
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
-from kiosk.cli.terminal import console, one_line, tell_caution
+from kiosk.cli.terminal import confirm, console, one_line, tell_caution
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
@@ -201,7 +201,8 @@ def withdraw_command(code: str | None, session: int | None, data: Path, *, yes: 
             "Copies that are kept elsewhere, and folders that this one was merged into, are not touched.",
             err=True,
         )
-        click.confirm("Delete them?", abort=True, err=True)
+        if not confirm("Delete them?"):
+            raise click.Abort
     with _disk_in_words():
         gone = withdrawing.withdraw(data, who)
     told = f"All of participant {gone.participant} is deleted."

@@ -23,7 +23,7 @@ from kiosk.cli.options import (
     study_option,
 )
 from kiosk.cli.run import supervise_kiosk
-from kiosk.cli.terminal import one_line
+from kiosk.cli.terminal import confirm, one_line
 from kiosk.config import Settings
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.preflight import WHAT, CheckResult, Severity
@@ -91,7 +91,7 @@ def open_day_command(
         raise UserInputError(f"a kiosk is open on {data} already: leave it first")
 
     def ask(question: str) -> bool:
-        return yes or click.confirm(question, default=True, err=True)
+        return yes or confirm(question, default=True)
 
     def tell(step: Step) -> None:
         if as_json:

@@ -15,7 +15,7 @@ from kiosk import UserInputError
 from kiosk.assistance.claims import CLAIM_PHRASES
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar
-from kiosk.cli.terminal import console, one_line
+from kiosk.cli.terminal import console, drop_typed_ahead, one_line
 from kiosk.config import Settings, code_of
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.study.loader import read_study
@@ -214,6 +214,7 @@ def _ask(draft: Draft, plan: SessionConfig, place: Path) -> None:
         if message != shown:
             _show(draft, message, plan)
             shown = message
+        drop_typed_ahead()
         answer = click.prompt(
             f"{message}.{number} (t)ake, (l)eave, (q)uit", type=click.Choice(["t", "l", "q"]), show_choices=False
         )

@@ -1,8 +1,13 @@
-"""What is printed: texts of studies, visitors, robots and brokers neither steer the terminal nor stand for markup."""
+"""What a terminal shows and takes.
+
+Texts of studies, visitors, robots and brokers neither steer it nor stand for markup. What was typed before a question
+came is no answer to it.
+"""
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -28,6 +33,30 @@ def one_line(text: str) -> str:
 def tell_caution(what: object, *, err: bool = False) -> None:
     """Print a caution on one line, whatever it quotes of a study or a record."""
     click.echo(f"caution: {one_line(str(what))}", err=err)
+
+
+def confirm(question: str, *, default: bool = False) -> bool:
+    """Ask a question that is answered by yes or no, after all that is printed."""
+    drop_typed_ahead()
+    return click.confirm(question, default=default, err=True)
+
+
+def drop_typed_ahead() -> None:
+    """Forget what was typed at the terminal and not read yet.
+
+    Input from a pipe or a file was written for the questions that come, and stays.
+    """
+    if sys.stdin is None or sys.stdin.closed or not sys.stdin.isatty():
+        return
+    if sys.platform == "win32":
+        import msvcrt  # noqa: PLC0415 - there is none elsewhere
+
+        while msvcrt.kbhit():
+            msvcrt.getwch()
+    else:
+        import termios  # noqa: PLC0415 - there is none on Windows
+
+        termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
 
 
 class HarmlessStream:
