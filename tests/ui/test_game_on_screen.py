@@ -352,6 +352,19 @@ def test_the_first_sentence_of_a_practice_goes_with_the_first_pair_and_can_be_he
     assert said() == ["Look at column 2."]
 
 
+@STILL
+def test_the_helper_says_whose_turn_it_is_until_a_card_is_turned(app: App) -> None:
+    def said() -> list[str]:
+        bubbles = (i for i in items(app.window.contentItem()) if lies_in(i, "Bubble"))
+        return [i.property("text") for i in bubbles if i.property("text") and i.property("text") != "Memo"]
+
+    app.screens.board.deal(3, 4, 6, "animals")
+    app.screens.kiosk.show("game")
+    assert said() == ["It is your turn. Turn over any card."]
+    app.screens.board.reveal(Position(0, 0), "cat")
+    assert said() == []
+
+
 @pytest.mark.parametrize("moves", [True], indirect=True)
 def test_snippets_of_the_feast_never_fall_in_one_line(app: App) -> None:
     """Of those that are seen at one time, no tenth of the height has a third."""

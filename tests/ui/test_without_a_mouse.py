@@ -78,7 +78,7 @@ def test_a_finger_drags_what_is_longer_than_the_screen(make_booth: MakeBooth, qt
     window = booth.app.window
     window.resize(1280, 720)
     qtbot.waitUntil(lambda: window.contentItem().width() == 1280)
-    for name in ("start-en", "continue", "age-yes"):
+    for name in ("start-en", "continue", "age-yes", "read-more"):
         booth.click(name)
     booth.settle()
     last = booth.app.screens.consent.offered[0]

@@ -79,6 +79,7 @@ game-moves =
         [one] 1 move
        *[other] { $moves } moves
     }
+game-begin = It is your turn. Turn over any card.
 game-wait-speaking = One moment, I have a hint for you
 game-wait-turning-back = One moment, the cards turn back
 game-closed-card = Closed card, row { $row }, column { $column }
@@ -116,6 +117,7 @@ result-speech-many =
 ## Questions
 
 form-title = A few questions
+form-calm = Take your time. There are no wrong answers.
 form-progress = Page { $number } of { $all }
 form-next = Next
 form-skip = Go on without it

@@ -80,6 +80,7 @@ game-moves =
         [one] 1 jugada
        *[other] { $moves } jugadas
     }
+game-begin = Te toca. Da la vuelta a cualquier carta.
 game-wait-speaking = Un momento, tengo una pista para ti
 game-wait-turning-back = Un momento, las cartas se vuelven a tapar
 game-closed-card = Carta tapada, fila { $row }, columna { $column }
@@ -117,6 +118,7 @@ result-speech-many =
 ## Questions
 
 form-title = Algunas preguntas
+form-calm = Tómate tu tiempo. No hay respuestas incorrectas.
 form-progress = Página { $number } de { $all }
 form-next = Siguiente
 form-skip = Seguir sin responder

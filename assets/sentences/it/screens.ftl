@@ -84,6 +84,7 @@ game-moves =
         [one] 1 mossa
        *[other] { $moves } mosse
     }
+game-begin = Tocca a te. Scopri una carta qualsiasi.
 game-wait-speaking = Un momento, ho un suggerimento per te
 game-wait-turning-back = Un momento, le carte si coprono di nuovo
 game-closed-card = Carta coperta, riga { $row }, colonna { $column }
@@ -121,6 +122,7 @@ result-speech-many =
 ## Questions
 
 form-title = Alcune domande
+form-calm = Prenditi il tempo che vuoi. Non ci sono risposte sbagliate.
 form-progress = Pagina { $number } di { $all }
 form-next = Avanti
 form-skip = Continua senza

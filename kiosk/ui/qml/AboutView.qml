@@ -32,6 +32,17 @@ PageFrame {
         font.pixelSize: 100
     }
     readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
+    // Beside the helper each line is a card with a large drawing, where the page has room for that.
+    readonly property bool framed: aside !== "" && read.every(line => line.sign !== "") && framedSize > 0
+    readonly property real framedSize: [44, 40, 38].map(Theme.size).find(size => fitsFramed(size)) ?? 0
+    readonly property real badge: 168 * Theme.unit
+    readonly property real margin: 1.5 * Theme.gap
+    function fitsFramed(size: real): bool {
+        const wide = (column - badge - 2 * margin - Theme.gap) * 0.88
+        const tall = read.reduce((sum, line) => sum + 2 * margin
+            + Math.max(badge, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
+        return tall + read.length * close <= room
+    }
     function fits(size: real): bool {
         return tall(size) + read.length * close <= 0.92 * room
     }
@@ -43,23 +54,35 @@ PageFrame {
 
     ScrollPane {
         id: pane
-        y: view.sink(height)
+        y: view.framed ? Math.max(0, Math.min((view.room - height) / 2, Theme.gap)) : view.sink(height)
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
         // Further apart where the page has room for it.
-        spacing: Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
+        spacing: view.framed ? 1.5 * Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
             model: view.read
-            SignedLine {
+            Rectangle {
+                id: card
                 required property int index
                 required property var modelData
                 width: parent?.width ?? 0
-                text: modelData.text
-                sign: modelData.sign
-                // What it takes of the visitor, by which they decide.
-                strong: index > 0 && view.aside === "" && index === view.read.length - 1
-                size: view.size
+                height: line.height + (view.framed ? 2 * view.margin : 0)
+                radius: Theme.radius
+                color: view.framed ? Theme.white : "transparent"
+                border { color: Theme.edge; width: view.framed ? 3 * Theme.unit : 0 }
+                SignedLine {
+                    id: line
+                    x: view.framed ? view.margin : 0
+                    y: x
+                    width: card.width - 2 * x
+                    text: card.modelData.text
+                    sign: card.modelData.sign
+                    // What it takes of the visitor, by which they decide.
+                    strong: card.index > 0 && view.aside === "" && card.index === view.read.length - 1
+                    size: view.framed ? view.framedSize : view.size
+                    badge: view.framed ? view.badge : 2.5 * size
+                }
             }
         }
     }

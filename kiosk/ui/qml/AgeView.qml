@@ -14,7 +14,7 @@ PageFrame {
     onVisibleChanged: yes.focus = true
 
     // Each answer has a picture where the page is high enough for it.
-    readonly property bool pictured: accompanied && room > 700 * Theme.unit && Theme.textSize <= 1.15
+    readonly property bool pictured: accompanied && room > 640 * Theme.unit
 
     component Answer: BigButton {
         id: answer
@@ -98,7 +98,7 @@ PageFrame {
             readonly property real wish: abreast ? (width - spacing) / 2 : width
             // How high they are at least; large texts need the room themselves.
             readonly property bool airy: Theme.textSize <= 1.15
-            readonly property real least: view.pictured ? 560 : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
+            readonly property real least: view.pictured ? Math.min(580, view.room / Theme.unit - 30) : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1

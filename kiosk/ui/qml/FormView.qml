@@ -38,6 +38,33 @@ PageFrame {
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
+    // Whether a few plain questions have the page to themselves.
+    readonly property bool calm: accompanied && !tight && Theme.textSize <= 1.15 && form.items.length <= 3
+        && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
+
+    // Whether they stand beside the number in its card, on a wide screen whose helper stands beside the page.
+    readonly property bool strip: {
+        const field = keyboard.field
+        if (!accompanied || alone || field === null || !field.digits || field.minus || mirrored)
+            return false
+        const box = card(field)
+        return box !== null && box.width - box.taken - 2.4 * Theme.gap >= stripWidth
+    }
+    readonly property bool mirrored: Theme.mirrored
+    readonly property real stripWidth: 525 * Theme.unit
+    // The item that a field belongs to.
+    function card(field: Item): FormItem {
+        for (let i = 0; i < boxes.count; i++) {
+            const box = boxes.itemAt(i) as FormItem
+            for (let above = field; above; above = above.parent)
+                if (above === box)
+                    return box
+        }
+        return null
+    }
+    // Whether they stand in the helper's place.
+    readonly property bool keysBeside: keyboard.visible && keyboard.numbers && !strip
+
     // Whether the keys of a number stand below this page, where the helper is on an upright screen.
     readonly property bool keysBelow: keyboard.visible && keyboard.numbers && keyboard.y >= height
 
@@ -107,6 +134,11 @@ PageFrame {
     // Where the keys of a number stand: in the helper's place, in the margin, or below everything; they cover no answer
     // unless there is no such place.
     function padPlace(wide: real, tall: real): point {
+        if (strip) {
+            const box = card(keyboard.field)
+            return Qt.point(home.mapToItem(view, 0, 0).x + box.width - 0.6 * Theme.gap - wide,
+                            begin + home.y + box.mapToItem(home, 0, 0).y + (box.height - tall) / 2)
+        }
         const before = parent.x, after = Window.width - before - width
         const beside = keyboard.field === null ? 0
             : Math.max(0, Math.min(height - tall, foot - tall - Theme.gap, begin + home.y + keyboard.field.mapToItem(home, 0, keyboard.field.height / 2).y - tall / 2))
@@ -159,7 +191,24 @@ PageFrame {
             width: parent.width
             room: view.room
             more: view.words["scroll-more"]
-            // Further apart where the page has room for it.
+            // Further apart where the page has room for it; and what belongs together, too.
+            readonly property real plain: {
+                let sum = 0
+                for (let i = 0; i < boxes.count; i++) {
+                    const box = boxes.itemAt(i) as FormItem
+                    sum += box?.visible ? box.plain + 30 * Theme.unit : 0
+                }
+                return sum
+            }
+            readonly property real addable: {
+                let sum = 0
+                for (let i = 0; i < boxes.count; i++) {
+                    const box = boxes.itemAt(i) as FormItem
+                    sum += box?.visible ? box.addable : 0
+                }
+                return sum
+            }
+            readonly property real loosened: view.calm && addable > 0 ? Math.max(0, Math.min(1, (view.room - plain) / addable)) : 0
             readonly property real tall: {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
@@ -184,6 +233,8 @@ PageFrame {
                     alone: view.alone
                     dense: view.dense
                     tight: view.tight
+                    calm: view.calm
+                    loosened: pane.loosened
                     large: view.width < view.height && view.form.items.length < 5
                     beside: view.rowText > 0 && view.scales(modelData)
                     rowText: view.rowText
@@ -199,6 +250,7 @@ PageFrame {
         parent: view
         form: view.form
         place: view.padPlace(width, height)
+        strip: view.strip
         words: view.words
         onDone: view.way.button.forceActiveFocus(Qt.MouseFocusReason)
     }

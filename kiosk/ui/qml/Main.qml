@@ -183,6 +183,7 @@ Window {
             anchors.fill: parent
             visible: root.kiosk.screen === "form"
             focus: visible && root.kiosk.bare
+            accompanied: root.accompanied && !root.avatar.away
             form: root.form
             kiosk: root.kiosk
             words: root.words
@@ -295,6 +296,8 @@ Window {
         leads: root.asking || !root.speaks
         aside: !root.accompanied ? "" : root.kiosk.asksStillThere ? root.words["still-there-line"]
              : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
+             : formView.visible ? (root.avatar.away || formView.keysBeside ? "" : root.words["form-calm"])
+             : boardView.visible ? (root.board.untouched && root.board.open ? root.words["game-begin"] : "")
              : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks

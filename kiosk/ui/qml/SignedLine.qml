@@ -27,7 +27,8 @@ Item {
         letter: "M3.5 6 H20.5 V18 H3.5 Z M4 6.5 L12 13 L20 6.5",
         camera: "M3.5 8 H8 L9.5 5 H14.5 L16 8 H20.5 V19 H3.5 Z M12 10 A3.4 3.4 0 0 1 12 16.8 A3.4 3.4 0 0 1 12 10"
     })
-    readonly property real badge: 2.5 * size
+    // How wide the drawing is.
+    property real badge: 2.5 * size
 
     height: Math.max(words.height, mark.visible ? mark.height : 0)
 

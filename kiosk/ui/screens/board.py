@@ -67,6 +67,8 @@ class BoardScreen(QAbstractListModel):
     """Taps count again, or no longer."""
     marked = Signal()
     """The mark of a hint came or went."""
+    touched = Signal()
+    """The first card was turned, or none of new ones."""
     tapped = Signal(Position)
     """A card was tapped."""
     refused = Signal()
@@ -87,6 +89,7 @@ class BoardScreen(QAbstractListModel):
         self._practice = False
         self._faces: list[_Face] = []
         self._rows = self._columns = self._pairs = self._pairs_found = self._moves = 0
+        self._untouched = False
         self._wait: BoardWait | None = None
         self._mark_row = self._mark_column = _NOWHERE
         self.looked_at: tuple[int | None, int | None] = (None, None)
@@ -120,12 +123,19 @@ class BoardScreen(QAbstractListModel):
         self._deck = self._pictures.deck(self._deck_name) if rows * columns else []
         self._pairs_found = self._moves = 0
         self._wait = None
+        self._untouched = rows * columns > 0
+        self.touched.emit()
         self.changed.emit()
         self._put([_Face() for _ in range(rows * columns)])
         self.dealt.emit()
         self.counted.emit()
         self.waited.emit()
         self.clear_highlight()
+
+    def _touch(self) -> None:
+        if self._untouched:
+            self._untouched = False
+            self.touched.emit()
 
     def _put(self, faces: list[_Face]) -> None:
         self.beginResetModel()
@@ -136,6 +146,7 @@ class BoardScreen(QAbstractListModel):
         """Show one card's picture."""
         face = self._face(position)
         face.card, face.up = card, True
+        self._touch()
         index = self.index(self.location(position))
         self.dataChanged.emit(index, index)
 
@@ -150,6 +161,7 @@ class BoardScreen(QAbstractListModel):
         for position in positions:
             self._face(position).found = True
             self._tell(position)
+        self._touch()
         first, second = positions
         picture = self._picture(self._face(first).card)
         self._tray.append(picture)
@@ -301,6 +313,11 @@ class BoardScreen(QAbstractListModel):
     def practice(self) -> bool:
         """Whether this is a practice, and can be left."""
         return self._practice
+
+    @Property(bool, notify=touched)
+    def untouched(self) -> bool:
+        """Whether no card of these was turned yet."""
+        return self._untouched
 
     @Property(bool, notify=waited)
     def open(self) -> bool:

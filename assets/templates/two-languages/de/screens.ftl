@@ -79,6 +79,7 @@ game-moves =
         [one] 1 Zug
        *[other] { $moves } Züge
     }
+game-begin = Du bist dran. Dreh irgendeine Karte um.
 game-wait-speaking = Einen Moment, ich habe einen Tipp für dich
 game-wait-turning-back = Einen Moment, die Karten drehen sich um
 game-closed-card = Verdeckte Karte, Reihe { $row }, Spalte { $column }
@@ -116,6 +117,7 @@ result-speech-many =
 ## Questions
 
 form-title = Ein paar Fragen
+form-calm = Lass dir Zeit. Es gibt keine falschen Antworten.
 form-progress = Seite { $number } von { $all }
 form-next = Weiter
 form-skip = Ohne Antwort weiter

@@ -30,7 +30,18 @@ Item {
     readonly property var answer: form.answers[item.id]
     readonly property bool refused: form.refused.includes(item.id)
     readonly property bool missed: form.missing.includes(item.id) || refused
-    readonly property real margin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    // Whether there is room enough on its page.
+    property bool calm: false
+    // How much of what can be added to the distances of this page is added, from 0 to 1.
+    property real loosened: 0
+    // How high it is without that, and how much can be added.
+    readonly property real plain: head + told.height + (way.active ? usualSpacing + way.height : 0) + 2 * usualMargin
+    readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
+    // Where its text and a number beside each other end, from the left.
+    readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
+    readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 18 : calm ? 14 : 8) * Theme.unit
+    readonly property real margin: usualMargin + addable / 2 * loosened
+    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
@@ -87,7 +98,7 @@ Item {
     Column {
         id: content
         anchors { left: parent.left; right: parent.right; verticalCenter: parent.verticalCenter; verticalCenterOffset: box.head / 2 - box.raised; margins: box.alone ? 0 : 1.2 * Theme.gap }
-        spacing: box.alone ? 2 * Theme.gap : (box.dense ? 4 : box.airy ? 18 : 8) * Theme.unit
+        spacing: box.usualSpacing
 
         Item {
             id: asked
@@ -104,6 +115,7 @@ Item {
                 width: box.beside ? box.textShare * asked.width : asked.width
                 spacing: content.spacing
                 Balanced {
+                    id: question
                     width: parent.width
                     text: box.item.text
                     font {

@@ -14,6 +14,8 @@ Rectangle {
     required property var words
     // Where a number's keys stand.
     required property point place
+    // Whether they stand in two rows, beside the number and in its card.
+    property bool strip: false
     signal done()
 
     // A keyboard is not turned round with the page.
@@ -23,7 +25,7 @@ Rectangle {
     property bool capitals: false
     property string shown: "letters"
     readonly property bool numbers: field !== null && field.digits
-    readonly property var rows: numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
+    readonly property var rows: numbers && strip ? ["12345", "67890"] : numbers ? ["123", "456", "789", `${field?.minus ? "-" : " "}0⌫`] : form.keys[shown]
     readonly property int longest: Math.max(10, ...rows.map(row => row.length))
     readonly property real gap: 8 * Theme.unit
     readonly property real room: parent.width
@@ -31,14 +33,14 @@ Rectangle {
     readonly property bool broad: parent.width < parent.height && Window.height - parent.height > 400 * Theme.unit
     // Or a wide screen's margin beside it.
     readonly property bool roomy: Window.width - parent.width >= 440 * Theme.unit
-    readonly property real keyWidth: numbers ? (broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
-    readonly property real keyHeight: (numbers ? (roomy ? 76 : 68) : 60) * Theme.unit
+    readonly property real keyWidth: numbers ? (strip ? 68 : broad ? 150 : roomy ? 108 : 80) * Theme.unit : Math.min(96 * Theme.unit, (room - 2 * Theme.gap - longest * gap) / longest)
+    readonly property real keyHeight: (numbers ? (strip ? 64 : roomy ? 76 : 68) : 60) * Theme.unit
 
     width: numbers ? keys.width + 1.2 * Theme.gap : parent.width
     height: keys.height + 1.2 * Theme.gap
     x: numbers ? place.x : 0
     y: numbers ? place.y : parent.height - height
-    radius: numbers ? Theme.radius : 0
+    radius: numbers ? (strip ? height / 4 : 1.6 * Theme.radius) : 0
     color: Theme.sand
     visible: field !== null
     onFieldChanged: {
@@ -73,7 +75,7 @@ Rectangle {
             verticalAlignment: Text.AlignVCenter
         }
         background: Rectangle {
-            radius: keyboard.numbers ? Theme.radius : 10 * Theme.unit
+            radius: keyboard.numbers ? height / 2 : 10 * Theme.unit
             color: key.pressedIn ? Theme.sea : Theme.white
             border { color: key.hovered ? Theme.sea : Theme.edge; width: 2 * Theme.unit }
             Backspace {
@@ -93,35 +95,40 @@ Rectangle {
         onClicked: keyboard.shown = leads
     }
 
-    Column {
+    Grid {
         id: keys
         anchors.centerIn: parent
+        columns: keyboard.strip && keyboard.numbers ? 2 : 1
         spacing: keyboard.gap
-        Repeater {
-            model: keyboard.rows
-            Row {
-                id: row
-                required property string modelData
-                anchors.horizontalCenter: parent?.horizontalCenter
-                spacing: keyboard.gap
-                Repeater {
-                    model: Array.from(row.modelData)
-                    ScreenKey {
-                        required property string modelData
-                        readonly property bool wipes: modelData === "⌫"
-                        objectName: wipes ? "key-delete" : "key-" + modelData
-                        // An empty place.
-                        opacity: modelData === " " ? 0 : 1
-                        enabled: opacity > 0
-                        drawn: wipes
-                        words: wipes ? keyboard.words["keyboard-delete"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
-                        onClicked: {
-                            if (wipes) {
-                                keyboard.field.wipe()
-                                return
+        horizontalItemAlignment: Grid.AlignHCenter
+        Column {
+            spacing: keyboard.gap
+            Repeater {
+                model: keyboard.rows
+                Row {
+                    id: row
+                    required property string modelData
+                    anchors.horizontalCenter: parent?.horizontalCenter
+                    spacing: keyboard.gap
+                    Repeater {
+                        model: Array.from(row.modelData)
+                        ScreenKey {
+                            required property string modelData
+                            readonly property bool wipes: modelData === "⌫"
+                            objectName: wipes ? "key-delete" : "key-" + modelData
+                            // An empty place.
+                            opacity: modelData === " " ? 0 : 1
+                            enabled: opacity > 0
+                            drawn: wipes
+                            words: wipes ? keyboard.words["keyboard-delete"] : keyboard.capitals ? keyboard.form.capital(modelData) : keyboard.numbers && modelData === "-" ? "−" : modelData
+                            onClicked: {
+                                if (wipes) {
+                                    keyboard.field.wipe()
+                                    return
+                                }
+                                keyboard.field.type(keyboard.numbers ? modelData : words)
+                                keyboard.capitals = false
                             }
-                            keyboard.field.type(keyboard.numbers ? modelData : words)
-                            keyboard.capitals = false
                         }
                     }
                 }
@@ -129,8 +136,7 @@ Rectangle {
         }
         Flow {
             id: others
-            readonly property real wish: keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
-            anchors.horizontalCenter: parent.horizontalCenter
+            readonly property real wish: keyboard.numbers && keyboard.strip ? 116 * Theme.unit : keyboard.numbers ? 3 * keyboard.keyWidth + 2 * keyboard.gap : keyboard.room - 2 * Theme.gap
             width: keyboard.numbers ? wish : Math.min(wish, implicitRow)
             readonly property real implicitRow: {
                 let sum = -spacing
@@ -172,8 +178,10 @@ Rectangle {
                 onClicked: keyboard.field.type(".")
             }
             ScreenKey {
-                visible: !keyboard.numbers
+                visible: !keyboard.numbers || keyboard.strip
                 objectName: "key-delete"
+                width: drawn ? others.wish : Math.max(keyboard.keyWidth, implicitWidth)
+                drawn: keyboard.numbers
                 words: keyboard.words["keyboard-delete"]
                 onClicked: keyboard.field.wipe()
             }

@@ -83,6 +83,7 @@ PanelSection {
     PanelChoice {
         width: parent.width
         action: "break"
+        large: true
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""

@@ -11,6 +11,8 @@ Column {
     required property string chosen
     required property string action
     property bool titled: true
+    // Whether they are pressed in a hurry, and so larger.
+    property bool large: false
     signal picked(string value)
 
     spacing: 8 * Theme.unit
@@ -35,6 +37,8 @@ Column {
                 words: modelData.label
                 chosen: modelData.value === choice.chosen
                 choosable: true
+                verticalPadding: (choice.large ? 13 : 9) * Theme.unit
+                horizontalPadding: (choice.large ? 20 : 18) * Theme.unit
                 Accessible.role: Accessible.RadioButton
                 Accessible.name: `${choice.title} ${words}`
                 onClicked: choice.picked(modelData.value)
