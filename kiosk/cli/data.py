@@ -135,7 +135,7 @@ def verify_command(data: Path, *, as_json: bool) -> None:
     deleted again where an older copy was put back; otherwise nothing is changed.
     """
     with progress_bar("checking", hidden=as_json) as tell:
-        flaws = checking.verify(data, tell)
+        flaws, unseen = checking.look_through(data, tell)
     # A database that is wrong in another way is left as it was found.
     here = [flaw for flaw in flaws if flaw.check in {Verification.FINISHED, Verification.COPIES}]
     others = {flaw.check for flaw in flaws if flaw not in here}
@@ -148,8 +148,7 @@ def verify_command(data: Path, *, as_json: bool) -> None:
             click.echo("What was left of people who withdrew is deleted now:", err=True)
             for flaw in here:
                 click.echo(f"  {one_line(f'{flaw.where}: {flaw.what}')}", err=True)
-            flaws = checking.verify(data)
-    unseen = checking.copies_not_looked_into(data)
+            flaws, unseen = checking.look_through(data)
     if as_json:
         rows = [asdict(flaw) | {"check": flaw.check.name.lower()} for flaw in flaws]
         places = [{"kind": copy.kind.value, "place": str(copy.place), "why": why} for copy, why in unseen]

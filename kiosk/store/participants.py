@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import re
 import sqlite3
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
 from functools import lru_cache
-from itertools import groupby
+from itertools import accumulate, groupby
 from random import SystemRandom
 
 from kiosk import UserInputError
@@ -202,6 +203,23 @@ class AllocationList:
     slots: tuple[AllocationSlot, ...]
 
 
+class _Listed:
+    """The slots of a stored list, found by their numbers."""
+
+    def __init__(self, row: int, blocks: Sequence[Sequence[str]]) -> None:
+        self.row = row
+        self.blocks = blocks
+        self._before = tuple(accumulate(map(len, blocks), initial=0))
+        """How many slots there are before each block, and in all."""
+
+    def slot(self, number: int) -> AllocationSlot | None:
+        """Return the slot of this number, from 1; None if the list is shorter."""
+        if number > self._before[-1]:
+            return None
+        block = bisect_left(self._before, number)
+        return AllocationSlot(number, block, Condition(self.blocks[block - 1][number - 1 - self._before[block - 1]]))
+
+
 class AllocationLists:
     """The lists of one site, of one kind of sessions.
 
@@ -212,6 +230,7 @@ class AllocationLists:
         """Open the lists; callers of ``fix`` have a transaction open."""
         self._connection = connection
         self._whose = {"site": site, "kind": int(kind)}
+        self._listed: _Listed | None = None
 
     def latest(self) -> AllocationList | None:
         """Return the list that is followed now; None if none is fixed."""
@@ -242,29 +261,33 @@ class AllocationLists:
         Slots are taken in their order, so where as many are consumed as the highest one says, the next one follows it;
         no other slot is looked at then.
         """
-        row = self._latest_slots()
-        if row is None:
+        listed = self._latest_slots()
+        if listed is None:
             return None
-        _, blocks = row
         count, highest = self._connection.execute(_HOW_FAR, self._whose).fetchone()
         if count == highest:
-            return _slot_at(blocks, highest + 1)
-        return next_slot(_slots(blocks), self.consumed())
+            return listed.slot(highest + 1)
+        return next_slot(_slots(listed.blocks), self.consumed())
 
     def list_with(self, slot: AllocationSlot) -> int:
         """Return the row of the list in which this slot is free; raises ValueError if it is not."""
-        row = self._latest_slots()
-        if row is None or slot != _slot_at(row[1], slot.number) or self.is_consumed(slot.number):
+        listed = self._latest_slots()
+        if listed is None or slot != listed.slot(slot.number) or self.is_consumed(slot.number):
             raise ValueError(f"there is no free {slot} in the list that is fixed")
-        return row[0]
+        return listed.row
 
-    def _latest_slots(self) -> tuple[int, Sequence[Sequence[str]]] | None:
-        """Return the row of the list that is followed now, and its blocks."""
+    def _latest_slots(self) -> _Listed | None:
+        """Return the list that is followed now; a stored list never changes, so each is read once."""
         row = self._connection.execute(
-            "SELECT id, slots FROM allocation_list WHERE site = :site AND kind = :kind ORDER BY id DESC LIMIT 1",
+            "SELECT id FROM allocation_list WHERE site = :site AND kind = :kind ORDER BY id DESC LIMIT 1",
             self._whose,
         ).fetchone()
-        return None if row is None else (row[0], json.loads(row[1]))
+        if row is None:
+            return None
+        if self._listed is None or self._listed.row != row[0]:
+            (slots,) = self._connection.execute("SELECT slots FROM allocation_list WHERE id = ?", row).fetchone()
+            self._listed = _Listed(row[0], json.loads(slots))
+        return self._listed
 
     def create(self, quotas: Mapping[Condition, int], block: int, seed: int | None) -> tuple[AllocationSlot, ...]:
         """Store the first list, find this very one stored, or store a longer one for raised quotas.
@@ -370,16 +393,6 @@ def slots_from_json(text: str) -> tuple[AllocationSlot, ...]:
 def _slots(blocks: Sequence[Sequence[str]]) -> tuple[AllocationSlot, ...]:
     named = ((block, name) for block, names in enumerate(blocks, 1) for name in names)
     return tuple(AllocationSlot(number, block, Condition(name)) for number, (block, name) in enumerate(named, 1))
-
-
-def _slot_at(blocks: Sequence[Sequence[str]], number: int) -> AllocationSlot | None:
-    """Return the slot of this number, from 1; None if the list is shorter."""
-    before = 0
-    for block, names in enumerate(blocks, 1):
-        if number <= before + len(names):
-            return AllocationSlot(number, block, Condition(names[number - before - 1]))
-        before += len(names)
-    return None
 
 
 def _continued(

@@ -175,6 +175,7 @@ class Recorder:
         self._next_seq = 1
         self._head = b""
         self._heads = HeadsFile(folder)
+        self._kept_lists: dict[SessionKind, AllocationLists] = {}
         self.sessions_begun = 0
         """How many sessions were begun with this recorder."""
         try:
@@ -378,7 +379,9 @@ class Recorder:
             _log.error("the list of people who withdrew could not be written: %s", reason(error, self.folder))
 
     def _lists(self, *, kind: SessionKind) -> AllocationLists:
-        return AllocationLists(self._connection, self.site, kind=kind)
+        if kind not in self._kept_lists:
+            self._kept_lists[kind] = AllocationLists(self._connection, self.site, kind=kind)
+        return self._kept_lists[kind]
 
     def _written(self, rows: Sequence[EventRow]) -> None:
         """Go on from events that are on the disk."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cache, partial
 from pathlib import Path
+from typing import NamedTuple
 
 from kiosk import UserInputError
 from kiosk.experiment.events import from_fields
@@ -66,12 +67,25 @@ def verify(folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]
 
     A kiosk may be writing meanwhile: all is seen as it stood at one moment.
     """
+    return look_through(folder, tell).flaws
+
+
+class Verified(NamedTuple):
+    """What is wrong, and the copies elsewhere in which people who withdrew may be, with why that cannot be seen."""
+
+    flaws: list[Flaw]
+    copies_not_looked_into: list[tuple[KnownCopy, str]]
+
+
+def look_through(folder: Path, tell: Progress = lambda _done, _of: None) -> Verified:
+    """Do the same as ``verify``, and tell which copies could not be looked into."""
     with closing(open_as_it_is(folder)) as connection:
-        return _flaws(connection, folder, tell)
+        return _looked_through(connection, folder, tell)
 
 
-def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda _done, _of: None) -> list[Flaw]:
+def _looked_through(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda _done, _of: None) -> Verified:
     flaws: list[Flaw] = []
+    unseen: list[tuple[KnownCopy, str]] = []
     of_events = cache(_events)
     looks = _LOOKS | {
         **{check: partial(_found_by, of_events, check) for check in _OF_EVENTS},
@@ -79,7 +93,7 @@ def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda
         Verification.FINISHED: partial(_finished, folder=folder),
         Verification.LIST: partial(_list, folder=folder),
         Verification.COPIES: partial(_copies, folder=folder),
-        Verification.ELSEWHERE: partial(_elsewhere, folder=folder),
+        Verification.ELSEWHERE: partial(_elsewhere, folder=folder, unseen=unseen),
     }
     connection.execute("BEGIN")
     # A view in the place of a table could be read without end.
@@ -102,14 +116,14 @@ def _flaws(connection: sqlite3.Connection, folder: Path, tell: Progress = lambda
                 # A changed file may hold a number, or nothing, where the schema allows texts alone.
                 words = f"a value is of another type ({error})"
                 flaws.append(Flaw(check, "the database", f"cannot be looked at: {words}"))
-    return flaws
+    return Verified(flaws, unseen)
 
 
 def check_foreign(folder: Path) -> None:
     """Refuse a data folder in which anything is wrong, before it is merged; raises UserInputError."""
     with closing(open_as_it_is(folder)) as connection:
         refuse_other_schema(connection, folder)
-        flaws = _flaws(connection, folder)
+        flaws = _looked_through(connection, folder).flaws
     found = [(each.where, each.what) for each in flaws if each.check not in _HARMLESS]
     if found:
         where, what = found[0]
@@ -353,22 +367,17 @@ def _copies(connection: sqlite3.Connection, folder: Path | None = None) -> _Foun
         yield copy.name, f"it holds session {', '.join(map(str, sessions))} of people who withdrew"
 
 
-def _elsewhere(connection: sqlite3.Connection, folder: Path | None = None) -> _Found:
-    for copy, sessions in _looked_elsewhere(connection, folder).holding if folder is not None else ():
+def _elsewhere(
+    connection: sqlite3.Connection, folder: Path | None = None, unseen: list[tuple[KnownCopy, str]] | None = None
+) -> _Found:
+    found = Elsewhere() if folder is None else _looked_elsewhere(connection, folder)
+    if unseen is not None:
+        unseen += found.unseen
+    for copy, sessions in found.holding:
         yield (
             f"the {copy.kind.value} {copy.place}",
             f"it holds session {', '.join(map(str, sessions))} of people who withdrew: delete them there, or the copy",
         )
-
-
-def copies_not_looked_into(folder: Path) -> tuple[tuple[KnownCopy, str], ...]:
-    """Return the copies elsewhere in which people who withdrew may be, and why that cannot be seen."""
-    with closing(open_as_it_is(folder)) as connection:
-        try:
-            return _looked_elsewhere(connection, folder).unseen
-        except sqlite3.Error:
-            # The flaws of the database say why.
-            return ()
 
 
 def _looked_elsewhere(connection: sqlite3.Connection, folder: Path) -> Elsewhere:

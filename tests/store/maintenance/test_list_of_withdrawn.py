@@ -23,7 +23,7 @@ from kiosk.store.merge import merge
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import read_snapshot
 from kiosk.store.tombstones import FILE as LIST
-from kiosk.store.verify import Verification, copies_not_looked_into, verify
+from kiosk.store.verify import Verification, look_through, verify
 from kiosk.store.withdrawal import withdraw
 from tests.store.visitors import COMPLETED
 
@@ -118,12 +118,12 @@ def test_verify_looks_into_copies_elsewhere_and_names_those_that_it_cannot_reach
         (CopyKind.EXPORT, tmp_path),
     ):
         note_copy(folder, kind, place)
-    assert (found(folder), copies_not_looked_into(folder)) == ([], ())
+    assert look_through(folder) == ([], [])
     withdraw(folder, codes[0])
     assert [(flaw.check, flaw.what.partition(":")[0]) for flaw in verify(folder)] == [
         (Verification.ELSEWHERE, "it holds session 1 of people who withdrew")
     ] * 2
-    unseen = copies_not_looked_into(folder)
+    unseen = look_through(folder).copies_not_looked_into
     assert [why.partition(";")[0] for _, why in unseen] == [
         "it is not there, or not plugged in",
         "a data set names no codes",

@@ -193,6 +193,20 @@ def test_places_stay_consumed_when_the_list_is_made_longer(folder: Path, provena
     assert rows(folder, "SELECT allocation_list, count(*) FROM session GROUP BY allocation_list") == [(1, 6), (2, 10)]
 
 
+def test_the_text_of_a_list_is_read_once_and_of_a_longer_one_once_more(folder: Path, provenance: Provenance) -> None:
+    with Recorder(folder) as recorder:
+        recorder.create_allocation_list(FOUR, 4, 7, kind=SessionKind.SIMULATED)
+        asked: list[str] = []
+        recorder._connection.set_trace_callback(lambda query: asked.append(query) if "SELECT slots" in query else None)
+        for _ in range(3):
+            seated(recorder, provenance)
+        assert len(asked) == 1
+        recorder.create_allocation_list(EIGHT, 4, 7, kind=SessionKind.SIMULATED)
+        for _ in range(3):
+            seated(recorder, provenance)
+        assert len(asked) == 2
+
+
 def test_a_session_s_row_says_how_it_came_to_its_condition(folder: Path, provenance: Provenance) -> None:
     with Recorder(folder) as recorder:
         first, *_ = recorder.create_allocation_list(FOUR, 4, 7, kind=SessionKind.SIMULATED)
