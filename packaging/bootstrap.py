@@ -37,6 +37,7 @@ VENV = ROOT / ".venv"
 VERSION = f"3.{sys.version_info.minor}"
 STAMP = VENV / "set-up.json"
 BUILD_BACK_END = ("hatchling", "editables")  # installed first: pip 23 and pip 26 lock an isolated build differently
+WITH_NUMBA = {"fast", "dev"}  # the extras that bring it
 UNLOCKED = {"pip", "setuptools", "wheel", "recollect"}
 
 QT = "libgl1 libegl1 libglib2.0-0 libdbus-1-3 libfontconfig1 libxkbcommon0"
@@ -246,7 +247,18 @@ def install_python_packages(extras: set[str]) -> None:
     failure = "pip could not install the Python packages (where it speaks of a connection, the network is missing):"
     quietly([*pip, *BUILD_BACK_END], failure)
     quietly([*pip, "--no-build-isolation", "--editable", f".[{','.join(extras)}]" if extras else "."], failure)
+    if extras & WITH_NUMBA:
+        compile_rules()
     STAMP.write_text(json.dumps(wanted), encoding="utf-8")
+
+
+def compile_rules() -> None:
+    """Compile the rules of ``kiosk.training``, so that the first table or simulation of each user begins at once."""
+    say("Compiling the rules of the simulation, once.")
+    try:
+        quietly([str(program("python")), "-m", "kiosk.training.ahead"], "The rules could not be compiled:")
+    except SetupFailed as failure:
+        say(f"{failure}\nThey will be compiled when they are first used.")
 
 
 def read_stamp() -> dict[str, Any]:

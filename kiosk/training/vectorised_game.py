@@ -8,9 +8,14 @@ A test plays these rules and the packages they copy side by side and compares ev
 from __future__ import annotations
 
 import hashlib
+import os
+import shutil
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 from platformdirs import user_cache_path
@@ -32,32 +37,70 @@ COMPILED: bool = _numba is not None and not _numba.config.DISABLE_JIT
 """Whether numba is here to compile the rules; NUMBA_DISABLE_JIT=1 in the environment runs them as they are."""
 
 
-def _keeps_compiled() -> bool:
-    """Give the compiled rules a place in the user's cache that is never out of date; whether there is one.
-
-    numba looks at the file of the outermost rule only, so the place is named after the content of all of them.
-    """
+def _name_of_rules() -> str:
+    """Return a name for the content of all rules: numba looks at the file of the outermost rule only."""
     names = Path(__file__).parents[1] / "assistance" / "policy.py"
     content = b"".join(file.read_bytes() for file in [names, *sorted(Path(__file__).parent.glob("*.py"))])
-    place = user_cache_path("recollect") / f"rules-{hashlib.sha256(content).hexdigest()[:16]}"
+    return f"rules-{hashlib.sha256(content).hexdigest()[:16]}"
+
+
+def copy_compiled(place: Path, to: Path) -> None:
+    """Copy a folder of compiled rules, whole or not at all, also beside another process that does the same."""
+    to.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(prefix="half-", dir=to.parent, ignore_cleanup_errors=True) as folder:
+        half = Path(folder) / to.name
+        shutil.copytree(place, half, copy_function=shutil.copyfile)
+        for each in (half, *half.iterdir()):
+            # The original may be read-only; numba refuses a folder that it cannot write in.
+            each.chmod(0o755)
+        try:
+            half.replace(to)
+        except OSError:
+            if not to.is_dir():
+                raise
+
+
+def place_of_compiled(cache: Path, ahead: Path) -> Path | None:
+    """Return a folder in ``cache`` for compiled rules, or None where there can be none.
+
+    It is named after the rules, so it is never out of date. What the installation compiled in ``ahead`` is copied
+    there, because numba writes where it reads. numba itself finds out whether it suits this processor.
+    """
+    place = cache / ahead.name
+    with suppress(OSError):
+        if ahead.is_dir() and not place.exists():
+            copy_compiled(ahead, place)
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError:
-        return False
-    _numba.config.CACHE_DIR = str(place)
-    return True
+        return None
+    return place if os.access(place, os.W_OK) else None
 
 
-_KEPT = COMPILED and _keeps_compiled()
+def _tell_numba() -> Path | None:
+    place = place_of_compiled(user_cache_path("recollect"), AHEAD)
+    if place is not None:
+        _numba.config.CACHE_DIR = str(place)
+    return place
+
+
+AHEAD = Path(sys.prefix) / "share" / "recollect" / _name_of_rules()
+"""Where an installation keeps rules that it compiled beforehand; see ``kiosk.training.ahead``."""
+KEPT_IN = _tell_numba() if COMPILED else None
+"""Where this process reads compiled rules and keeps those that it compiles, if anywhere."""
 
 
 def compiled_rule(function: Rule) -> Rule:
     """Mark one of the rules: compiled on first use where numba is installed, and then kept compiled on disk.
 
     No rule divides by 0, and not looking for that (numba's error model "numpy") makes training a third faster. None
-    makes or keeps an array, so no references are counted (``_nrt``), which takes an eighth of the time.
+    makes or keeps an array, so no references are counted (``_nrt``), which takes an eighth of the time. C never calls
+    one, and leaving out the way in for it saves a tenth of the compiling.
     """
-    compiled: Rule = _numba.njit(function, cache=_KEPT, error_model="numpy", _nrt=False) if COMPILED else function
+    if not COMPILED:
+        return function
+    options = {"cache": KEPT_IN is not None, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
+    compiled: Rule = _numba.njit(function, **options)
     return compiled
 
 

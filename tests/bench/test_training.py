@@ -26,7 +26,7 @@ from kiosk.training.learning import RECIPES, Learner
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import MemoryPlayer
 from kiosk.training.simulation import TALLY, lay, play_all, simulate_games
-from kiosk.training.vectorised_game import COMPILED, RANDOM, floats, gate_plan, ints
+from kiosk.training.vectorised_game import AHEAD, COMPILED, RANDOM, floats, gate_plan, ints
 from tests.training.reference import WithMemory, learn, play
 
 Benchmark = Any
@@ -114,12 +114,18 @@ def test_episodes_of_the_reference(benchmark: Benchmark) -> None:
 
 
 @pytest.mark.benchmark(group="from nothing to the default table")
-@pytest.mark.parametrize("how", ["first time ever", "compiled before", "without numba"])
+@pytest.mark.parametrize(
+    "how", ["first time ever", "first time, compiled by the installation", "compiled before", "without numba"]
+)
 def test_from_nothing_to_the_default_table(benchmark: Benchmark, tmp_path: Path, how: str) -> None:
     out = tmp_path / "default.json"
     plain = "1" if how == "without numba" else "0"
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache"), "NUMBA_DISABLE_JIT": plain}
-    command = [sys.executable, "-m", "kiosk", "train", "--name", "default", "--out", str(out)]
+    installation = str(tmp_path) if how == "first time ever" else sys.prefix
+    program = "import sys; sys.prefix = sys.argv.pop(1); from kiosk.__main__ import main; raise SystemExit(main())"
+    command = [sys.executable, "-c", program, installation, "train", "--name", "default", "--out", str(out)]
+    if "installation" in how and not AHEAD.is_dir():
+        pytest.skip("the installation has compiled nothing: packaging/bootstrap.py")
 
     def train() -> None:
         subprocess.run(command, check=True, capture_output=True, env=environment)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import stat
 import subprocess
 import sys
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -15,7 +17,19 @@ from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate, State
 from kiosk.game import Board, Concentration
 from kiosk.training import simulation, vectorised_game
-from kiosk.training.vectorised_game import CARDS, COUNT, FIRST, FOUND, HELP, LAST, MARK, MATE, NOWHERE
+from kiosk.training.vectorised_game import (
+    CARDS,
+    COUNT,
+    FIRST,
+    FOUND,
+    HELP,
+    LAST,
+    MARK,
+    MATE,
+    NOWHERE,
+    copy_compiled,
+    place_of_compiled,
+)
 from tests.samples import mixed
 
 GATES = st.builds(Gate, st.integers(0, 12), st.integers(0, 8), st.integers(0, 16))
@@ -149,3 +163,36 @@ def test_compiled_and_plain_give_the_same_numbers_for_a_seed() -> None:
     assert (compiled[0], plain[0], without[0]) == ("True", "False", "False")
     assert compiled[1:] == plain[1:] == without[1:]
     assert len(set(plain[1:])) == 9
+
+
+def compiled_ahead(folder: Path) -> Path:
+    """Make a folder as an installation keeps it, which may not be written in."""
+    rules = folder / "rules-1" / "training_1"
+    rules.mkdir(parents=True)
+    (rules / "simulation.play.nbi").write_bytes(b"compiled")
+    for each in (rules, rules.parent):
+        each.chmod(0o555)
+    return rules.parent
+
+
+def test_rules_compiled_by_the_installation_are_copied_to_the_cache_of_the_user(tmp_path: Path) -> None:
+    place = place_of_compiled(tmp_path / "cache", compiled_ahead(tmp_path / "installed"))
+    assert place == tmp_path / "cache" / "rules-1"
+    assert (place / "training_1" / "simulation.play.nbi").read_bytes() == b"compiled"
+    assert all(each.stat().st_mode & stat.S_IWUSR for each in (place, *place.rglob("*")))
+    assert list(place.parent.iterdir()) == [place]
+
+
+def test_what_the_user_has_compiled_is_kept(tmp_path: Path) -> None:
+    own = tmp_path / "cache" / "rules-1" / "training_1" / "own.nbi"
+    own.parent.mkdir(parents=True)
+    own.write_bytes(b"own")
+    ahead = compiled_ahead(tmp_path / "installed")
+    copy_compiled(ahead, tmp_path / "cache" / "rules-1")
+    assert place_of_compiled(tmp_path / "cache", ahead) == tmp_path / "cache" / "rules-1"
+    assert [each.name for each in own.parent.iterdir()] == ["own.nbi"]
+
+
+def test_without_a_folder_to_write_in_nothing_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "cache").write_text("a file")
+    assert place_of_compiled(tmp_path / "cache", tmp_path / "rules-1") is None
