@@ -33,11 +33,17 @@ PageFrame {
     }
     readonly property real size: [50, 46, 42, 38].map(Theme.size).find(size => fits(size)) ?? Theme.size(36)
     // Beside the helper each line is a card with a large drawing, where the page has room for that.
-    readonly property bool framed: aside !== "" && read.every(line => line.sign !== "") && framedSize > 0
-    readonly property real framedSize: [44, 40, 38].map(Theme.size).find(size => fitsFramed(size)) ?? 0
-    readonly property real badge: 168 * Theme.unit
+    readonly property bool upright: width < height
+    readonly property bool framed: (upright ? Theme.textSize <= 1.15 : aside !== "") && read.every(line => line.sign !== "") && framedSize > 0
+    readonly property real framedSize: (upright ? [46, 44, 42, 40, 38, 36] : [44, 40, 38]).map(Theme.size).find(size => fitsFramed(size)) ?? 0
+    readonly property real badge: (upright ? 150 : 168) * Theme.unit
     readonly property real margin: 1.5 * Theme.gap
+    // On an upright screen the cards are as high as each other, and take the page.
+    readonly property real cardHigh: Math.min(400 * Theme.unit, (0.98 * room - (read.length - 1) * Theme.gap) / Math.max(1, read.length))
     function fitsFramed(size: real): bool {
+        if (upright)
+            return read.every(line => Math.max(badge, Math.ceil(letters.advanceWidth(line.text) * size / 100
+                / ((column - badge - 2 * margin - Theme.gap) * 0.88)) * 1.5 * size) + 1.2 * margin <= cardHigh)
         const wide = (column - badge - 2 * margin - Theme.gap) * 0.88
         const tall = read.reduce((sum, line) => sum + 2 * margin
             + Math.max(badge, Math.ceil(letters.advanceWidth(line.text) * size / 100 / wide) * 1.5 * size), 0)
@@ -54,12 +60,12 @@ PageFrame {
 
     ScrollPane {
         id: pane
-        y: view.framed ? Math.max(0, Math.min((view.room - height) / 2, Theme.gap)) : view.sink(height)
+        y: view.framed ? view.upright ? 0 : Math.max(0, Math.min((view.room - height) / 2, Theme.gap)) : view.sink(height)
         width: parent?.width ?? 0
         room: view.room
         more: view.words["scroll-more"]
         // Further apart where the page has room for it.
-        spacing: view.framed ? 1.5 * Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
+        spacing: view.framed ? (view.upright ? 1 : 1.5) * Theme.gap : Math.max(view.close, Math.min(3 * Theme.gap, (0.92 * view.room - view.tall(view.size)) / Math.max(1, view.read.length)))
         Repeater {
             model: view.read
             Rectangle {
@@ -67,14 +73,14 @@ PageFrame {
                 required property int index
                 required property var modelData
                 width: parent?.width ?? 0
-                height: line.height + (view.framed ? 2 * view.margin : 0)
+                height: view.framed && view.upright ? view.cardHigh : line.height + (view.framed ? 2 * view.margin : 0)
                 radius: Theme.radius
                 color: view.framed ? Theme.white : "transparent"
                 border { color: Theme.edge; width: view.framed ? 3 * Theme.unit : 0 }
                 SignedLine {
                     id: line
                     x: view.framed ? view.margin : 0
-                    y: x
+                    y: (card.height - height) / 2
                     width: card.width - 2 * x
                     text: card.modelData.text
                     sign: card.modelData.sign
@@ -82,6 +88,7 @@ PageFrame {
                     strong: card.index > 0 && view.aside === "" && card.index === view.read.length - 1
                     size: view.framed ? view.framedSize : view.size
                     badge: view.framed ? view.badge : 2.5 * size
+                    centred: view.framed
                 }
             }
         }

@@ -14,7 +14,10 @@ PageFrame {
     onVisibleChanged: yes.focus = true
 
     // Each answer has a picture where the page is high enough for it.
-    readonly property bool pictured: accompanied && room > 640 * Theme.unit
+    readonly property bool upright: width < height
+    readonly property bool pictured: upright ? room > 1000 * Theme.unit && Theme.textSize <= 1.15 : accompanied && room > 640 * Theme.unit
+    // How large everything in an answer is, on an upright screen that has the height for it.
+    readonly property real scaled: upright && pictured ? 1.45 : 1
 
     component Answer: BigButton {
         id: answer
@@ -26,8 +29,9 @@ PageFrame {
 
         width: answers.wish
         height: answers.tall
-        horizontalPadding: 32 * Theme.unit
-        font.pixelSize: Theme.size(84)
+        horizontalPadding: (view.upright ? 24 : 32) * Theme.unit
+        corner: view.pictured && view.upright ? 2 * Theme.radius : Infinity
+        font.pixelSize: Theme.size(84 * Math.min(1.25, view.scaled))
         Accessible.description: meaning
         contentItem: Item {
             implicitWidth: Math.max(short.implicitWidth, long.implicitWidth)
@@ -39,8 +43,8 @@ PageFrame {
                 Item {
                     anchors.horizontalCenter: parent.horizontalCenter
                     visible: view.pictured
-                    width: 190 * Theme.unit
-                    height: 200 * Theme.unit
+                    width: 190 * view.scaled * Theme.unit
+                    height: (190 * view.scaled + 10) * Theme.unit
                     Rectangle {
                         width: parent.width
                         height: width
@@ -48,7 +52,7 @@ PageFrame {
                         color: Theme.white
                         Drawing {
                             anchors.centerIn: parent
-                            scale: 6.2 * Theme.unit
+                            scale: 6.2 * view.scaled * Theme.unit
                             path: answer.sign
                             ink: Theme.sea
                             thick: 1.6
@@ -68,7 +72,7 @@ PageFrame {
                     width: answer.inside
                     horizontalAlignment: Text.AlignHCenter
                     text: answer.meaning
-                    font.pixelSize: Theme.size(38)
+                    font.pixelSize: Theme.size(view.scaled > 1 ? 42 : 38)
                     color: Theme.white
                     Accessible.ignored: true
                 }
@@ -77,12 +81,14 @@ PageFrame {
     }
 
     Column {
+        id: page
         // Close to the question that it explains.
         y: Math.max(0, Math.min(0.7 * Theme.gap, view.room - height))
         width: parent?.width ?? 0
         spacing: 2 * Theme.gap
 
         Balanced {
+            id: told
             width: parent.width
             visible: view.aside === ""
             text: view.words["age-line"]
@@ -98,7 +104,10 @@ PageFrame {
             readonly property real wish: abreast ? (width - spacing) / 2 : width
             // How high they are at least; large texts need the room themselves.
             readonly property bool airy: Theme.textSize <= 1.15
-            readonly property real least: view.pictured ? Math.min(580, view.room / Theme.unit - 30) : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
+            // With pictures they take what the page has left.
+            readonly property real filling: view.upright ? Math.min(900, (view.room - told.height - page.spacing) / Theme.unit - 60)
+                : Math.min(580, view.room / Theme.unit - 30)
+            readonly property real least: view.pictured ? filling : !abreast ? 260 : view.width < view.height ? (airy ? 560 : 440) : airy ? 400 : 320
             readonly property real tall: Math.max(yes.implicitHeight, no.implicitHeight, least * Theme.unit)
             width: parent.width
             columns: abreast ? 2 : 1

@@ -13,6 +13,8 @@ Button {
     property bool quiet: false
     // A quiet one that is the way on, once something else is done: paler than the others, and not filled as what is ticked.
     property bool waits: false
+    // How round it is at most.
+    property real corner: Infinity
 
     width: Math.min(implicitWidth, most)
     Accessible.name: words
@@ -43,11 +45,15 @@ Button {
         wrapMode: button.width < button.implicitWidth ? Text.Wrap : Text.NoWrap
     }
     background: Rectangle {
-        radius: Math.min(height / 2, button.topPadding + button.font.pixelSize)
+        id: ground
+        radius: Math.min(height / 2, button.topPadding + button.font.pixelSize, button.corner)
         color: button.quiet ? "transparent" : button.hovered ? Theme.lightSea : Theme.sea
         border.color: button.waits ? Theme.edge : Theme.sea
         border.width: button.quiet ? 3 * Theme.unit : 0
 
-        FocusRing { around: button }
+        FocusRing {
+            around: button
+            radius: ground.radius + reach
+        }
     }
 }

@@ -1,7 +1,6 @@
 // What the assistant says, to be read: as long as the sentence stands, so does the bubble.
 pragma ComponentBehavior: Bound
 import QtQuick
-import QtQuick.Shapes
 import "."
 
 Item {
@@ -94,20 +93,8 @@ Item {
             color: Theme.sea
         }
     }
-    Shape {
+    SpeechTail {
         visible: bubble.hasSpeaker
         anchors { top: box.bottom; topMargin: -5 * Theme.unit; horizontalCenter: parent.horizontalCenter }
-        width: 60 * Theme.unit
-        height: 38 * Theme.unit
-        ShapePath {
-            fillColor: Theme.white
-            strokeColor: Theme.sea
-            strokeWidth: 4 * Theme.unit
-            joinStyle: ShapePath.RoundJoin
-            capStyle: ShapePath.FlatCap
-            startX: 4 * Theme.unit; startY: 3 * Theme.unit
-            PathLine { x: 30 * Theme.unit; y: 34 * Theme.unit }
-            PathLine { x: 56 * Theme.unit; y: 3 * Theme.unit }
-        }
     }
 }

@@ -16,6 +16,11 @@ FocusScope {
     property string sign: ""
     // Where the middle of the card is.
     property point middle: Qt.point(width / 2, height / 2)
+    // Where the face of the one who asks begins, below the card, which then is what it says; 0 where there is no face.
+    property real speaker: 0
+    // Whether the one below only rests, and says nothing.
+    property bool silent: false
+    readonly property real tail: speaker > 0 && !silent ? 34 * Theme.unit : 0
     // What there is to choose: the name of each, its words, and whether it is quiet. The first has the keyboard.
     property var choices: []
     signal chosen(string name)
@@ -52,8 +57,9 @@ FocusScope {
     }
 
     Rectangle {
+        id: card
         x: Math.round(calm.middle.x - width / 2)
-        y: Math.round(calm.middle.y - height / 2)
+        y: Math.round(calm.speaker > 0 ? Math.max(2 * Theme.gap, calm.speaker - height - calm.tail - 0.5 * Theme.gap) : calm.middle.y - height / 2)
         width: Math.min(parent.width - 4 * Theme.gap, 900 * Theme.unit)
         height: content.height + 5 * Theme.gap
         radius: Theme.radius
@@ -67,7 +73,7 @@ FocusScope {
             Rectangle {
                 anchors.horizontalCenter: parent.horizontalCenter
                 visible: calm.sign !== ""
-                width: 112 * Theme.unit
+                width: (calm.speaker > 0 ? 150 : 112) * Theme.unit
                 height: width
                 radius: width / 2
                 color: Theme.sand
@@ -113,7 +119,7 @@ FocusScope {
                 }
                 Drawing {
                     anchors.centerIn: parent
-                    scale: 2.6 * Theme.unit
+                    scale: (calm.speaker > 0 ? 3.4 : 2.6) * Theme.unit
                     path: calm.sign
                     ink: Theme.ink
                     thick: 2.2
@@ -185,5 +191,9 @@ FocusScope {
                 }
             }
         }
+    }
+    SpeechTail {
+        visible: calm.tail > 0
+        anchors { top: card.bottom; topMargin: -5 * Theme.unit; horizontalCenter: card.horizontalCenter }
     }
 }

@@ -54,7 +54,9 @@ Window {
     // On a wide screen the helper stands beside every page, and says some of its lines.
     readonly property bool accompanied: wide && avatar.present
     // Whether it then stays in sight beside a question that lies over everything, as the one who asks.
-    readonly property bool asking: accompanied && !avatar.away && !kiosk.paused && !kiosk.waits && (kiosk.asksStillThere || kiosk.asks === "stop")
+    readonly property bool asking: avatar.present && !avatar.away && !kiosk.paused && !kiosk.waits && (kiosk.asksStillThere || kiosk.asks === "stop")
+    // Where its face begins below such a question on an upright screen, and below the word about a pause; 0 beside them.
+    readonly property real faceBelow: !wide && avatar.present && !avatar.away ? helper.y + helper.faceTop : 0
     readonly property real said: !whole ? 0 : speaks ? 176 * Math.max(1, texts) * Theme.unit : corner.visible ? 84 * Theme.unit : 0
     readonly property real room: height - (replay === null ? 0 : controls.height) - memory.height
 
@@ -265,10 +267,13 @@ Window {
         // Beside the assistant, or above it.
         middle: root.whole || !helper.visible ? Qt.point(root.width / 2, root.room / 2)
               : root.wide ? stage.middle : Qt.point(root.width / 2, 0.36 * root.room)
+        speaker: root.faceBelow
+        silent: true
         breathes: true
         sign: "M8 5 V19 M16 5 V19"
         title: root.words["pause-title"]
         line: root.kiosk.pauseLine
+        lineSize: root.wide ? Theme.body : Theme.size(40)
     }
     SidePanel {
         id: helper
@@ -287,13 +292,14 @@ Window {
         avatar: root.avatar
         speaks: root.wide || root.speaks
         thinks: boardView.visible && root.board.speaking
-        yields: formView.visible && formView.keysBelow && !root.kiosk.paused
+        yields: formView.visible && formView.keysBelow && !root.kiosk.paused && !root.asking
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
         share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide
         leads: root.asking || !root.speaks
+        hushed: root.asking && !root.wide
         aside: !root.accompanied ? "" : root.kiosk.asksStillThere ? root.words["still-there-line"]
              : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
              : formView.visible ? (root.avatar.away || formView.keysBeside ? "" : root.words["form-calm"])
@@ -343,8 +349,9 @@ Window {
         enabled: root.kiosk.takesInput
         sign: "M1.5 12 C6 3.5 18 3.5 22.5 12 C18 20.5 6 20.5 1.5 12 Z M12 8.5 A3.5 3.5 0 0 1 12 15.5 A3.5 3.5 0 0 1 12 8.5"
         title: root.words["still-there-title"]
-        middle: root.asking ? stage.middle : Qt.point(root.width / 2, root.room / 2)
-        line: root.asking ? "" : root.words["still-there-line"]
+        middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+        speaker: root.faceBelow
+        line: root.asking && root.wide ? "" : root.words["still-there-line"]
         lineSize: Theme.size(36)
         // A replay has a time of its own.
         lasts: root.replay === null ? root.kiosk.answerMs : 0
@@ -356,11 +363,13 @@ Window {
         visible: root.kiosk.asks === "stop" && !root.kiosk.paused && !root.kiosk.waits
         focus: visible
         enabled: root.kiosk.takesInput
-        middle: root.asking ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+        middle: root.asking && root.wide ? stage.middle : Qt.point(root.width / 2, root.room / 2)
+        speaker: root.faceBelow
         // A door, and the way out of it.
         sign: "M13 4 H5 V20 H13 M10 12 H20 M16 8 L20 12 L16 16"
         title: root.words["stop-title"]
         line: root.kiosk.stopLine
+        lineSize: root.wide ? Theme.body : Theme.size(36)
         code: root.kiosk.stopCode
         choices: [{ name: "stop-no", words: root.words["stop-no"] }, { name: "stop-yes", words: root.words["stop-yes"], quiet: true }]
         onChosen: name => name === "stop-yes" ? root.kiosk.stop() : root.kiosk.ask("")

@@ -106,6 +106,7 @@ FocusScope {
         width: frame.column
         kiosk: frame.kiosk
         words: frame.words
+        fills: frame.width < frame.height
         onWent: frame.went()
         onTurnedDown: frame.turnedDown()
     }

@@ -25,6 +25,10 @@ Item {
     // What is to be read in its bubble: while it says nothing, or where it leads, whatever it said last.
     property string aside: ""
     property bool leads: false
+    // Whether a card above it says everything, instead of its bubble.
+    property bool hushed: false
+    // Where its ears begin, in this item.
+    readonly property real faceTop: face.y + 0.1 * face.height
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
@@ -94,8 +98,8 @@ Item {
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
         anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: panel.avatar.present ? -0.14 * face.height : 4 * Theme.unit }
-        sentence: panel.rests ? "" : panel.said === "" || (panel.leads && panel.aside !== "") ? panel.aside : panel.said
-        thinks: panel.speaks && !panel.rests && panel.thinks && sentence === ""
+        sentence: panel.rests || panel.hushed ? "" : panel.said === "" || (panel.leads && panel.aside !== "") ? panel.aside : panel.said
+        thinks: panel.speaks && !panel.rests && !panel.hushed && panel.thinks && sentence === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
         large: panel.broad || panel.aside !== ""

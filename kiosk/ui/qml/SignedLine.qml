@@ -29,6 +29,8 @@ Item {
     })
     // How wide the drawing is.
     property real badge: 2.5 * size
+    // Whether the drawing stands in the middle of the lines, and not at the first of them.
+    property bool centred: false
 
     height: Math.max(words.height, mark.visible ? mark.height : 0)
 
@@ -36,7 +38,7 @@ Item {
         id: mark
         visible: line.sign !== ""
         x: Theme.across(0, width, line.width)
-        y: Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
+        y: line.centred ? (line.height - height) / 2 : Math.max(0, (Math.min(words.height, 2.7 * line.size) - height) / 2)
         width: line.badge
         height: width
         radius: width / 2

@@ -13,6 +13,8 @@ FocusScope {
     property string label: ""
     property bool quiet: false
     property bool waits: false
+    // Whether the way on takes what the way back leaves of the width, where there is no other.
+    property bool fills: false
     // How large the letters of the way on are.
     property real size: Theme.body
     // What the other way on says, such as a no; and what the two are called.
@@ -46,6 +48,8 @@ FocusScope {
         objectName: ways.name
         visible: ways.label !== ""
         most: ways.width
+        width: !ways.fills || no.visible ? Math.min(implicitWidth, most)
+             : ways.beside && back.visible ? ways.width - back.width - Theme.gap : ways.width
         x: Theme.across(ways.width - width, width, ways.width)
         quiet: ways.quiet
         waits: ways.waits
