@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gc
 import os
+import shutil
 import sys
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -35,6 +37,9 @@ LONGEST = (
 )
 """Files that take longest. They begin first, so that no process works on alone at the end."""
 
+RULES = Path(__file__).parents[1] / ".pytest_cache" / "rules"
+"""Where a run leaves the compiled rules of the training for the next; the folder in it is named after their text."""
+
 HOME = pytest.StashKey[TemporaryDirectory[str]]()
 
 
@@ -48,6 +53,8 @@ def pytest_configure(config: pytest.Config) -> None:
     if "PYTEST_XDIST_WORKER" not in os.environ:
         # All workers share it: compiling the rules takes each of them half a minute.
         os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
+        if RULES.is_dir():
+            shutil.copytree(RULES, Path(config.stash[HOME].name) / "cache" / "recollect")
     _keep_bytecode()
 
 
@@ -94,5 +101,21 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Delete that directory."""
+    """Delete that directory, but for the compiled rules."""
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        _keep_rules(Path(config.stash[HOME].name) / "cache" / "recollect")
     config.stash[HOME].cleanup()
+
+
+def _keep_rules(cache: Path) -> None:
+    """Keep the rules that were compiled last: compiling them takes 11 seconds, and they say whether they still hold."""
+    made = max(cache.glob("rules-*"), key=lambda folder: folder.stat().st_mtime, default=None)
+    if made is None:
+        return
+    whole = RULES.with_name(f"rules-{os.getpid()}")
+    shutil.copytree(made, whole / made.name)
+    shutil.rmtree(RULES, ignore_errors=True)
+    # Another run may have put its own there meanwhile.
+    with suppress(OSError):
+        whole.rename(RULES)
+    shutil.rmtree(whole, ignore_errors=True)
