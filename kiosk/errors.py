@@ -55,7 +55,6 @@ _SAID_OF_WHAT_IS_ABOVE = frozenset({"missing", "extra_forbidden"})
 _NOT_TOML: Mapping[str, str] = {
     "Invalid value": "this is no value; text stands in quotes, and true and false are written small",
     "Cannot overwrite a value": "a key is there twice",
-    "Cannot declare": "a section is there twice",
     "Unescaped": "a \\ has no place in a text in double quotes; write paths with /",
 }
 """How tomllib's shortest messages begin, and what they mean."""
@@ -67,6 +66,9 @@ def toml_error_message(error: Exception) -> str:
         return "brackets stand in brackets too often"
     said = str(error)
     _, bracket, place = said.rpartition(" (")
+    if twice := re.match(r"Cannot declare \((.+?),?\) twice", said):
+        section = ".".join(re.split("', '", twice[1].strip("'")))
+        return f"the section [{section}] is there twice; put all of its keys under one of them{bracket}{place}"
     meant = next((words for begins, words in _NOT_TOML.items() if said.startswith(begins)), None)
     return f"{meant}{bracket}{place}" if meant else said
 

@@ -91,7 +91,14 @@ def test_a_long_value_is_cut_short() -> None:
     ("error", "meant"),
     [
         ("Cannot overwrite a value (at line 2, column 9)", "a key is there twice (at line 2, column 9)"),
-        ("Cannot declare ('game',) twice (at line 2, column 6)", "a section is there twice (at line 2, column 6)"),
+        (
+            "Cannot declare ('game',) twice (at line 2, column 6)",
+            "the section [game] is there twice; put all of its keys under one of them (at line 2, column 6)",
+        ),
+        (
+            "Cannot declare ('robot', 'options') twice (at line 9, column 15)",
+            "the section [robot.options] is there twice; put all of its keys under one of them (at line 9, column 15)",
+        ),
         ("Expected ']' (at end of document)", "Expected ']' (at end of document)"),
     ],
 )
