@@ -492,7 +492,7 @@ class _Boards:
         for number, flip in last:
             if flip.event.move == last[0][1].event.move:
                 exposure_ms = elapsed_ms(flip.event.at_ms, at_ms, pauses)
-                self._flips[number] = BoardFlip(flip.event, flip.decision_ms, exposure_ms)
+                self._flips[number] = _with(flip, exposure_ms=exposure_ms)
 
     def _take_help(self, event: Event) -> None:
         match event:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, Stage, Status
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice, Stage, Status
 from kiosk.experiment.session_state import Interval, SessionState, StageVisit
 from tests.experiment.driver import Driver, driven_to
 from tests.samples import INFORMATION, whole
@@ -110,3 +112,15 @@ def test_a_stage_is_told_with_its_time() -> None:
     events = [happened.StageEntered(at_ms=7, stage=Stage.AGE), happened.StageEntered(at_ms=9, stage=Stage.OVER)]
     seen = SessionState.from_events(events)
     assert (seen.stages, seen.last_stage) == ((StageVisit(Stage.AGE, 7), StageVisit(Stage.OVER, 9)), Stage.AGE)
+
+
+def test_a_flip_keeps_what_it_was_tapped_with_when_its_card_is_turned_back_or_its_pair_found() -> None:
+    way = ((40, 0.5, 0.25), (7, 1.0, 0.5))
+    events = [
+        replace(event, device=InputDevice.TOUCH, trace=way) if isinstance(event, happened.CardSelected) else event
+        for event in driven_to(Stage.OVER).events
+    ]
+    flips = [flip for dealt in SessionState.from_events(events).boards for flip in dealt.flips.values()]
+    assert {flip.event.matched for flip in flips} == {None, False, True}
+    assert all(flip.exposure_ms is not None for flip in flips)
+    assert {(flip.device, flip.trace) for flip in flips} == {(InputDevice.TOUCH, way)}
