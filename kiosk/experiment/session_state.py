@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from itertools import islice
@@ -68,9 +68,11 @@ class Interval:
     until_ms: int | None = None
 
 
-def elapsed_ms(begin_ms: int, end_ms: int, without: Iterable[Interval] = ()) -> int:
+def elapsed_ms(begin_ms: int, end_ms: int, without: Collection[Interval] = ()) -> int:
     """Measure the time between two moments in ms, less these intervals; where they overlap they count once."""
     spent, reached = end_ms - begin_ms, begin_ms
+    if not without:
+        return spent
     for interval in sorted(without, key=lambda each: each.since_ms):
         until_ms = end_ms if interval.until_ms is None else min(interval.until_ms, end_ms)
         spent -= max(0, until_ms - max(interval.since_ms, reached))
@@ -355,10 +357,12 @@ _OF_BOARDS: frozenset[type[Event]] = frozenset(
 _OF_RESPONSES: frozenset[type[Event]] = frozenset(
     {StageEntered, HiddenItemsChanged, QuestionnairePageShown, ResponseGiven, BackPressed}
 )
+_SPEECH_REQUESTS: frozenset[type[Event]] = frozenset({HintGiven, RemarkGiven, SentenceRequested, SentenceRepeated})
+_SPEECH_REPORTS: frozenset[type[Event]] = frozenset({SpeechStarted, SpeechFinished, SpeechFailed, SpeechCutShort})
 _OF_SPEECH: frozenset[type[Event]] = frozenset(
     {
-        *(HintGiven, RemarkGiven, SentenceRequested, SentenceRepeated),
-        *(SpeechStarted, SpeechFinished, SpeechFailed, SpeechCutShort),
+        *_SPEECH_REQUESTS,
+        *_SPEECH_REPORTS,
         *(StageEntered, TimerExpired, BoardUnlocked, CardFlipped),
         *(RobotDisconnected, EmbodimentChanged, SessionResumed),
     }
@@ -455,38 +459,57 @@ class _Boards:
         self._tap: CardSelected | None = None
         """The last tap; a card is turned by the tap before."""
 
-    def take(self, event: Event, stage: Stage, pauses: Iterable[Interval]) -> None:
-        if isinstance(event, CardSelected):
-            self._tap = event
+    def take(self, event: Event, stage: Stage, pauses: Collection[Interval]) -> None:
+        # The kinds that come most often stand first: every case before one takes its time.
         match event:
-            case BoardDealt():
-                self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
-                self._memories, self._hesitations = {}, {}
-                number, helped = len(self.dealt) + 1, (self._hints, self._decisions, self._remarks)
-                noticed = (self._memories, self._hesitations)
-                self.dealt.append(DealtBoard(number, stage, event, self._flips, *helped, *noticed))
-            case CardFlipped():
+            case CardSelected():
+                self._tap = event
+            case CardFlipped(at_ms=at_ms):
                 self._flip(event, pauses)
-            case TimerExpired(timer=Timer.TURN_BACK, at_ms=at_ms):
-                self._cover(at_ms, pauses)
+                self._open_since = at_ms
+            case BoardUnlocked(at_ms=at_ms):
+                self._unlock(at_ms)
+                self._open_since = at_ms
+            case TimerExpired(timer=timer, at_ms=at_ms):
+                if timer is Timer.TURN_BACK:
+                    self._cover(at_ms, pauses)
+                    self._open_since = at_ms
+            case BoardDealt(at_ms=at_ms):
+                self._deal(event, stage)
+                self._open_since = at_ms
+            case _:
+                self._take_help(event)
+
+    def _take_help(self, event: Event) -> None:
+        match event:
+            case AssistanceDecided(flip=flip):
+                self._decisions[flip] = event
+            case HintGiven(flip=flip):
+                self._hints[flip] = BoardHint(event)
+            case HintHighlighted(flip=flip, at_ms=at_ms) if flip in self._hints:
+                self._hints[flip] = _with(self._hints[flip], marked_ms=at_ms)
             case MemoryEstimated(flip=flip):
                 self._memories[flip] = event
             case HesitationNoticed(flip=flip):
                 self._hesitations[flip] = event
-            case _:
-                self._take_help(event)
-        match event:
-            case BoardDealt() | CardFlipped() | BoardUnlocked() | TimerExpired(timer=Timer.TURN_BACK):
-                self._open_since = event.at_ms
+            case RemarkGiven(flip=flip):
+                self._remarks[flip] = BoardRemark(event)
 
-    def _flip(self, event: CardFlipped, pauses: Iterable[Interval]) -> None:
+    def _deal(self, event: BoardDealt, stage: Stage) -> None:
+        self._flips, self._hints, self._decisions, self._remarks = {}, {}, {}, {}
+        self._memories, self._hesitations = {}, {}
+        number, helped = len(self.dealt) + 1, (self._hints, self._decisions, self._remarks)
+        noticed = (self._memories, self._hesitations)
+        self.dealt.append(DealtBoard(number, stage, event, self._flips, *helped, *noticed))
+
+    def _flip(self, event: CardFlipped, pauses: Collection[Interval]) -> None:
         decision_ms = elapsed_ms(self._open_since, event.at_ms, pauses)
         device, trace = (self._tap.device, self._tap.trace) if self._tap else (None, ())
         self._flips[event.number] = BoardFlip(event, decision_ms, device=device, trace=trace)
         if event.matched:
             self._cover(event.at_ms, pauses)
 
-    def _cover(self, at_ms: int, pauses: Iterable[Interval]) -> None:
+    def _cover(self, at_ms: int, pauses: Collection[Interval]) -> None:
         """Note how long the cards of the last move lay open."""
         last = tuple(islice(reversed(self._flips.items()), CARDS_IN_A_MOVE))
         for number, flip in last:
@@ -494,22 +517,13 @@ class _Boards:
                 exposure_ms = elapsed_ms(flip.event.at_ms, at_ms, pauses)
                 self._flips[number] = _with(flip, exposure_ms=exposure_ms)
 
-    def _take_help(self, event: Event) -> None:
-        match event:
-            case AssistanceDecided(flip=flip):
-                self._decisions[flip] = event
-            case RemarkGiven(flip=flip):
-                self._remarks[flip] = BoardRemark(event)
-            case HintGiven(flip=flip):
-                self._hints[flip] = BoardHint(event)
-            case HintHighlighted(flip=flip, at_ms=at_ms) if flip in self._hints:
-                self._hints[flip] = _with(self._hints[flip], marked_ms=at_ms)
-            case BoardUnlocked(at_ms=at_ms) if self._hints or self._remarks:
-                flip = max((*self._hints, *self._remarks))
-                if flip in self._hints:
-                    self._hints[flip] = _with(self._hints[flip], opened_ms=at_ms)
-                else:
-                    self._remarks[flip] = _with(self._remarks[flip], opened_ms=at_ms)
+    def _unlock(self, at_ms: int) -> None:
+        """Note when the board opened again after the last hint or remark."""
+        flip = max((*self._hints, *self._remarks), default=None)
+        if flip in self._hints:
+            self._hints[flip] = _with(self._hints[flip], opened_ms=at_ms)
+        elif flip is not None:
+            self._remarks[flip] = _with(self._remarks[flip], opened_ms=at_ms)
 
 
 class _Responses:
@@ -535,7 +549,7 @@ class _Responses:
     def given(self) -> dict[tuple[str, str], ItemResponse]:
         return {key: response for given in self._by_stage.values() for key, response in given.items()}
 
-    def take(self, event: Event, pauses: Iterable[Interval]) -> None:
+    def take(self, event: Event, pauses: Collection[Interval]) -> None:
         match event:
             case StageEntered(stage=stage):
                 # A visitor who goes back finds the answers given there; a stage that begins anew has none.
@@ -576,8 +590,16 @@ class _Speech:
         """A sentence during which cards can be tapped already."""
 
     def take(self, event: Event, stage: Stage) -> None:
-        self._request(event, stage)
-        self._report(event)
+        kind = type(event)
+        if kind in _SPEECH_REPORTS:
+            self._report(event)
+        elif kind in _SPEECH_REQUESTS:
+            self._request(event, stage)
+        else:
+            self._end_or_begin_anew(event)
+
+    def _end_or_begin_anew(self, event: Event) -> None:
+        """Take what ends a sentence, or has it said by another body, without a word of the voice."""
         match event:
             case StageEntered() | TimerExpired(timer=Timer.SPEECH_DEADLINE):
                 self._under_way = None
