@@ -50,7 +50,7 @@ def clear_remnants(path: Path) -> None:
         size = _LARGEST if size == 1 else size
         if size not in _SIZES or any(header[_MOVES_PAGES]):
             return
-        pages = _Pages(file, size, size - header[20])
+        pages = Pages(file, size, size - header[20])
         pages.clear_free(header)
         number = 1
         while there := pages.read(number, _PAGES_AT_ONCE):
@@ -64,7 +64,7 @@ def clear_remnants(path: Path) -> None:
 
 
 @dataclass(frozen=True)
-class _Pages:
+class Pages:
     """The pages of a file, by their numbers from 1."""
 
     file: BinaryIO
@@ -72,6 +72,7 @@ class _Pages:
     usable: int
 
     def read(self, number: int, count: int = 1) -> bytes:
+        """Return pages from this one on, as many of them as there are."""
         self.file.seek((number - 1) * self.size)
         return self.file.read(count * self.size)
 

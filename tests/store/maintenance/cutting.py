@@ -1,8 +1,8 @@
 """A program that withdraws participants and is killed at a step: a test has every step tried.
 
 It reads orders, one a line, and forks for each, which saves loading everything anew. A step is a statement that SQLite
-is to run, or a file that is opened, renamed or removed. ``page`` has the system end it instead when it writes that page
-of the database, or a later one, as a checkpoint does.
+is to run, a file that is opened, renamed or removed, or unused bytes of the database that are zeroed. ``page`` has the
+system end it instead when it writes that page of the database, or a later one, as a checkpoint does.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from kiosk.store import connecting
+from kiosk.store import connecting, remnants
 from kiosk.store.withdrawal import withdraw
 
 PAGE = 4096
@@ -41,7 +41,7 @@ class Steps:
 def cut(folder: str, code: str, step: int | None, page: int | None) -> None:
     """Withdraw, up to a step or a page."""
     steps = Steps(step)
-    execute = connecting.Connection.execute
+    execute, zero = connecting.Connection.execute, remnants.Pages.zero
 
     def counted(self: connecting.Connection, sql: str, parameters: Any = (), /) -> Any:
         steps.take()
@@ -53,6 +53,12 @@ def cut(folder: str, code: str, step: int | None, page: int | None) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
         return done
 
+    def zeroed(self: remnants.Pages, number: int, page: bytes, begin: int, end: int) -> None:
+        if any(page[begin:end]):
+            steps.take()
+        zero(self, number, page, begin, end)
+
+    remnants.Pages.zero = zeroed  # type: ignore[method-assign]
     connecting.Connection.execute = counted  # type: ignore[method-assign]  # that is where the steps are
     sys.addaudithook(lambda event, _: steps.take() if event in _FILE_EVENTS else None)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -5,12 +5,13 @@ from __future__ import annotations
 import shutil
 import sqlite3
 from contextlib import closing
+from itertools import count
 from pathlib import Path
 from random import Random
 
 import pytest
 
-from kiosk.store.remnants import clear_remnants
+from kiosk.store.remnants import Pages, clear_remnants
 
 OWNERS = 10
 TABLES = {
@@ -54,10 +55,51 @@ def test_nothing_is_left_of_rows_that_were_deleted(tmp_path: Path, table: str, p
         content = file.read_bytes()
         assert b"owner%03d" % owner not in content
         assert b"owner000" not in content
-        with closing(sqlite3.connect(file)) as connection:
-            assert connection.execute("SELECT * FROM kept ORDER BY owner, number").fetchall() == others
-            assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+        assert everything(file) == others
     assert left_by_sqlite > 0 or page_bytes == 65536
+
+
+def test_wherever_it_is_cut_off_the_rows_are_whole_and_the_next_time_clears_the_rest(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written(tmp_path / "all.db", TABLES["a tree by the key"], 512, seed=512)
+    with closing(sqlite3.connect(tmp_path / "all.db", isolation_level=None)) as connection:
+        connection.execute("PRAGMA secure_delete = ON")
+        connection.execute("DELETE FROM kept WHERE owner = 5")
+    whole = Path(shutil.copy(tmp_path / "all.db", tmp_path / "whole.db"))
+    steps, zero = [0, 0], Pages.zero
+
+    def cut_off(self: Pages, number: int, page: bytes, begin: int, end: int) -> None:
+        steps[0] += 1
+        if steps[0] == steps[1]:
+            # A kill stops a write at any byte.
+            zero(self, number, page, begin, (begin + end) // 2)
+            raise InterruptedError
+        zero(self, number, page, begin, end)
+
+    clear_remnants(whole)
+    monkeypatch.setattr(Pages, "zero", cut_off)
+    cuts = 0
+    for step in count(1, 7):
+        file = Path(shutil.copy(tmp_path / "all.db", tmp_path / "one.db"))
+        steps[:] = 0, step
+        try:
+            clear_remnants(file)
+        except InterruptedError:
+            cuts += 1
+        else:
+            break
+        assert everything(file) == everything(whole)
+        clear_remnants(file)
+        assert file.read_bytes() == whole.read_bytes()
+    assert cuts > 10
+
+
+def everything(file: Path) -> list[object]:
+    """Return all rows of a database that is sound."""
+    with closing(sqlite3.connect(file)) as connection:
+        assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+        return connection.execute("SELECT * FROM kept ORDER BY owner, number").fetchall()
 
 
 @pytest.mark.parametrize("at", [3, 5], ids=["number of rows", "start of the content"])

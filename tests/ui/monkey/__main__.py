@@ -115,8 +115,10 @@ class Booth:
             with suppress(psutil.Error):
                 words = process.cmdline()
                 if "--unattended" in words and str(self.data) in words and process.status() != psutil.STATUS_ZOMBIE:
-                    found.append(process)
-        return found
+                    found.append((process, process.ppid()))
+        # A program that a kiosk starts has the kiosk's own command line for a moment.
+        numbers = {process.pid for process, _ in found}
+        return [process for process, parent in found if parent not in numbers]
 
     def end(self) -> None:
         """Ask the supervisor to end, and see that it does."""
