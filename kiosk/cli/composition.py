@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -72,6 +71,8 @@ def code_made() -> datetime:
 
 def _git(*arguments: str) -> str:
     """Return what git says of the checkout; empty outside of one."""
+    import subprocess  # noqa: PLC0415 - most commands never ask
+
     try:
         said = subprocess.run(  # noqa: S603 - with arguments of our own
             ["git", *arguments],  # noqa: S607 - git is on the path

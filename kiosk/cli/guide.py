@@ -6,7 +6,6 @@ import inspect
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 
 import click
@@ -223,6 +222,8 @@ def _about(option: click.Option) -> str:
 
 def suggestion(mistyped: str) -> str:
     """Return what may be meant by a name that no command has, as the end of a sentence."""
+    from difflib import get_close_matches  # noqa: PLC0415 - only a mistyped name needs it
+
     below = [name for name in GUIDES if name.split()[-1] == mistyped and " " in name]
     first_words = dict.fromkeys(name.split()[0] for name in GUIDES)
     near = (
@@ -275,6 +276,8 @@ def page_about(topic: str, pages: Mapping[str, object]) -> str:
     guide = GUIDES.get(topic) or next((each for name, each in GUIDES.items() if name.split()[0] == topic), None)
     if guide is not None:
         return Path(guide.page).stem
+    from difflib import get_close_matches  # noqa: PLC0415 - only a mistyped name needs it
+
     near = get_close_matches(topic, [*pages, *GUIDES])
     meant = f"did you mean {' or '.join(map(repr, near))}?" if near else "'recollect docs' opens the list of all pages"
     raise UserInputError(f"there is no page about {topic!r}; {meant}")

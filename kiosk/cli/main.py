@@ -35,7 +35,7 @@ _GROUPS = {
         "rehearse": ("kiosk.cli.rehearse:rehearse", "Let simulated visitors go through sessions or a whole day."),
         "robot": ("kiosk.cli.devices:robot_command", "Try a robot step by step and say what it has and does."),
         "watch": ("kiosk.cli.watch:watch_command", "Watch all booths that publish to an MQTT broker."),
-        "status": ("kiosk.cli.sessions:status_command", "Show how the booth is now, while the kiosk runs."),
+        "status": ("kiosk.cli.status:status_command", "Show how the booth is now, while the kiosk runs."),
     },
     "Look at sessions": {
         "sessions": ("kiosk.cli.sessions:sessions_command", "List the stored sessions and how they ended."),

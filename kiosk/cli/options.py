@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -117,6 +116,8 @@ def set_pin_command(*, as_json: bool) -> None:
 
     The line belongs in the study file.
     """
+    import secrets
+
     from kiosk.experiment.experimenter import LEAST, MOST, SALT_BYTES, hash_pin
 
     chosen = _ask(f"PIN ({LEAST} to {MOST} digits)")

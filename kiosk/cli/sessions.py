@@ -1,25 +1,26 @@
-"""Commands that list and print stored sessions, and tell how the booth is now."""
+"""Commands that list and print stored sessions."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from datetime import UTC, datetime, timedelta
+from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
-from rich.table import Table
 
 from kiosk import UserInputError
-from kiosk.cli.options import data_option, json_option, sessions_data_option
+from kiosk.cli.options import json_option, sessions_data_option
 from kiosk.cli.terminal import console, one_line, tell_caution
-from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
-from kiosk.experiment.events import Status
-from kiosk.experiment.session_config import SessionKind
-from kiosk.store.participants import Disposition, EnrolmentCounts
-from kiosk.store.queries import RUNNING, SessionFilter, SessionTotals, StoredSession, open_repository
+from kiosk.experiment.outcomes import Disposition, SessionKind, Status
+from kiosk.store.listing import RUNNING, SessionFilter, SessionList, SessionTotals, StoredSession, opened
 from kiosk.units import MS_PER_SECOND, as_minutes
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from kiosk.store.participants import EnrolmentCounts
 
 WIDTH = 160
 """Characters that a line of the list may need."""
@@ -84,7 +85,7 @@ def sessions_command(
     )
     whole = everything or (as_json and page is None)
     skip = 0 if whole else ((page or 1) - 1) * PER_PAGE
-    with open_repository(data) as stored:
+    with opened(data, SessionList) as stored:
         if condition is not None and condition not in stored.conditions():
             raise UserInputError(
                 f"no session is in the condition {condition!r}; there are {', '.join(stored.conditions()) or 'none'}"
@@ -93,13 +94,13 @@ def sessions_command(
         if as_json:
             click.echo(json.dumps([_row(session) for session in listed]))
             return
-        totals, enrolled = stored.totals(which), stored.counts(kind=SessionKind.STUDY)
-    drawn = console(least_width=WIDTH)
+        totals = stored.totals(which)
+        enrolled = stored.counts(kind=SessionKind.STUDY) if stored.has_list(kind=SessionKind.STUDY) else None
     click.echo("\n".join(_table(listed)))
     for line in _totals(totals, len(listed), skip):
-        drawn.print(line)
-    if any(cell.quota for cell in enrolled.cells.values()):
-        drawn.print(_targets(enrolled))
+        click.echo(line)
+    if enrolled is not None and any(cell.quota for cell in enrolled.cells.values()):
+        console(least_width=WIDTH).print(_targets(enrolled))
 
 
 def _caution(what: str) -> None:
@@ -153,6 +154,8 @@ def _totals(totals: SessionTotals, shown: int, skip: int) -> Iterator[str]:
 
 def _targets(enrolled: EnrolmentCounts) -> Table:
     """Return the people in each condition against its target; every session of the data folder counts."""
+    from rich.table import Table  # noqa: PLC0415 - few lists have targets
+
     table = Table(box=None, title="People, against the targets", title_justify="left", title_style="")
     fates = [fate for fate in _FATES if any(cell.fates[fate] for cell in enrolled.cells.values())]
     fates = [Disposition.CONSUMED, *(fate for fate in fates if fate is not Disposition.CONSUMED)]
@@ -175,6 +178,8 @@ def _word(value: object) -> str:
 @json_option
 def events_command(session: int, data: Path, *, as_json: bool) -> None:
     """List what happened in a SESSION, in order."""
+    from kiosk.store.queries import open_repository  # noqa: PLC0415 - the list of sessions does without
+
     with open_repository(data) as stored:
         records, broken = stored.records(session), stored.broken_events(session)
     for each in broken:
@@ -188,63 +193,3 @@ def events_command(session: int, data: Path, *, as_json: bool) -> None:
         details = "  ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in record.items())
         mark = "<" if origin == "world" else ">"
         click.echo(one_line(f"{seq:5} {at_ms / MS_PER_SECOND:9.3f} s {mark} {kind:18} {details}"))
-
-
-NOT_ALIVE, TROUBLE = 3, 1
-"""Exit codes of ``status``: no kiosk runs, or it hangs; it runs, and something is not well."""
-
-
-@click.command()
-@data_option
-@json_option
-@click.pass_context
-def status_command(context: click.Context, data: Path, *, as_json: bool) -> None:
-    """Show how the booth is now, while the kiosk runs.
-
-    It shows stage, today's sessions, robot, voice, disk and backup. Exit code 0 if the kiosk runs and all is well,
-    1 if something is not, 3 if no kiosk runs or it hangs.
-    """
-    status = _read_status(data)
-    now = datetime.now(UTC)
-    alive = status.is_alive(now)
-    if as_json:
-        click.echo(json.dumps(json.loads(status.to_json()) | {"alive": alive, "age_s": round(status.age_s(now), 1)}))
-    else:
-        click.echo("\n".join(_status_lines(status, now, alive=alive)))
-    context.exit(NOT_ALIVE if not alive else TROUBLE if status.failing else 0)
-
-
-def _read_status(data: Path) -> BoothStatus:
-    file = data / FILE
-    try:
-        return BoothStatus.from_json(file.read_text("utf-8"))
-    except FileNotFoundError:
-        raise UserInputError(f"no kiosk has run with the data folder {data}: there is no {FILE}") from None
-    except (OSError, ValueError) as error:
-        raise UserInputError(f"the status file {file} cannot be read: {error}") from error
-
-
-def _status_lines(status: BoothStatus, now: datetime, *, alive: bool) -> Iterator[str]:
-    since = _minutes(status.stage_since, now)
-    if alive:
-        yield f"OK    kiosk       {'paused' if status.paused else status.stage} since {since}"
-    elif status.stage == CLOSED:
-        yield f"FAIL  kiosk       closed since {_minutes(status.at, now)}"
-    else:
-        yield f"FAIL  kiosk       silent since {_minutes(status.at, now)}; it was in the stage {status.stage}"
-    today = status.today
-    yield (
-        f"OK    today       {today.begun} begun, {today.completed} completed ({today.last_hour} in the last hour), "
-        f"{today.ended_early} ended early"
-    )
-    for part in status.parts:
-        yield f"{'OK' if part.ok else 'WARN':6}{part.name:12}{one_line(part.message)}"
-    yield f"{'OK' if status.supervised else 'WARN':6}supervisor  {'yes' if status.supervised else 'no'}"
-    for ended in status.ended:
-        yield f"      {_minutes(ended.at, now)} ago: {ended.status}{f' in {ended.stage}' if ended.stage else ''}"
-
-
-def _minutes(iso: str, now: datetime) -> str:
-    minutes = (now - datetime.fromisoformat(iso)) // timedelta(minutes=1)
-    hours, rest = divmod(minutes, 60)
-    return f"{hours} h {rest} min" if hours else f"{minutes} min"

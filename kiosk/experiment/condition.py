@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum
 from math import gcd
 from random import Random
 from typing import ClassVar, Literal, Protocol
@@ -15,6 +14,7 @@ from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec
 from kiosk.assistance.wording import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
+from kiosk.experiment.outcomes import AllocationSource as AllocationSource  # noqa: PLC0414 - it is found here as well
 
 
 class Sentences(Protocol):
@@ -119,19 +119,6 @@ def target_rule(condition: ConditionConfig, rule: TargetRule) -> TargetRule | No
     if not condition.helps:
         return None
     return rule if condition.target_rule == "mentalised" else TargetRule(condition.target_rule)
-
-
-class AllocationSource(Enum):
-    """How a session came to its condition."""
-
-    LIST = "list"
-    """It took the first free slot of the list."""
-    OVERRIDE = "override"
-    """The experimenter chose; it takes no slot."""
-    BEYOND = "beyond"
-    """The list is used up."""
-    RETURNING = "returning"
-    """The participant was here before, and earlier visits decide; it takes no slot."""
 
 
 @dataclass(frozen=True)

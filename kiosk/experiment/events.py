@@ -19,26 +19,11 @@ from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
+from kiosk.experiment.outcomes import NotRecordedReason as NotRecordedReason  # noqa: PLC0414 - it is found here as well
+from kiosk.experiment.outcomes import Stage as Stage  # noqa: PLC0414 - it is found here as well
+from kiosk.experiment.outcomes import Status as Status  # noqa: PLC0414 - it is found here as well
 from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import FlipRejection, Position
-
-
-class Stage(Enum):
-    """A part of the session."""
-
-    ATTRACT = "attract"
-    ABOUT = "about"
-    AGE = "age"
-    CONSENT = "consent"
-    ABOUT_YOU = "about_you"
-    INTRODUCTION = "introduction"
-    PRACTICE = "practice"
-    GAME = "game"
-    RESULT = "result"
-    QUESTIONS = "questions"
-    DEBRIEF = "debrief"
-    THANKS = "thanks"
-    OVER = "over"
 
 
 class Timer(Enum):
@@ -57,27 +42,6 @@ class Timer(Enum):
     IDLE = "idle"
     STILL_THERE = "still_there"
     HESITATION = "hesitation"
-
-
-class Status(Enum):
-    """How a session ended."""
-
-    COMPLETED = "completed"
-    ABANDONED = "abandoned"
-    STOPPED = "stopped"
-    """The experimenter ended it, with a reason."""
-    WITHDRAWN = "withdrawn"
-    """The visitor stopped it."""
-    INTERRUPTED = "interrupted"
-
-
-class NotRecordedReason(Enum):
-    """Why nothing of a session is kept but that it was."""
-
-    DECLINED = "declined"
-    UNDER_AGE = "under_age"
-    LEFT = "left"
-    """The visitor left before they had decided."""
 
 
 class TextSize(Enum):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from enum import IntEnum
 from pathlib import Path
 
 from kiosk.assistance.policy import QTable
@@ -13,22 +12,9 @@ from kiosk.config import ConditionConfig, Settings, Timing
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Stage
 from kiosk.experiment.information import Information
+from kiosk.experiment.outcomes import SessionKind as SessionKind  # noqa: PLC0414 - it is found here as well
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.transitions import StageOrder
-
-
-class SessionKind(IntEnum):
-    """The kinds of sessions. Each numbers its own people, follows its own list of places and is counted by itself.
-
-    The numbers stand in the database, in the columns ``simulated``. ``False`` and ``True`` mean the first two.
-    """
-
-    STUDY = 0
-    """A participant, at a kiosk that only the PIN leaves."""
-    SIMULATED = 1
-    """A program, in a rehearsal."""
-    TRIAL = 2
-    """A person at a kiosk without a PIN."""
 
 
 def kind_of(settings: Settings) -> SessionKind:

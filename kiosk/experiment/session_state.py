@@ -55,9 +55,8 @@ from kiosk.experiment.events import (
     TimerExpired,
 )
 from kiosk.experiment.items import Answer, NotApplicable, Response
+from kiosk.experiment.outcomes import CARDS_IN_A_MOVE as CARDS_IN_A_MOVE  # noqa: PLC0414 - it is found here as well
 from kiosk.game import Board
-
-CARDS_IN_A_MOVE = 2
 
 
 @dataclass(frozen=True)

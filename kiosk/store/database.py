@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import sqlite3
+import sys
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-
-from filelock import FileLock, Timeout
+from typing import TYPE_CHECKING
 
 from kiosk import UserInputError
 from kiosk.files import make_folder
@@ -25,6 +26,9 @@ from kiosk.store.connecting import (
     reason,
 )
 from kiosk.store.summaries import STATEMENTS as SUMMARIES
+
+if TYPE_CHECKING:
+    from filelock import FileLock
 
 
 @dataclass(frozen=True)
@@ -340,6 +344,8 @@ def lock_folder(folder: Path) -> FileLock:
     It comes before the database is opened: a newer program must not migrate it under a kiosk that runs. Raises
     StorageError on a full disk.
     """
+    from filelock import FileLock, Timeout  # noqa: PLC0415 - readers only look at the lock
+
     held = FileLock(folder / LOCK)
     try:
         _make(folder)
@@ -359,21 +365,41 @@ def lock_folder(folder: Path) -> FileLock:
 def in_use(folder: Path) -> bool:
     """Whether another process is writing in a data folder."""
     try:
-        if not (folder / LOCK).exists():
-            return False
-        with FileLock(folder / LOCK, blocking=False):
-            return False
-    except Timeout:
-        return True
+        return (folder / LOCK).exists() and _is_locked(folder / LOCK)
     except OSError:
         # Where the lock cannot even be looked at, no process can be writing.
         return False
+
+
+def _is_locked(file: Path) -> bool:
+    """Whether another process holds a lock file; raises OSError where it cannot be looked at."""
+    if sys.platform == "win32":
+        from filelock import FileLock, Timeout  # noqa: PLC0415 - as above
+
+        try:
+            with FileLock(file, blocking=False):
+                return False
+        except Timeout:
+            return True
+    import fcntl  # noqa: PLC0415 - there is none on Windows
+
+    # What FileLock does, which takes longer to load than a list of sessions to print.
+    looking = os.open(file, os.O_RDWR)
+    try:
+        fcntl.flock(looking, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(looking)
+    return False
 
 
 def wait_until_free(folder: Path, within_s: float) -> None:
     """Wait so long, and no longer, for another program that is writing in a data folder."""
     if not in_use(folder):
         return
+    from filelock import FileLock, Timeout  # noqa: PLC0415 - as above
+
     with suppress(Timeout, OSError), FileLock(folder / LOCK, timeout=within_s):
         pass
 

@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from enum import Enum
 from functools import lru_cache
 from itertools import accumulate, groupby
 from random import SystemRandom
@@ -28,8 +27,10 @@ from kiosk.experiment.condition import (
 from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.information import RETURNING
 from kiosk.experiment.labels import read_as
+from kiosk.experiment.outcomes import Disposition as Disposition  # noqa: PLC0414 - it is found here as well
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.codes import issue_code
+from kiosk.store.listing import participant_name as participant_name  # noqa: PLC0414 - it is found here as well
 
 _DIGITS_OF_A_YEAR = 4
 _SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)
@@ -65,11 +66,6 @@ class Participant:
     def name(self) -> str:
         """The number with its site, as it stands in lists."""
         return participant_name(self.site, self.number)
-
-
-def participant_name(site: str, number: int) -> str:
-    """Return a participant's number with the site, if it has one."""
-    return f"{site}-{number}" if site else str(number)
 
 
 def checked_site(site: str) -> str:
@@ -412,23 +408,6 @@ def _another(stored: AllocationList) -> UserInputError:
         f"another allocation list is already fixed in this data folder ({ratio_in_words(stored.quotas)}, in blocks of "
         f"{stored.block}): use another data folder, or these quotas, or raise them in their ratio"
     )
-
-
-class Disposition(Enum):
-    """What became of a session, as far as the allocation list goes; every session has exactly one."""
-
-    CONSUMED = "consumed"
-    """Its game was completed, so its slot is consumed."""
-    DROPPED_OUT = "dropped_out"
-    """It had a slot, which was given out again."""
-    UNDER_WAY = "under_way"
-    """It has a slot, and its game may still be completed."""
-    OVERRIDDEN = "overridden"
-    BEYOND = "beyond"
-    RETURNING = "returning"
-    """Its participant was here before, and took no slot."""
-    UNLISTED = "unlisted"
-    """No allocation list was followed."""
 
 
 @dataclass(frozen=True)

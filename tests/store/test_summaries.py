@@ -16,8 +16,9 @@ from kiosk.experiment.events import EmbodimentName, Stage, Status
 from kiosk.experiment.projections import measure
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
+from kiosk.store.listing import RUNNING, SessionFilter
 from kiosk.store.participants import AllocationLists, Disposition
-from kiosk.store.queries import RUNNING, SessionFilter, open_repository
+from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify
 from kiosk.store.withdrawal import withdraw

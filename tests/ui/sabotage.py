@@ -13,7 +13,8 @@ from kiosk.experiment.events import Event, Stage, Status, WorldEvent
 from kiosk.experiment.projections import SpeechCounts, count_speech
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_state import SessionState
-from kiosk.store.queries import SessionRepository, StoredSession
+from kiosk.store.listing import StoredSession
+from kiosk.store.queries import SessionRepository
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 
