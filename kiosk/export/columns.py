@@ -134,7 +134,10 @@ class Table(Generic[Whole, Row]):
         """Return the columns as texts, each in the order of the rows."""
         rows = tuple(self.rows(whole))
         # A column's cells are mostly of one kind, so that what writes them is chosen once and not for every cell.
-        return [_written(map(column.of, rows)) for column in self.columns]
+        return [
+            (_written_json if column.variable.kind is ColumnKind.JSON else _written)(tuple(map(column.of, rows)))
+            for column in self.columns
+        ]
 
 
 class Label(str):
@@ -146,12 +149,6 @@ class Label(str):
     __slots__ = ()
 
 
-class Json(str):
-    """A JSON object that is written already; it stands in a cell as it is."""
-
-    __slots__ = ()
-
-
 # json.dumps makes an encoder at each call where it is asked for anything but ASCII.
 _as_json = json.JSONEncoder(ensure_ascii=False, separators=(",", ":")).encode
 
@@ -159,20 +156,24 @@ SEPARATES_OBJECTS = "\x1e"
 """Stands between objects that are written together; where it is in one of them as well, each is written by itself."""
 
 
-def _written(cells: Iterable[Cell]) -> Sequence[str]:
+def _written(cells: Sequence[Cell]) -> Sequence[str]:
     """Return the cells of a column as they stand in a file."""
-    cells = tuple(cells)
     kinds = set(map(type, cells))
     if len(kinds) == 1:
         return list(map(_FORMATS.get(kinds.pop(), format_cell), cells))
-    if dict in kinds:
-        texts = iter(_as_jsons([cell for cell in cells if type(cell) is dict]))
-        return [next(texts) if type(cell) is dict else _FORMATS.get(type(cell), format_cell)(cell) for cell in cells]
     return [_FORMATS.get(type(cell), format_cell)(cell) for cell in cells]
 
 
+def _written_json(cells: Sequence[Cell]) -> Sequence[str]:
+    """Do the same for a column of JSON, in which a text is an object that is written already."""
+    texts = iter(_as_jsons([cell for cell in cells if type(cell) is dict]))
+    return [cell if type(cell) is str else "" if cell is None else next(texts) for cell in cells]
+
+
 def _as_jsons(cells: Sequence[dict[str, Any]]) -> list[str]:
-    """Return each of at least one object as JSON; all at once takes a third of the time."""
+    """Return each object as JSON; all at once takes a third of the time."""
+    if not cells:
+        return []
     apart: list[dict[str, Any] | str] = [SEPARATES_OBJECTS] * (2 * len(cells) - 1)
     apart[::2] = cells
     texts = _as_json(apart)[1:-1].split(f",{_as_json(SEPARATES_OBJECTS)},")
@@ -215,7 +216,6 @@ _FORMATS: Mapping[type, Callable[[Any], str]] = {
     float: str,
     str: marked,
     dict: _as_json,
-    Json: lambda cell: cell,
     Label: lambda cell: MARK + cell if cell.isdigit() else marked(str(cell)),
     tuple: lambda cell: marked(SEPARATOR.join(cell)),
 }

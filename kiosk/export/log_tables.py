@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from dataclasses import fields as fields_of
 from enum import Enum
 from itertools import repeat
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from kiosk.experiment.events import Stage, event_kinds
@@ -24,7 +25,6 @@ from kiosk.export.columns import (
     Column,
     ColumnKind,
     ExportOption,
-    Json,
     Level,
     Table,
     Variable,
@@ -89,9 +89,9 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
     told = "" if with_texts else " Fields that may hold free text are left out."
     told += "" if ages is None else f" Ages stand in bands of {ages.years} years."
 
-    def fields(row: _Logged) -> Json | dict[str, object]:
+    def fields(row: _Logged) -> str | dict[str, object]:
         if row.record.event is not None and row.record.type not in _CHANGED:
-            return Json(row.record.payload)
+            return row.record.payload
         given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
         # The way of the pointer has a table of its own.
         given.pop("trace", None)
@@ -106,9 +106,9 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
         (PARTICIPANT, lambda row: row.kept.name),
         (
             Variable("seq", "The number of the event in its session, in the order of writing.", ColumnKind.WHOLE),
-            lambda row: row.record.seq,
+            attrgetter("record.seq"),
         ),
-        (AT, lambda row: row.record.at_ms),
+        (AT, attrgetter("record.at_ms")),
         (
             Variable(
                 "origin",
@@ -119,10 +119,10 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
                     Level("recovery", "written afterwards, when the session was found cut off"),
                 ),
             ),
-            lambda row: row.record.origin,
+            attrgetter("record.origin"),
         ),
-        (Variable("type", "What happened; the codebook lists every kind."), lambda row: row.record.type),
-        (STAGE, lambda row: row.record.stage.value),
+        (Variable("type", "What happened; the codebook lists every kind."), attrgetter("record.type")),
+        (STAGE, attrgetter("record.stage.value")),
         (
             Variable(
                 FIELDS,

@@ -161,9 +161,18 @@ class StudyMaterials:
 
     def label(self, questionnaire: Questionnaire) -> str:
         """Return what the form of a questionnaire that a session had is called."""
-        forms = self.forms.get(questionnaire.id, ())
-        same = (form.label for form in forms if _is_same(form.questionnaire, questionnaire))
-        return next(same, questionnaire.version)
+        known, label = self._labels.get(id(questionnaire), (None, ""))
+        if known is not questionnaire:
+            forms = self.forms.get(questionnaire.id, ())
+            same = (form.label for form in forms if _is_same(form.questionnaire, questionnaire))
+            label = next(same, questionnaire.version)
+            self._labels[id(questionnaire)] = questionnaire, label
+        return label
+
+    @cached_property
+    def _labels(self) -> dict[int, tuple[Questionnaire, str]]:
+        """The labels that were asked for, by the identity of a questionnaire, which sessions of one plan share."""
+        return {}
 
     @property
     def about_you(self) -> dict[str, Asked]:
