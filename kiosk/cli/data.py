@@ -18,7 +18,7 @@ from rich.table import Table
 
 from kiosk import StorageError, UserInputError
 from kiosk.cli.options import database_data_option, json_option, progress_bar, sessions_data_option
-from kiosk.cli.terminal import confirm, console, one_line, tell_caution
+from kiosk.cli.terminal import confirm, console, counted, one_line, tell_caution
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset as write
 from kiosk.export.layouts import Bids, PsychDs
@@ -268,12 +268,12 @@ def merge_command(folders: tuple[Path, ...], out: Path, sites: tuple[tuple[Path,
         named = [asdict(each) | {"folder": str(each.folder)} for each in studies]
         click.echo(json.dumps({"out": str(out), "folders": len(folders), "sessions": sessions, "studies": named}))
         return
-    click.echo(f"{sessions} sessions of {len(folders)} folders are in {out}.")
+    click.echo(f"{out} holds {counted(sessions, 'session')} of {counted(len(folders), 'folder')}.")
     if len({each.sha256 for each in studies}) > 1:
         click.echo("caution: they are of studies that differ; compare them with 'recollect study diff':")
         for each in studies:
             sha256 = each.sha256[:SHORT_SHA] or "unknown"
-            click.echo(f"  {sha256} {each.title!r}: {each.sessions} sessions in {each.folder}")
+            click.echo(f"  {sha256} {each.title!r}: {counted(each.sessions, 'session')} in {each.folder}")
 
 
 @click.command()
@@ -305,7 +305,7 @@ def export_command(data: Path, out: Path, *, bids: bool, shuffled_ids: bool, as_
     if as_json:
         click.echo(json.dumps({"out": str(out)} | exported.to_json()))
         return
-    click.echo(f"The data set in {out} holds {exported.participants} sessions.")
+    click.echo(f"The data set in {out} holds {counted(exported.participants, 'session')}.")
     if exported.not_shared:
         click.echo(f"Left out, as their visitors did not agree to publishing: {exported.not_shared}.")
     if exported.under_way:

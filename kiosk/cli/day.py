@@ -12,7 +12,7 @@ from statistics import median
 import click
 
 from kiosk.cli.options import json_option, sessions_data_option
-from kiosk.cli.terminal import one_line
+from kiosk.cli.terminal import counted, one_line
 from kiosk.config import ASSETS
 from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
@@ -74,7 +74,9 @@ def day_command(data: Path, day: datetime | None, out: Path | None, *, with_rehe
         told = {"page": str(page), "date": str(chosen), "sessions": len(report.sessions), "completed": completed}
         click.echo(json.dumps(told | {"cautions": cautions}))
         return
-    click.echo(f"{page} is about {len(report.sessions)} sessions of {chosen}, {completed} of them completed.")
+    click.echo(
+        f"{page} is about {counted(len(report.sessions), 'session')} of {chosen}, {completed} of them completed."
+    )
     for caution in cautions:
         click.echo(f"look at: {one_line(caution)}")
 

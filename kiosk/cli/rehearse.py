@@ -29,6 +29,7 @@ from kiosk.cli.options import (
     robot_port_option,
     study_option,
 )
+from kiosk.cli.terminal import counted
 from kiosk.config import NO_ROBOT, STAGES, RobotConfig
 from kiosk.experiment.events import Event, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
@@ -463,8 +464,9 @@ def _ends(data: Path, stored: int) -> dict[str, Any]:
 
 def _in_words(told: dict[str, Any]) -> str:
     lines = [
-        f"{told['sessions']} visitors in {told['seconds']} s, {told['stored']} sessions stored: {told['ends']}.",
-        f"The robot was lost {told['embodiment_changes']} times.",
+        f"{counted(told['sessions'], 'visitor')} in {told['seconds']} s, {counted(told['stored'], 'session')} stored: "
+        f"{', '.join(f'{number} {end}' for end, number in told['ends'].items()) or 'none'}.",
+        f"The robot was lost {counted(told['embodiment_changes'], 'time')}.",
         f"Longest gap of the event loop {told['longest_gap_ms']} ms, median of a session's {told['median_gap_ms']} ms.",
         "              after warm-up   at the end   per session",
     ]
@@ -475,7 +477,7 @@ def _in_words(told: dict[str, Any]) -> str:
     if told["finished_games"]:
         hint, turning = told["taps_wait_for_hint"], told["taps_wait_turning_back"]
         lines.append(
-            f"In {told['finished_games']} finished games taps waited {hint:.1%} of the time for a hint, "
+            f"In {counted(told['finished_games'], 'finished game')} taps waited {hint:.1%} of the time for a hint, "
             f"and {turning:.1%} for cards to turn back."
         )
     left = "Nothing is left over." if told["nothing_is_left"] else "Something is left over at the end of the day."

@@ -11,7 +11,7 @@ import click
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option, progress_bar, sessions_data_option, study_option
-from kiosk.cli.terminal import tell_caution
+from kiosk.cli.terminal import counted, tell_caution
 from kiosk.experiment.events import Event
 from kiosk.experiment.memory_replay import has_board
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
@@ -121,7 +121,7 @@ def _save(played: Replay, folder: Path, session: int, *, hidden: bool) -> _Said:
         for file in played.frames(folder):
             saved.append(file)
             tell(played.player.played)
-    return f"{len(saved)} pictures of session {session} are in {folder}.", {"pictures": len(saved)}
+    return f"{folder} has {counted(len(saved), 'picture')} of session {session}.", {"pictures": len(saved)}
 
 
 def _film(played: Replay, plan: SessionConfig, out: Path, *, memory: bool, hidden: bool) -> _Said:

@@ -12,7 +12,7 @@ import click
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option, sessions_data_option
-from kiosk.cli.terminal import console, one_line, tell_caution
+from kiosk.cli.terminal import console, counted, one_line, tell_caution
 from kiosk.experiment.outcomes import Disposition, SessionKind, Status
 from kiosk.store.listing import RUNNING, SessionFilter, SessionList, SessionTotals, StoredSession, opened
 from kiosk.units import MS_PER_SECOND, as_minutes
@@ -145,7 +145,7 @@ def _totals(totals: SessionTotals, shown: int, skip: int) -> Iterator[str]:
         return
     counts = ", ".join(f"{number:,} {status}" for status, number in sorted(totals.by_status.items()))
     lasted = "" if totals.median_ms is None else f"; a completed one lasts {as_minutes(totals.median_ms)} (median)"
-    yield f"{totals.sessions:,} sessions: {counts}{lasted}."
+    yield f"{counted(totals.sessions, 'session')}: {counts}{lasted}."
     if shown < totals.sessions:
         last = totals.sessions - skip
         first = f"{last - shown + 1:,} to {last:,}" if shown else "none"

@@ -14,7 +14,7 @@ from rich.table import Table
 from kiosk import UserInputError
 from kiosk.cli.composition import read_settings
 from kiosk.cli.options import json_option
-from kiosk.cli.terminal import console, one_line
+from kiosk.cli.terminal import console, counted, one_line
 from kiosk.config import Settings, code_of
 from kiosk.robots.registry import check_robot
 from kiosk.study.checks import expected_minutes
@@ -103,7 +103,7 @@ def dossier_command(file: Path, out: Path, *, as_json: bool) -> None:
     study = read_study(read_settings(file))
     check_robot(study.settings)
     pages = write_dossier(study, max(round(expected_minutes(plan)) for plan in study.plans), out)
-    click.echo(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{pages} pages are in {out}.")
+    click.echo(json.dumps({"file": str(out), "pages": pages}) if as_json else f"{out} has {counted(pages, 'page')}.")
 
 
 @click.command("preview")

@@ -30,6 +30,11 @@ def one_line(text: str) -> str:
     return harmless(" ".join(text.splitlines()))
 
 
+def counted(number: int, one: str) -> str:
+    """Return a number with its noun, which gets an s unless the number is 1."""
+    return f"{number:,} {one}" if number == 1 else f"{number:,} {one}s"
+
+
 def tell_caution(what: object, *, err: bool = False) -> None:
     """Print a caution on one line, whatever it quotes of a study or a record."""
     click.echo(f"caution: {one_line(str(what))}", err=err)

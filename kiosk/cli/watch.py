@@ -16,7 +16,7 @@ from rich.table import Table
 
 from kiosk import UserInputError
 from kiosk.cli.options import json_option
-from kiosk.cli.terminal import console
+from kiosk.cli.terminal import console, counted
 from kiosk.config import Remote
 from kiosk.remote import ANYWHERE, BoothWatch, served
 
@@ -97,7 +97,8 @@ def _serve(watch: BoothWatch, host: str, port: int) -> None:
 
 
 def _table(rows: Sequence[dict[str, Any]], trouble: str) -> Table:
-    title = f"No connection to the broker: {trouble}" if trouble else f"{len(rows)} booths" if rows else "No booth yet"
+    booths = counted(len(rows), "booth") if rows else "No booth yet"
+    title = f"No connection to the broker: {trouble}" if trouble else booths
     table = Table(title=title, box=None, title_justify="left")
     for heading in ("booth", "state", "stage", "min", "visitors", "completed", "last hour", "early"):
         number = heading in {"min", "visitors", "completed", "last hour", "early"}

@@ -28,7 +28,7 @@ def run(*arguments: object) -> Result:
 
 def test_it_says_how_many_are_in_the_data_set(data: Path, tmp_path: Path) -> None:
     done = run("--data", data, "--out", tmp_path / "out")
-    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 sessions.\n")
+    assert (done.exit_code, done.output) == (0, f"The data set in {tmp_path / 'out'} holds 1 session.\n")
     assert len(rows_of(tmp_path / "out", "participants")) == 1
 
 
@@ -43,7 +43,7 @@ def test_it_says_how_many_were_trials(tmp_path: Path) -> None:
     store(tmp_path / "data", [(visitor(2), 2), (visitor(3), 3)], kind=SessionKind.TRIAL)
     done = run("--data", tmp_path / "data", "--out", tmp_path / "out")
     assert done.output.splitlines() == [
-        f"The data set in {tmp_path / 'out'} holds 1 sessions.",
+        f"The data set in {tmp_path / 'out'} holds 1 session.",
         "Left out, as no PIN was set, so that they were trials: 2.",
     ]
     done = run("--data", tmp_path / "data", "--out", tmp_path / "all", "--with-trials")

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from kiosk import DISK_FULL, UserInputError, program
 from kiosk.cli.main import main, recollect
-from kiosk.cli.terminal import console, harmless, one_line, tell_caution
+from kiosk.cli.terminal import console, counted, harmless, one_line, tell_caution
 from kiosk.experiment.events import RobotDisconnected, SessionStarted
 from kiosk.experiment.session_config import SessionKind
 from kiosk.store.day_report import DayReport
@@ -104,6 +104,10 @@ def test_output_that_finds_no_room_ends_in_a_sentence(name: str, data: Path, stu
 
 STEERING = "\x1b[2J\x07\x9b31m\u202e\u2066\r\u2028"
 AS_NUMBERS = r"\x1b[2J\x07\x9b31m\u202e\u2066\r\u2028"
+
+
+def test_one_thing_has_no_plural() -> None:
+    assert [counted(number, "session") for number in (0, 1, 1200)] == ["0 sessions", "1 session", "1,200 sessions"]
 
 
 def test_what_would_steer_a_terminal_is_printed_by_its_number_and_all_else_as_it_is() -> None:

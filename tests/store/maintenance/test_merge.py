@@ -336,7 +336,7 @@ def test_the_refusal_names_a_command_that_merges_them(nameless: list[Path], out:
     program, *arguments = shlex.split(str(refusal.value).rpartition(": ")[2])
     assert program == "recollect"
     done = CliRunner().invoke(recollect, arguments, catch_exceptions=False)
-    assert (done.exit_code, done.stdout) == (0, f"7 sessions of 2 folders are in {out}.\n")
+    assert (done.exit_code, done.stdout) == (0, f"{out} holds 7 sessions of 2 folders.\n")
     assert rows(out, "SELECT DISTINCT site FROM participant ORDER BY 1") == [("KIOSK1",), ("KIOSK2",)]
 
 
