@@ -24,7 +24,7 @@ from kiosk.training.vectorised_game import (
     FOUND,
     LAST,
     LAST_MATCH,
-    MARK,
+    LISTED,
     MATE,
     NO_HELP,
     NOWHERE,
@@ -302,33 +302,33 @@ def in_line(action: int, target: int, place: int) -> bool:
 
 
 @compiled_rule
-def mark_line(game: Ints, action: int, target: int, ruled_out: int) -> int:
-    """Mark the closed cards of the line whose recall is below ``ruled_out``; their number."""
+def list_line(game: Ints, action: int, target: int, ruled_out: int) -> int:
+    """List the closed cards of the line whose recall is below ``ruled_out``; their number."""
     number = 0
     for place in range(CARDS):
+        game[LISTED + number] = place
         hit = closed(game, place) and game[RECALL + place] < ruled_out and in_line(action, target, place)
-        game[MARK + place] = 1 if hit else 0
-        number += game[MARK + place]
+        number += 1 if hit else 0
     return number
 
 
 @compiled_rule
-def mark_not_recalled(game: Ints) -> int:
-    """Mark the closed cards that are new, or as good as new; their number."""
+def list_not_recalled(game: Ints) -> int:
+    """List the closed cards that are new, or as good as new; their number."""
     number = 0
     for place in range(CARDS):
-        game[MARK + place] = 1 if closed(game, place) and game[RECALL + place] == 0 else 0
-        number += game[MARK + place]
+        game[LISTED + number] = place
+        number += 1 if closed(game, place) and game[RECALL + place] == 0 else 0
     return number
 
 
 @compiled_rule
-def mark_wrong(game: Ints) -> int:
-    """Mark every closed card but the mate of the open one; their number."""
+def list_wrong(game: Ints) -> int:
+    """List every closed card but the mate of the open one; their number."""
     number = 0
     for place in range(CARDS):
-        game[MARK + place] = 1 if closed(game, place) and game[FIRST] != game[MATE + place] else 0
-        number += game[MARK + place]
+        game[LISTED + number] = place
+        number += 1 if closed(game, place) and game[FIRST] != game[MATE + place] else 0
     return number
 
 
@@ -382,31 +382,31 @@ def surely(game: Ints, player: Ints, odds: Floats, lead: int, target: int) -> in
 
 
 @compiled_rule
-def mark_half(game: Ints) -> int:
-    """Toss a coin and mark the closed cards seen before, or those never seen.
+def list_half(game: Ints) -> int:
+    """Toss a coin and list the closed cards seen before, or those never seen.
 
-    All are marked if there are none.
+    All are listed if there are none.
     """
     seen = below(game, 2)
     number = 0
     for place in range(CARDS):
+        game[LISTED + number] = place
         fits = closed(game, place) and (1 if game[LAST + place] > 0 else 0) == seen
-        game[MARK + place] = 1 if fits else 0
-        number += game[MARK + place]
-    return number if number > 0 else mark_wrong(game)
+        number += 1 if fits else 0
+    return number if number > 0 else list_wrong(game)
 
 
 @compiled_rule
 def guess(game: Ints, player: Ints) -> int:
     """Return the card that the player tries who knows nothing better."""
     if player[KIND] == MEMORY:
-        return pick(game, mark_not_recalled(game))
+        return pick(game, list_not_recalled(game))
     if player[KIND] == TEXT and game[FIRST] == NOWHERE:
-        return pick(game, mark_half(game))
+        return pick(game, list_half(game))
     # The chance player draws a name, so the mate comes up once in as many times as there are pairs left.
     if game[FIRST] != NOWHERE and player[KIND] == CHANCE and below(game, PAIRS - game[PAIRS_FOUND]) == 0:
         return game[MATE + game[FIRST]]
-    number = mark_wrong(game)
+    number = list_wrong(game)
     return pick(game, number) if number > 0 else game[MATE + game[FIRST]]
 
 
@@ -419,7 +419,7 @@ def choose(game: Ints, player: Ints, odds: Floats, action: int, target: int) -> 
     if player[KIND] == MEMORY and game[FIRST] == NOWHERE:
         remember(game, odds)
     if odds[LAPSE] > 0.0 and unit(game) < odds[LAPSE]:
-        return pick(game, mark_line(game, NO_HELP, NOWHERE, 2))
+        return pick(game, list_line(game, NO_HELP, NOWHERE, 2))
     follows = action != NO_HELP and (odds[FOLLOW] >= 1.0 or unit(game) < odds[FOLLOW])
     if follows and action == SUG_CARD:
         return target
@@ -429,5 +429,5 @@ def choose(game: Ints, player: Ints, odds: Floats, action: int, target: int) -> 
         return sure
     if not follows:
         return guess(game, player)
-    number = mark_line(game, lead, target, 1)
-    return pick(game, number if number > 0 else mark_line(game, lead, target, 2))
+    number = list_line(game, lead, target, 1)
+    return pick(game, number if number > 0 else list_line(game, lead, target, 2))

@@ -124,8 +124,9 @@ PAIRS = CARDS // 2
 ENDLESS = 5_000
 """Flips after which a game is given up: no player that finishes at all needs a tenth of them."""
 
-# One game is one row of whole numbers: five blocks with a number per place, then single numbers.
-MATE, FOUND, COUNT, LAST, MARK, RECALL = (block * CARDS for block in range(6))
+# One game is one row of whole numbers: blocks with a number per place, then single numbers. LISTED is a list of places,
+# whose length its rule returns.
+MATE, FOUND, COUNT, LAST, LISTED, RECALL = (block * CARDS for block in range(6))
 FLIPS, LAST_MATCH, PAIRS_FOUND, FIRST, MATCHED, HELP, RANDOM, POINTED = range(6 * CARDS, 6 * CARDS + 8)
 LEAD, ACTION_COUNT = range(6 * CARDS + 8, 6 * CARDS + 10)
 GAME = 6 * CARDS + 10
@@ -193,15 +194,15 @@ def unit(game: Ints) -> float:
 def deal(game: Ints) -> None:
     """Shuffle the cards (Fisher-Yates) and start a game with all of them closed."""
     for place in range(CARDS):
-        game[MARK + place] = place
+        game[LISTED + place] = place
         game[FOUND + place] = game[COUNT + place] = game[LAST + place] = game[RECALL + place] = 0
     for last in range(CARDS - 1, 0, -1):
         other = below(game, last + 1)
-        kept = game[MARK + last]
-        game[MARK + last] = game[MARK + other]
-        game[MARK + other] = kept
+        kept = game[LISTED + last]
+        game[LISTED + last] = game[LISTED + other]
+        game[LISTED + other] = kept
     for pair in range(PAIRS):
-        one, other = game[MARK + 2 * pair], game[MARK + 2 * pair + 1]
+        one, other = game[LISTED + 2 * pair], game[LISTED + 2 * pair + 1]
         game[MATE + one], game[MATE + other] = other, one
     game[FLIPS] = game[LAST_MATCH] = game[PAIRS_FOUND] = 0
     game[FIRST], game[MATCHED], game[HELP], game[LEAD] = NOWHERE, 1, NO_HELP, NO_HELP
@@ -258,11 +259,10 @@ def closed(game: Ints, place: int) -> bool:
 
 
 @compiled_rule
-def mark_candidates(game: Ints, target: int) -> int:
-    """Mark every card that a hint for the coming flip may point at; their number. As ``Mentaliser.target``."""
+def list_candidates(game: Ints, target: int) -> int:
+    """List every card that a hint for the coming flip may point at; their number. As ``Mentaliser.target``."""
     if game[FIRST] != NOWHERE:
-        for place in range(CARDS):
-            game[MARK + place] = 1 if place == game[MATE + game[FIRST]] else 0
+        game[LISTED] = game[MATE + game[FIRST]]
         return 1
     block = COUNT if target == MOST_FLIPPED else LAST
     most = 0
@@ -272,9 +272,10 @@ def mark_candidates(game: Ints, target: int) -> int:
                 most = game[block + place]
     number = 0
     for place in range(CARDS):
+        # Written in any case, and kept by counting: this is faster than a branch. Likewise in the lists of players.
+        game[LISTED + number] = place
         fits = game[FOUND + place] == 0 and (most == 0 or game[block + game[MATE + place]] == most)
-        game[MARK + place] = 1 if fits else 0
-        number += game[MARK + place]
+        number += 1 if fits else 0
     return number
 
 
@@ -285,16 +286,11 @@ def aim(game: Ints, target: int) -> int:
         # There is one candidate; a number is drawn all the same, so that games are the same as ever.
         below(game, 1)
         return game[MATE + game[FIRST]]
-    return pick(game, mark_candidates(game, target))
+    return pick(game, list_candidates(game, target))
 
 
 @compiled_rule
 def pick(game: Ints, number: int) -> int:
-    """One of the ``number`` marked places, each with the same chance."""
+    """One of the ``number`` listed places, each with the same chance; NOWHERE if there is none."""
     left = below(game, number)
-    for place in range(CARDS):
-        if game[MARK + place] == 1:
-            if left == 0:
-                return place
-            left -= 1
-    return NOWHERE
+    return game[LISTED + left] if number > 0 else NOWHERE

@@ -24,7 +24,7 @@ from kiosk.training.vectorised_game import (
     FOUND,
     HELP,
     LAST,
-    MARK,
+    LISTED,
     MATE,
     NOWHERE,
     copy_compiled,
@@ -76,10 +76,10 @@ def test_with_the_same_choices_every_step_of_a_game_is_the_same(
 
 def candidates(game: vectorised_game.Ints, rule: TargetRule) -> set[int]:
     """Return the places that the kernel lets a hint point at."""
-    number = vectorised_game.mark_candidates(game, vectorised_game.TARGET_RULES.index(rule))
-    marked = {place for place in range(CARDS) if game[MARK + place] == 1}
-    assert number == len(marked)
-    return marked
+    number = vectorised_game.list_candidates(game, vectorised_game.TARGET_RULES.index(rule))
+    listed = {int(place) for place in game[LISTED : LISTED + number]}
+    assert number == len(listed)
+    return listed
 
 
 def snapshot(game: vectorised_game.Ints) -> list[tuple[int, int, bool, bool]]:
