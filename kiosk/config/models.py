@@ -50,7 +50,7 @@ class ConfigModel(BaseModel):
         """Read a file; raise UserInputError with a sentence for each fault, naming the file and the key."""
         name = f"the {cls.file_kind} {path}"
         text = read_text(name, path)
-        given = _toml(name, text)
+        given, text = _toml(name, text)
         unseen = [f"{name}: {sentence}" for sentence in control_characters(given, text)]
         if unseen:
             raise UserInputError(*unseen)
@@ -93,18 +93,20 @@ def read_text(name: str, path: Path) -> str:
     return text
 
 
-def _toml(name: str, text: str) -> dict[str, Any]:
+def _toml(name: str, text: str) -> tuple[dict[str, Any], str]:
+    """Return what a text holds, and the text that it was read from, whose lines are the same."""
     dots = [line.count(".") for line in text.split("\n")]
     if max(dots) > _MOST_DOTS or sum(count**2 for count in dots) > _MOST_DOTS_SQUARED:
         raise UserInputError(f"{name} has too many dots to be read: line {dots.index(max(dots)) + 1} has {max(dots)}")
     try:
         try:
-            return tomllib.loads(text)
+            return tomllib.loads(text), text
         except tomllib.TOMLDecodeError:
             raise
         except ValueError:
             # Cut short, the number is still too large wherever it stands, so the key that has it gets its sentence.
-            return tomllib.loads(_LONG_NUMBER.sub(shortened, text))
+            text = _LONG_NUMBER.sub(shortened, text)
+            return tomllib.loads(text), text
     except (ValueError, RecursionError) as error:
         raise UserInputError(f"{name} is not TOML: {toml_error_message(error)}") from error
 

@@ -75,6 +75,7 @@ def test_no_text_takes_long_to_look_into() -> None:
         ("# x\nquestionnaires = [\n  'trust',\n  'no',\n]\n", "questionnaires: there is no questionnaire 'no'"),
         ("[randomisation]\nblock_size = 4\ntarget_n = { tomm = 3 }\n", "there is no condition 'tomm'"),
         ("languages = ['en', 'en']\n", "languages: 'en' stands twice"),
+        (f"[timing]\nmood_ms = {'9' * 5000}\n", "but it is 999999999999... (line 2)"),
     ],
 )
 def test_a_refusal_of_a_study_file_names_file_key_and_line(text: str, said: str, tmp_path: Path) -> None:
