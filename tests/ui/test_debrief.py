@@ -152,3 +152,9 @@ def test_the_thanks_show_the_pairs_that_the_visitor_found_or_else_some_cards(boo
     screens.result.show(2, 3, 9_000, 0, [(folder / f"{card}.svg").as_uri() for card in ("cat", "owl")])
     assert {"cat", "owl"} <= pictures()
     assert len(pictures() - {"back", "shadow", "cat", "owl"}) <= 1
+
+
+@pytest.mark.parametrize("names", [{"tom", "notom"}, {"tom"}, {"tom", "notom", "no_assistance"}])
+def test_only_the_papers_two_conditions_have_a_picture(booth: Booth, names: set[str]) -> None:
+    booth.app.screens.debrief.compare(names)
+    assert booth.app.screens.debrief.property("compares") is (names == {"tom", "notom"})

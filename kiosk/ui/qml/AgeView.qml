@@ -30,7 +30,7 @@ PageFrame {
         width: answers.wish
         height: answers.tall
         horizontalPadding: (view.upright ? 24 : 32) * Theme.unit
-        corner: view.pictured && view.upright ? 2 * Theme.radius : Infinity
+        corner: view.pictured ? 2 * Theme.radius : Infinity
         font.pixelSize: Theme.size(84 * Math.min(1.25, view.scaled))
         Accessible.description: meaning
         contentItem: Item {

@@ -10,11 +10,14 @@ Item {
     required property bool hasSpeaker   // whether there is a face below it to point at
     property bool thinks: false         // whether it is still looking for words
     property bool large: false          // whether there is width for larger letters
+    property bool calls: false          // whether it is to be read from far away
     property string speaker: ""         // whose words they are; empty where no speaker has a name
 
     // Between the bubble and the face; without a face only the edge of the window has to be kept clear of.
     readonly property real tail: (hasSpeaker ? 34 : 12) * Theme.unit
     readonly property real tag: speaker === "" ? 0 : name.height - 0.3 * Theme.gap
+    // How much of its height is free above it.
+    readonly property real free: sentence === "" ? height : box.y
     readonly property real room: height - tail - tag - (hasSpeaker ? 3 : 2) * Theme.gap
 
     LayoutMirroring.enabled: Theme.mirrored
@@ -34,7 +37,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.large ? 4 : 0))
+        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.calls ? 18 : bubble.large ? 4 : 0))
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }

@@ -73,7 +73,8 @@ PageFrame {
                 visible: view.short
                 width: pane.width
                 // Larger on an upright screen, but where large texts need the room themselves.
-                readonly property bool airy: view.width < view.height && Theme.textSize <= 1.15
+                readonly property bool airy: Theme.textSize <= 1.15 && (view.width < view.height
+                    || (view.accompanied && 100 * view.read.length + 150 * view.consent.purposes.length + 90 <= view.room / Theme.unit))
                 spacing: (airy ? 1.2 : 0.6) * Theme.gap
                 Repeater {
                     model: view.short ? view.read : []

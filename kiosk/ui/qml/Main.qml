@@ -298,6 +298,7 @@ Window {
         // Large sentences need the room.
         share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
         broad: !root.wide
+        calls: root.accompanied && attractView.visible
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
         aside: !root.accompanied ? "" : root.kiosk.asksStillThere ? root.words["still-there-line"]
@@ -308,6 +309,14 @@ Window {
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks
         marked: helper.mapFromItem(boardView, boardView.marked.x, boardView.marked.y)
+    }
+    // What was compared, in a picture.
+    TwoHelpers {
+        x: helper.x + (helper.width - 2 * side - spacing) / 2
+        y: helper.y + Theme.gap
+        width: helper.width
+        room: Math.min(250 * Theme.unit, helper.free - 2 * Theme.gap)
+        visible: debriefPage.shown && root.accompanied && root.debrief.compares && room >= 170 * Theme.unit && !root.kiosk.paused
     }
     // Above the assistant; beside a robot and on an upright screen at the bottom, where a sentence leaves room.
     Corner {

@@ -29,6 +29,8 @@ Item {
     property bool hushed: false
     // Where its ears begin, in this item.
     readonly property real faceTop: face.y + 0.1 * face.height
+    // Whether it speaks to those who pass.
+    property bool calls: false
     // A sentence that was read long ago, and is not shown any more.
     property string stale: ""
 
@@ -46,6 +48,9 @@ Item {
     readonly property point lookedAt: marks ? marked : notices ? noticed : pointer
     readonly property bool follows: following.running
     readonly property bool notices: attention.running
+
+    // How much height is free above the bubble.
+    readonly property alias free: bubble.free
 
     // Whether a sentence is to be read.
     readonly property string said: speaks && !rests && avatar.bubble !== stale ? avatar.bubble : ""
@@ -102,6 +107,7 @@ Item {
         thinks: panel.speaks && !panel.rests && !panel.hushed && panel.thinks && sentence === ""
         hasSpeaker: panel.avatar.present
         speaker: panel.avatar.name
+        calls: panel.calls
         large: panel.broad || panel.aside !== ""
     }
     Avatar {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from functools import lru_cache
 from typing import Any
 
@@ -12,6 +12,7 @@ from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QmlElement
 
 from kiosk.assistance.wording import Catalogue
+from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.units import MS_PER_SECOND, SECONDS_PER_MINUTE
 
@@ -190,7 +191,7 @@ class DebriefScreen(PageScreen):
         super().__init__(parent)
         self._catalogue = catalogue
         self._code = self._contact = self._summary = ""
-        self._returns = False
+        self._returns = self._compares = False
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Say in this language what the code is for."""
@@ -205,6 +206,11 @@ class DebriefScreen(PageScreen):
     def give_summary(self, summary: str) -> None:
         """Tell in a sentence or two what the study was about, for those who read the card at home."""
         self._summary = summary
+        self.given.emit()
+
+    def compare(self, names: Set[str]) -> None:
+        """Tell which conditions the study compares; of the paper's two there is a picture."""
+        self._compares = names == {Condition.TOM.name, Condition.NOTOM.name}
         self.given.emit()
 
     def give_code(self, code: str, *, returns: bool = False) -> None:
@@ -222,6 +228,11 @@ class DebriefScreen(PageScreen):
         self._returns = False
         self.given.emit()
         super().clear()
+
+    @Property(bool, notify=given)
+    def compares(self) -> bool:
+        """Whether the study compares the paper's two versions of the help."""
+        return self._compares
 
     @property
     def shown_code(self) -> str:

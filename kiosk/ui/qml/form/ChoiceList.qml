@@ -16,6 +16,8 @@ Flow {
     required property real tall         // how high an option is at least
     signal picked(string option)
 
+    // Large texts on a wide screen leave little room around them.
+    readonly property bool narrow: Theme.textSize > 1.15 && width >= 1020 * Theme.unit && !alone
     readonly property bool stacked: alone && options.length <= 6
     // Where there is room for it, all are as wide, in rows that are as full; one below the other only on an upright screen.
     readonly property bool tiled: !stacked && !dense && (columns > 1 || width < 1020 * Theme.unit)
@@ -86,10 +88,10 @@ Flow {
             width: list.stacked ? list.width : list.flowing ? list.filled[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
             font.pixelSize: list.alone ? Theme.body : Theme.reading
-            leftPadding: 22 * Theme.unit
-            rightPadding: 30 * Theme.unit
-            verticalPadding: (list.alone ? 16 : 10) * Theme.unit
-            spacing: 16 * Theme.unit
+            leftPadding: (list.narrow ? 14 : 22) * Theme.unit
+            rightPadding: (list.narrow ? 16 : 30) * Theme.unit
+            verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit
+            spacing: (list.narrow ? 10 : 16) * Theme.unit
             scale: down ? 0.97 : 1
             Accessible.role: list.several ? Accessible.CheckBox : Accessible.RadioButton
             Accessible.name: `${list.label} ${words}`

@@ -258,7 +258,7 @@ Item {
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
             alone: box.alone
             dense: box.form.items.length > 3
-            tall: (box.tight || box.form.items.length > 3 ? 62 : 76) * Theme.unit
+            tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }
