@@ -11,8 +11,6 @@ from enum import Enum
 from pathlib import Path
 from typing import Self
 
-import psutil
-
 
 class Severity(Enum):
     """How serious a result is."""
@@ -88,6 +86,8 @@ def autostart_check() -> Iterator[CheckResult]:
 
 def supervisor_runs() -> bool:
     """Whether a supervisor is among the programs of this machine."""
+    import psutil  # noqa: PLC0415 - the start screen does not wait for it
+
     return any(is_supervisor(process.info["cmdline"] or ()) for process in psutil.process_iter(["cmdline"]))
 
 

@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import psutil
-
 from kiosk import StorageError, UserInputError
 from kiosk.files import sync_folder
 from kiosk.store.connecting import reason
@@ -54,6 +52,8 @@ class CarriedCopy:
 
 def removable_drives() -> tuple[Drive, ...]:
     """Return the sticks and other removable drives that are mounted, by the name of where they are."""
+    import psutil  # noqa: PLC0415 - the start screen does not wait for it
+
     mounts = (Path(part.mountpoint) for part in psutil.disk_partitions() if _is_removable(part))
     return tuple(sorted((Drive(mount.name or str(mount), mount) for mount in mounts), key=lambda drive: drive.name))
 

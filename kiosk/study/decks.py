@@ -15,7 +15,6 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
 from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
 from kiosk.language_codes import is_right
-from kiosk.study.csv_import import text_of_table
 
 _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", ".heif", ".avif", ".psd", ".ico"))
 """The endings of pictures that would be left out without a word."""
@@ -277,6 +276,8 @@ _LONGEST = 60
 
 def _rows(name: str, file: Path) -> list[tuple[int, list[str]]]:
     """Return the rows that are not empty, with their numbers; a spreadsheet may have put ; or tabs between cells."""
+    from kiosk.study.csv_import import text_of_table  # noqa: PLC0415 - few decks have a table of names
+
     text, first = text_of_table(name, file).replace("\r\n", "\n"), 1
     if text.lower().startswith("sep="):
         text, first = text.partition("\n")[2], 2

@@ -18,7 +18,6 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-import tomlkit
 from fluent.syntax import parse
 from fluent.syntax.ast import Message
 
@@ -329,6 +328,8 @@ def sign_wording(folder: Path, drafts: Iterable[Draft], name: str, on: date) -> 
     for language, text in texts.items():
         write_file(folder / f"{language}.ftl", text)
     hashes = {f"{language}.ftl": hashlib.sha256(text.encode()).hexdigest() for language, text in texts.items()}
+    import tomlkit  # noqa: PLC0415 - few studies are signed
+
     document = tomlkit.document()
     document.add(tomlkit.comment("Written by 'recollect study wording sign'. A changed file has to be signed again."))
     document |= {"name": name, "date": on, "files": hashes}

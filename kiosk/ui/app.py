@@ -9,7 +9,7 @@ from datetime import datetime
 from functools import partial
 from random import Random
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 from uuid import uuid4
 
 from PySide6.QtCore import QObject
@@ -19,7 +19,6 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk.config import MarkersConfig, Settings, VoiceConfig
 from kiosk.experiment.events import EmbodimentName, SessionSetup
 from kiosk.experiment.session_config import SessionKind
-from kiosk.remote import StatusPublisher, booth_name
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot
@@ -49,6 +48,9 @@ from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import ConditionAssigner, SessionRunner
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
 from kiosk.ui.window import ClockMode, RunMode, Window, WindowMode
+
+if TYPE_CHECKING:
+    from kiosk.remote import StatusPublisher
 
 _log = logging.getLogger(__name__)
 
@@ -241,6 +243,8 @@ class App:
         """Publish the status, if the study file asks for it; a rehearsal is no booth that anybody watches."""
         if not settings.remote.mqtt or self.assigner.kind is SessionKind.SIMULATED:
             return None
+        from kiosk.remote import StatusPublisher, booth_name  # noqa: PLC0415 - few booths publish, and it loads a server
+
         booth = booth_name(settings.remote, recorder.site)
         publisher = StatusPublisher(settings.remote, booth, settings.beside)
         undo.callback(publisher.close)

@@ -347,7 +347,8 @@ class EventLoop:
         gives_back = gc.get_freeze_count() == 0
         if not isinstance(self._clock, VirtualClock):
             # What is there now stays for the day; walking all of it for garbage would cost the screen a frame or two.
-            gc.collect()
+            if gc.isenabled():
+                gc.collect()
             gc.freeze()
         try:
             self._loop.exec()

@@ -7,7 +7,6 @@ from collections.abc import Sequence, Set
 from functools import lru_cache
 from typing import Any
 
-import segno
 from PySide6.QtCore import Property, QObject, QUrl, Signal, Slot
 from PySide6.QtQml import QmlElement
 
@@ -296,6 +295,8 @@ class DebriefScreen(PageScreen):
 @lru_cache(maxsize=4)
 def _qr_code(payload: str) -> tuple[str, int]:
     """Return a QR code as a data address, and how many squares it is wide with its frame."""
+    import segno  # noqa: PLC0415 - the start screen does not wait for it
+
     code = segno.make(payload, micro=False)
     return str(code.png_data_uri(scale=1, border=QUIET_MODULES)), int(code.symbol_size(border=QUIET_MODULES)[0])
 
