@@ -6,7 +6,7 @@ import logging
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -17,6 +17,7 @@ from fluent.syntax.ast import EntryType, Junk, Message, SyntaxNode, Term
 
 from kiosk import UserInputError
 from kiosk.assistance.keyboards import KeyRows, key_rows
+from kiosk.assistance.late_messages import LateBundle, attributes_in, split
 from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
 from kiosk.config import ASSETS, read_text
@@ -27,6 +28,8 @@ _log = logging.getLogger(__name__)
 CARD = "card"
 """The variable that is a card's name, and what the messages of cards begin with."""
 
+
+_SHIPPED = ASSETS / "sentences"
 
 REPLACING = "~"
 """Sources whose names begin so replace messages of the others; they are read last."""
@@ -43,15 +46,16 @@ _parsed = lru_cache(maxsize=64)(FluentResource)
 
 
 @lru_cache(maxsize=16)
-def _compiled(language: str, sources: tuple[tuple[str, str], ...]) -> FluentBundle:
+def _compiled(language: str, sources: tuple[tuple[str, str], ...], shipped: frozenset[str]) -> FluentBundle:
     """Return the messages of these sources, by their names.
 
-    A bundle compiles a message when it is first said, and keeps it. The marks that isolate a variable's writing
-    direction are for mixed scripts; a voice would stumble on them.
+    A bundle compiles a message when it is first said, and keeps it. Those of shipped sources are parsed only then.
     """
-    bundle = FluentBundle(babel_codes(language), use_isolating=False)
+    late = dict(entry for name, source in sources if name in shipped for entry in split(source))
+    bundle = LateBundle(babel_codes(language), late)
     for name, source in sources:
-        bundle.add_resource(_parsed(source), allow_overrides=name.startswith(REPLACING))
+        if name not in shipped:
+            bundle.add_resource(_parsed(source), allow_overrides=name.startswith(REPLACING))
     return bundle
 
 
@@ -85,10 +89,15 @@ class Catalogue:
         self._forms: set[str] = set()
         self._next: tuple[Catalogue, ...] = ()
         self._warned: set[str] = set()
+        elsewhere = files or {}
+        # What was recorded stands in no file, and is parsed as a whole like everything that a study brings along.
+        is_shipped = folder.parent == _SHIPPED and (sources is None or files is not None)
+        shipped = frozenset(self.sources.keys() - elsewhere.keys() if is_shipped else ())
         for name, source in sorted(self.sources.items()):
-            file = (files or {}).get(name, folder / name)
-            self._take(_written(source, file, tuple(sorted((lines or {}).items()))), name)
-        self._bundle = _compiled(self.language, tuple(sorted(self.sources.items())))
+            file = elsewhere.get(name, folder / name)
+            numbers = tuple(sorted((lines or {}).items()))
+            self._take(_shipped(source, file) if name in shipped else _written(source, file, numbers), name)
+        self._bundle = _compiled(self.language, tuple(sorted(self.sources.items())), shipped)
 
     def _take(self, entries: Iterable[Written], source: str) -> None:
         """Refuse what stands twice, which Fluent would pass over in silence."""
@@ -99,7 +108,7 @@ class Catalogue:
                 raise UserInputError(f"{written.file}: the message {written.name} stands twice")
             here[written.name] = written
             if written.name.startswith(f"{CARD}-"):
-                self._forms |= {attribute.id.name for attribute in written.entry.attributes}
+                self._forms |= written.attributes
         self.written |= here
 
     def followed_by(self, others: Iterable[Catalogue]) -> None:
@@ -256,15 +265,25 @@ class Catalogue:
 class Written:
     """A message or a term as it is written, and where; ``begins`` is its first line, counted from 1."""
 
-    entry: Message | Term
+    name: str
+    """What it is called; a term has a ``-`` before its name."""
     file: Path
     source: str
     begins: int | None = None
+    late: str | None = None
+    """Its text, if it has not been parsed."""
 
-    @cached_property
-    def name(self) -> str:
-        """What it is called; a term has a ``-`` before its name."""
-        return self.entry.id.name if isinstance(self.entry, Message) else f"-{self.entry.id.name}"
+    @property
+    def entry(self) -> Message | Term:
+        """The message as Fluent's parser gives it."""
+        return _entries(self.source)[self.name]
+
+    @property
+    def attributes(self) -> frozenset[str]:
+        """The names of its attributes."""
+        if self.late is not None:
+            return attributes_in(self.late)
+        return frozenset(attribute.id.name for attribute in self.entry.attributes)
 
     @property
     def text(self) -> str:
@@ -296,7 +315,22 @@ def _entry(entry: EntryType, file: Path, source: str, lines: Mapping[str, int]) 
         raise UserInputError(f"{file}, line {line}, is not well-formed near: {begin}")
     if not isinstance(entry, Message | Term):
         return None
-    return Written(entry, file, source, lines.get(entry.id.name))
+    return Written(_name(entry), file, source, lines.get(entry.id.name))
+
+
+def _name(entry: Message | Term) -> str:
+    return entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}"
+
+
+@lru_cache(maxsize=64)
+def _entries(source: str) -> dict[str, Message | Term]:
+    return {_name(entry): entry for entry in _parsed(source).body if isinstance(entry, Message | Term)}
+
+
+@lru_cache(maxsize=64)
+def _shipped(source: str, file: Path) -> tuple[Written, ...]:
+    """Return the messages and terms of a file that comes with Recollect, without parsing them."""
+    return tuple(Written(name, file, source, late=text) for name, text in split(source))
 
 
 @cache

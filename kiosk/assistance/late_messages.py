@@ -1,0 +1,68 @@
+"""Messages that are parsed one by one, when each is first said.
+
+Fluent parses in Python, and all of a language takes a tenth of a second. The files that come with Recollect are
+well-formed, which the tests hold, so they need not be parsed as a whole before the kiosk opens.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+
+from fluent.runtime import FluentBundle, FluentResource
+from fluent.runtime.resolver import Message
+from fluent.syntax.ast import Identifier, Resource
+from fluent.syntax.ast import Message as Entry
+
+_BEGINS = re.compile(r"^(-?[a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
+_ATTRIBUTE = re.compile(r"^ +\.([a-zA-Z][a-zA-Z0-9_-]*) *=", re.MULTILINE)
+
+
+@lru_cache(maxsize=64)
+def split(source: str) -> tuple[tuple[str, str], ...]:
+    """Return the name and the text of every message and term of a well-formed file.
+
+    A term's name begins with ``-``.
+    """
+    found = list(_BEGINS.finditer(source))
+    ends = [*(each.start() for each in found[1:]), len(source)]
+    return tuple((each[1], source[each.start() : end]) for each, end in zip(found, ends, strict=True))
+
+
+def attributes_in(text: str) -> frozenset[str]:
+    """Return the names of the attributes of a message that ``split`` gave."""
+    return frozenset(_ATTRIBUTE.findall(text))
+
+
+class LateBundle(FluentBundle):
+    """A bundle that also knows messages by their text alone."""
+
+    def __init__(self, locales: list[str], late: Mapping[str, str]) -> None:
+        """Know the messages and terms in ``late``, by their names; what is added later replaces them.
+
+        The marks that isolate a variable's writing direction are for mixed scripts; a voice would stumble on them.
+        """
+        super().__init__(locales, use_isolating=False)
+        self._late = dict(late)
+
+    def add_resource(self, resource: Resource, allow_overrides: bool = False) -> None:  # noqa: FBT001, FBT002 - Fluent's
+        """Add what is parsed."""
+        for entry in resource.body:
+            if hasattr(entry, "id"):
+                self._late.pop(entry.id.name if isinstance(entry, Entry) else f"-{entry.id.name}", None)
+        super().add_resource(resource, allow_overrides)
+
+    def has_message(self, message_id: str) -> bool:
+        """Whether there is such a message."""
+        return message_id in self._late or super().has_message(message_id)
+
+    def _lookup(self, entry_id: str, term: bool = False) -> Message:  # noqa: FBT001, FBT002 - Fluent's
+        # The resolver finds messages and terms that others refer to by this method alone.
+        name = f"-{entry_id}" if term else entry_id
+        if name in self._late:
+            self.add_resource(FluentResource(self._late[name]))
+            if self._late.pop(name, None) is not None:
+                # The file was changed and is broken here: a message without a text is said in the next language.
+                super().add_resource(Resource([Entry(Identifier(entry_id))]))
+        return super()._lookup(entry_id, term)

@@ -1,0 +1,68 @@
+"""Messages that are parsed when they are first said: the same as if the whole file were parsed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from fluent.runtime import FluentResource
+from fluent.syntax.ast import Junk, Message, Term
+
+from kiosk.assistance.late_messages import LateBundle, attributes_in, split
+from kiosk.places import ASSETS
+
+SHIPPED = sorted((ASSETS / "sentences").glob("*/*.ftl"))
+
+
+@pytest.mark.parametrize("file", SHIPPED, ids=lambda file: f"{file.parent.name}-{file.stem}")
+def test_a_shipped_file_is_split_into_what_the_parser_finds_in_it(file: Path) -> None:
+    source = file.read_text("utf-8")
+    parsed = FluentResource(source).body
+    assert not [entry for entry in parsed if isinstance(entry, Junk)]
+    whole = [entry for entry in parsed if isinstance(entry, Message | Term)]
+    names = [entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}" for entry in whole]
+    assert [name for name, _ in split(source)] == names
+    for entry, (_, text) in zip(whole, split(source), strict=True):
+        alone, *_ = FluentResource(text).body
+        assert alone.equals(entry, ["span", "comment"])
+        assert attributes_in(text) == {attribute.id.name for attribute in entry.attributes}
+
+
+LATE = """
+-brand = Recollect
+greeting = Welcome to { -brand }
+    .loud = WELCOME
+count = { $n ->
+    [one] one pair
+   *[other] { $n } pairs
+}
+"""
+
+
+def said(bundle: LateBundle, message: str, **variables: int) -> str:
+    """Return a message without faults."""
+    pattern = bundle.get_message(message).value
+    assert pattern is not None
+    text, errors = bundle.format_pattern(pattern, variables)
+    assert errors == []
+    return str(text)
+
+
+def test_messages_are_said_with_the_terms_they_name() -> None:
+    bundle = LateBundle(["en"], dict(split(LATE)))
+    assert said(bundle, "greeting") == "Welcome to Recollect"
+    assert said(bundle, "count", n=1) == "one pair"
+    assert set(bundle.get_message("greeting").attributes) == {"loud"}
+
+
+def test_a_parsed_message_replaces_one_that_was_not_said_yet() -> None:
+    bundle = LateBundle(["en"], dict(split(LATE)))
+    bundle.add_resource(FluentResource("-brand = Our game\n"), allow_overrides=True)
+    assert said(bundle, "greeting") == "Welcome to Our game"
+
+
+def test_a_message_that_is_broken_has_no_text() -> None:
+    bundle = LateBundle(["en"], dict(split("greeting = { $name\n")))
+    assert bundle.has_message("greeting")
+    assert bundle.get_message("greeting").value is None
+    assert not bundle.has_message("farewell")
