@@ -312,7 +312,8 @@ def run_check_process(what: str, command: Sequence[str], within_s: float, remedy
             command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=within_s, check=False
         )
     except subprocess.TimeoutExpired:
-        yield CheckResult.error(what, f"no answer within {within_s:g} s", remedy)
+        late = f"end other programs, if the machine is busy; otherwise {remedy}"
+        yield CheckResult.error(what, f"no answer within {within_s:g} s", late)
         return
     if done.returncode == 0:
         yield from from_json(done.stdout)

@@ -150,4 +150,5 @@ def test_a_process_that_hangs_is_ended() -> None:
     hangs = "import time; time.sleep(60)"
     found = alone(run_check_process("screen", python(hangs), 0.5, "plug one in"))
     assert (found.severity, "no answer" in found.message) == (Severity.ERROR, True)
+    assert found.remedy == "end other programs, if the machine is busy; otherwise plug one in"
     assert set(psutil.Process().children()) <= before
