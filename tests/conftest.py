@@ -26,6 +26,7 @@ SLOW = (
     *("experiment/test_events.py", "store/maintenance/test_withdraw_cut_off.py", "store/test_hard_times.py"),
     "store/test_power_cut.py",
     *("study/test_forming.py", "study/test_imported.py", "robots/test_speech.py", "test_story.py"),
+    *("study/test_any_study.py", "study/test_translations.py", "cli/test_backup.py", "test_remote.py"),
 )
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
