@@ -13,7 +13,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -101,6 +103,14 @@ def test_games_of_the_kernel_without_their_results(benchmark: Benchmark) -> None
     table, tallies = lay(MemoryPlayer((0.2, 0.2)), plan, 1), ints([0] * (MANY * TALLY))
     q = floats([value for row in policy.values for value in row])
     measured(benchmark, lambda: play_all(table, q, tallies), MANY)
+
+
+@pytest.mark.benchmark(group="games in processes")
+@pytest.mark.parametrize("processes", [1, 2])
+def test_games_in_processes(benchmark: Benchmark, processes: int) -> None:
+    """As many games in each of them; two take as long as one on two idle cores."""
+    with ProcessPoolExecutor(processes, get_context("fork")) as pool:
+        measured(benchmark, lambda: list(pool.map(games, [MANY] * processes)), processes * MANY)
 
 
 @pytest.mark.benchmark(group="episodes")
