@@ -158,3 +158,19 @@ def test_the_thanks_show_the_pairs_that_the_visitor_found_or_else_some_cards(boo
 def test_only_the_papers_two_conditions_have_a_picture(booth: Booth, names: set[str]) -> None:
     booth.app.screens.debrief.compare(names)
     assert booth.app.screens.debrief.property("compares") is (names == {"tom", "notom"})
+
+
+def test_the_helper_says_the_last_line_where_it_stands_beside_the_page(booth: Booth) -> None:
+    def said() -> set[bool]:
+        texts = [item for item in items(booth.app.window.contentItem()) if item.property("text") == "It is no test."]
+        return {lies_in(text, "Bubble") for text in texts}
+
+    booth.app.screens.debrief.show(
+        Page(title="What we study", paragraphs=("There are two versions.", "It is no test."))
+    )
+    booth.app.screens.kiosk.show("debrief")
+    booth.settle()
+    assert said() == {True}
+    booth.app.screens.avatar.appear(present=False)
+    booth.settle()
+    assert said() == {False}

@@ -273,7 +273,7 @@ Window {
         sign: "M8 5 V19 M16 5 V19"
         title: root.words["pause-title"]
         line: root.kiosk.pauseLine
-        lineSize: root.wide ? Theme.body : Theme.size(40)
+        lineSize: Theme.size(40)
     }
     SidePanel {
         id: helper

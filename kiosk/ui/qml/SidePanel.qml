@@ -102,7 +102,7 @@ Item {
         id: bubble
         // Not from edge to edge: the difference of two edges that have moved and come back lacks the last bit.
         width: parent.width
-        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: panel.avatar.present ? -0.14 * face.height : 4 * Theme.unit }
+        anchors { top: parent.top; bottom: panel.avatar.present ? face.top : parent.bottom; bottomMargin: !panel.avatar.present ? 4 * Theme.unit : panel.leads && face.mood === "listening" ? -0.04 * face.height : -0.14 * face.height }
         sentence: panel.rests || panel.hushed ? "" : panel.said === "" || (panel.leads && panel.aside !== "") ? panel.aside : panel.said
         thinks: panel.speaks && !panel.rests && !panel.hushed && panel.thinks && sentence === ""
         hasSpeaker: panel.avatar.present
