@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import sqlite3
+import struct
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -41,6 +42,7 @@ ANSWER = "a quite unmistakable answer"
 OTHERS = "the answer of another person"
 ROOT = Path(__file__).parents[3]
 PAGE = 4096
+LEAF = 13
 KILLED, CUT_AT_A_PAGE = -9, -25
 
 Cut = Callable[..., int]
@@ -212,6 +214,32 @@ def test_an_unfinished_withdrawal_is_told_by_verify_and_by_check(cut_off: Path) 
     assert [copy.check for copy in copies] == [Verification.COPIES] * 2
     (found,) = database_check(cut_off, busy=False)
     assert (found.severity, "a withdrawal was cut off" in found.message) == (Severity.WARNING, True)
+
+
+def leave_between_rows(folder: Path, words: str) -> None:
+    """Write words where no row stands, as SQLite leaves what stood on a page before its rows were moved."""
+    with closing(sqlite3.connect(folder / FILE)) as connection:
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    content = bytearray((folder / FILE).read_bytes())
+    for page in range(PAGE, len(content), PAGE):
+        kind, _, rows_there, end = struct.unpack_from(">BHHH", content, page)
+        begin = 8 + 2 * rows_there
+        if kind == LEAF and end - begin > len(words):
+            content[page + begin : page + begin + len(words)] = words.encode()
+    (folder / FILE).write_bytes(content)
+    assert holding(folder, words)[-1] == FILE
+
+
+def test_a_withdrawal_clears_what_stands_between_the_rows(data: Path, code: str) -> None:
+    leave_between_rows(data, ANSWER)
+    withdraw(data, code)
+    check_finished(data, code)
+
+
+def test_a_start_that_finishes_a_withdrawal_clears_what_stands_between_the_rows(cut_off: Path, code: str) -> None:
+    leave_between_rows(cut_off, ANSWER)
+    Recorder(cut_off).__exit__(None, None, None)
+    check_finished(cut_off, code)
 
 
 def test_only_the_same_code_finishes_a_withdrawal_by_name(cut_off: Path, code: str) -> None:
