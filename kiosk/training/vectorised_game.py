@@ -39,6 +39,8 @@ COMPILED: bool = _numba is not None and not _numba.config.DISABLE_JIT
 
 def _name_of_rules() -> str:
     """Return a name for the content of all rules: numba looks at the file of the outermost rule only."""
+    if not COMPILED:  # A build without numba has no sources to read either.
+        return "rules"
     names = Path(__file__).parents[1] / "assistance" / "policy.py"
     content = b"".join(file.read_bytes() for file in [names, *sorted(Path(__file__).parent.glob("*.py"))])
     return f"rules-{hashlib.sha256(content).hexdigest()[:16]}"
