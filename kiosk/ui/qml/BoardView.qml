@@ -45,13 +45,13 @@ FocusScope {
     // On an upright screen: the line of words above the tray, and a place of the tray. They depend on no height.
     readonly property real wordsLine: ((practises ? 78 : 44) * Math.max(1, Theme.textSize) + 20) * Theme.unit + wordsApart
     readonly property real wordsApart: (practises ? 20 : 8) * Theme.unit
-    readonly property real shelfSlot: Math.floor(Math.min(90 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
+    readonly property real shelfSlot: Math.floor(Math.min(104 * Theme.unit, (width - numbers - 2 * Theme.gap) / Math.max(1, Math.ceil(pairs / shelfLines))))
     readonly property real shelf: wordsLine + shelfLines * shelfSlot + 8 * Theme.unit
     readonly property real usualStrip: upright ? shelf : (tall ? 144 : 84) * Math.max(1, 0.9 * Theme.textSize) * Theme.unit
     readonly property real strip: broad ? 0 : usualStrip
     // The shelf stands further from the columns' numbers than the cards do, as they name the cards; but no card gets
     // smaller by it.
-    readonly property real apart: upright ? 48 * Theme.unit : 0
+    readonly property real apart: upright ? 60 * Theme.unit : 0
     readonly property real spare: Math.floor(height - 20 * Theme.unit - strip - numbers - footer - rows * widest) - 1
     readonly property real header: (broad ? 12 : 20) * Theme.unit + strip
         + Math.max(upright && Theme.textSize > 1.15 ? 18 * Theme.unit : 0, Math.min(apart, spare))

@@ -37,7 +37,7 @@ Item {
         width: words.width
         textFormat: Text.PlainText
         text: words.text
-        font.pixelSize: Theme.size((text.length > 130 ? 29 : 32) + (bubble.calls ? 18 : bubble.large ? 4 : 0))
+        font.pixelSize: Theme.size(bubble.calls ? 50 : bubble.large ? 36 : text.length > 130 ? 29 : 32)
         lineHeight: words.lineHeight
         wrapMode: Text.Wrap
     }

@@ -18,7 +18,7 @@ PageFrame {
     // Lines with drawings stand below each other, as large as the page has room for above the card; on a page that has too
     // little for that, without the drawings.
     readonly property bool signed: debrief.lines.length > 0 && debrief.lines[0].sign !== "" && fits(Theme.small, Theme.small, 0.5)
-    readonly property real size: signed ? [34, 32, 30, 29].map(Theme.size).find(size => fits(size, noted, apart)) ?? Theme.small
+    readonly property real size: signed ? (width < height ? [38, 36, 34, 32, 30, 29] : [34, 32, 30, 29]).map(Theme.size).find(size => fits(size, noted, apart)) ?? Theme.small
         : room < 720 * Theme.unit ? Theme.small : Theme.reading
     // What stands on the card is read from it at home, in a photograph.
     readonly property real noted: width < height && fits(Theme.size(32), Theme.reading, 0.5) ? Theme.reading : Theme.small
@@ -31,16 +31,23 @@ PageFrame {
     }
     // Whether the lines have this size at most, with the card below them in its own.
     function fits(size: real, cardSize: real, apart: real): bool {
+        return estimate(size, cardSize, apart) <= (width < height ? 0.91 : 1) * room
+    }
+    // How high lines and card are about then.
+    function estimate(size: real, cardSize: real, apart: real): real {
         // Small letters are set on whole pixels, which makes them wider.
-        const exact = Theme.unit < 0.9 ? 0.95 : 0.98
+        const exact = Theme.unit < 0.9 ? 0.95 : size > Theme.size(34) ? 0.93 : 0.98
         const wide = (column - 2.5 * size - Theme.gap) * exact
         const tall = read.reduce((sum, line) => sum + Math.max(2.5 * size, lines(line.text, size, wide) * 1.09 * Math.ceil(1.37 * size)), 0)
         const beside = (column - 290 * Theme.unit - 2.5 * Theme.gap) * 0.95
         const noted = [debrief.withdrawing, debrief.returning, debrief.questions, debrief.summary].reduce((sum, text) => sum + lines(text, cardSize, beside), 0)
         const heading = lines(kept, 1.08 * Theme.body, beside)
         const card = heading * Math.ceil(1.37 * Theme.body) + 1.38 * Theme.figure + noted * Math.ceil(1.37 * cardSize) + 2.6 * Theme.gap
-        return tall + (read.length + 1) * apart * Theme.gap + Math.max(326 * Theme.unit, card) <= (width < height ? 0.93 : 1) * room
+        return tall + (read.length + 1) * apart * Theme.gap + Math.max(326 * Theme.unit, card)
     }
+    // What is added to that where an upright page has room for it.
+    readonly property real further: !signed || width > height ? 0
+        : Math.max(0, Math.min(Theme.gap, (0.92 * room - estimate(size, noted, apart)) / read.length))
     function lines(text: string, size: real, room: real): int {
         return Math.ceil(letters.advanceWidth(text) * size / 100 / room)
     }
@@ -81,7 +88,7 @@ PageFrame {
                         id: part
                         required property int index
                         width: texts.halved ? (texts.width - texts.spacing) / 2 : texts.width
-                        spacing: (view.signed ? view.apart : 1) * Theme.gap
+                        spacing: (view.signed ? view.apart : 1) * Theme.gap + view.further
                         Repeater {
                             model: part.index === 0 ? texts.lines.slice(0, texts.first) : texts.lines.slice(texts.first)
                             SignedLine {

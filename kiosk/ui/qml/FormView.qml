@@ -43,15 +43,24 @@ PageFrame {
         && form.items.every(item => ["integer", "single", "text"].includes(item.kind) && !item.exempts)
 
     // Whether they stand beside the number in its card, on a wide screen whose helper stands beside the page.
+    readonly property bool upright: width < height
     readonly property bool strip: {
         const field = keyboard.field
-        if (!accompanied || alone || field === null || !field.digits || field.minus || mirrored)
+        if (!(accompanied || upright && Theme.textSize <= 1.15) || alone || field === null || !field.digits || field.minus || mirrored)
             return false
         const box = card(field)
-        return box !== null && box.width - box.taken - 2.4 * Theme.gap >= stripWidth
+        return box !== null && box.width - box.taken - (upright ? 1.8 : 2.4) * Theme.gap >= stripWidth
     }
     readonly property bool mirrored: Theme.mirrored
-    readonly property real stripWidth: 525 * Theme.unit
+    readonly property real stripWidth: (upright ? 485 : 525) * Theme.unit
+    // How many lines the longest statement of an upright page of ratings takes; 1 where they are not alike.
+    property int mostLines: 1
+    function countLines() {
+        let most = 1
+        for (let i = 0; i < boxes.count; i++)
+            most = Math.max(most, (boxes.itemAt(i) as FormItem)?.lines ?? 1)
+        mostLines = upright && !alone && Theme.textSize <= 1.15 && form.items.every(item => scales(item)) ? most : 1
+    }
     // The item that a field belongs to.
     function card(field: Item): FormItem {
         for (let i = 0; i < boxes.count; i++) {
@@ -160,6 +169,23 @@ PageFrame {
         anchors.fill: parent
         TapHandler { onTapped: view.way.button.forceActiveFocus() }
     }
+    // The same as a line of as many parts, over an upright page.
+    Row {
+        visible: progress.visible && view.upright
+        y: -0.75 * Theme.gap
+        width: view.column
+        spacing: 8 * Theme.unit
+        Repeater {
+            model: view.form.pages
+            Rectangle {
+                required property int index
+                width: (view.column - (view.form.pages - 1) * 8 * Theme.unit) / Math.max(1, view.form.pages)
+                height: 8 * Theme.unit
+                radius: height / 2
+                color: index < view.form.page ? Theme.sea : Theme.sand
+            }
+        }
+    }
     // Which page this is, in words: dots tell how far the whole visit is.
     Text {
         id: progress
@@ -240,6 +266,9 @@ PageFrame {
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)
+                    leastLines: view.mostLines
+                    crowded: view.strip && view.upright
+                    onLinesChanged: view.countLines()
                     onEntered: field => keyboard.field = field
                 }
             }

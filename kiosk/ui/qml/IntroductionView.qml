@@ -49,13 +49,13 @@ PageFrame {
         required property bool plays
 
         // Beside a sentence by the width alone, and above one by what is left of the height: no size follows from itself.
-        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 5, 190 * Theme.unit,
+        readonly property real small: Math.floor(Math.min((width - numbers - 3 * Theme.gap) / 4.6, 190 * Theme.unit,
             ((view.room - (view.boards - 1) * Theme.gap) / view.boards - 2 * pad - numbers) / 2))
         readonly property real most: Math.floor(Math.min((width - 2 * numbers - 0.5 * Theme.gap) / view.across,
                 (view.room - telling.height - numbers - 0.6 * Theme.gap - 2 * pad) / view.down))
         readonly property real cell: view.abreast ? scenes.cell : small
         readonly property real numbers: 34 * Theme.unit
-        readonly property real pad: 0.8 * Theme.gap
+        readonly property real pad: (view.abreast ? 0.8 : 0.5) * Theme.gap
 
         width: view.abreast ? (view.column - (view.boards - 1) * Theme.gap) / view.boards : view.column
         height: view.abreast ? scenes.tallest : Math.max(board.height + numbers, telling.height) + 2 * pad
@@ -96,7 +96,7 @@ PageFrame {
                     CardFace {
                         id: face
                         anchors.centerIn: parent
-                        width: Math.floor(scene.cell * 0.84)
+                        width: Math.floor(scene.cell * (view.abreast ? 0.84 : 0.9))
                         height: width
                         back: view.cardBack
                         shadow: view.cardShadow
@@ -112,7 +112,7 @@ PageFrame {
             y: view.abreast ? board.y + board.height + 0.6 * Theme.gap : (scene.height - height) / 2
             width: scene.width - 2 * scene.pad - (view.abreast ? 0 : scene.numbers + 3 * scene.small + 1.2 * Theme.gap)
             text: scene.text
-            font { pixelSize: view.abreast ? Theme.reading : Theme.body; bold: true }
+            font { pixelSize: view.abreast ? Theme.reading : Theme.textSize > 1.15 ? Theme.body : Theme.size(38); bold: true }
             horizontalAlignment: view.abreast ? Text.AlignHCenter : Text.AlignLeft
             color: Theme.ink
         }

@@ -110,7 +110,7 @@ Window {
         x: root.wide && root.boardOnRight ? root.width - width : 0
         y: root.wide || !boardView.visible ? 0
          : Math.round(root.high ? Math.max(0, (free - height) / 2)
-                      : Math.max(0.01 * root.room, Math.min(0.08 * root.room, 0.65 * root.room - height)))
+                      : 0.03 * root.room)
         readonly property real free: root.room - corner.height - Theme.gap - root.sentence
         LayoutMirroring.enabled: Theme.mirrored
         LayoutMirroring.childrenInherit: true
@@ -283,7 +283,9 @@ Window {
         x: below ? (root.width - width) / 2 : root.boardOnRight ? Theme.gap : stage.width
         // A whole number: edges that move by fractions do not come back to the last bit.
         readonly property real above: !below && corner.visible ? Math.ceil(corner.height + 0.7 * Theme.gap) : 0
-        y: below ? stage.y + stage.height : above
+        // On an upright screen a long sentence may reach up to the cards, where an announcement stood before it.
+        readonly property real reach: boardView.visible && !root.wide && root.avatar.present && root.texts <= 1 ? 80 * Theme.unit : 0
+        y: below ? stage.y + stage.height - reach : above
         // Beside a robot on a wide screen, what is said ends before the controls.
         width: !below ? root.width - stage.width - Theme.gap : broad ? 0.88 * root.width
              : Math.min(0.76 * root.width, root.width - 2 * (3 * corner.step + 1.7 * Theme.gap))
@@ -296,15 +298,17 @@ Window {
         rests: root.kiosk.paused
         waits: root.kiosk.asks !== "" || root.kiosk.asksStillThere
         // Large sentences need the room.
-        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.725 : attractView.visible ? 0.88 : 0.72) : 0.64
+        share: root.wide ? (attractView.visible ? 0.6 : 0.52) : root.texts <= 1.15 ? (boardView.visible ? 0.68 : attractView.visible ? 0.88 : root.kiosk.screen === "introduction" ? 0.65 : 0.72) : 0.64
         broad: !root.wide
         calls: root.accompanied && attractView.visible
         leads: root.asking || !root.speaks
         hushed: root.asking && !root.wide
-        aside: !root.accompanied ? "" : root.kiosk.asksStillThere ? root.words["still-there-line"]
+        readonly property string turn: boardView.visible && root.board.untouched && root.board.open ? root.words["game-begin"] : ""
+        aside: !root.avatar.present || root.whole ? "" : !root.wide ? (root.kiosk.asks === "" && !root.kiosk.asksStillThere ? turn : "")
+             : root.kiosk.asksStillThere ? root.words["still-there-line"]
              : root.kiosk.asks !== "" ? "" : attractView.visible ? root.attract.line
              : formView.visible ? (root.avatar.away || formView.keysBeside ? "" : root.words["form-calm"])
-             : boardView.visible ? (root.board.untouched && root.board.open ? root.words["game-begin"] : "")
+             : boardView.visible ? turn
              : [aboutPage, agePage, consentPage, debriefPage].find(page => page.shown)?.aside ?? ""
         quiet: boardView.visible && boardView.moves
         marks: boardView.visible && boardView.marks

@@ -16,10 +16,14 @@ PageFrame {
     // Who found no pair sees some of the cards.
     readonly property list<url> pictures: result.pictures.length > 0 ? result.pictures : attract.pictures
     readonly property int count: Math.min(5, pictures.length)
-    readonly property real overlap: width > height ? 0.72 : 0.62
+    readonly property real overlap: width > height ? 0.72 : 1.1
+    // On an upright screen they lie in two rows, and none covers another.
+    readonly property int lines: width < height && count > 3 ? 2 : 1
+    readonly property int first: Math.ceil(count / lines)
     // With room for the cards' slant.
-    readonly property real slot: Math.max(0, Math.min((width > height ? 300 : 280) * Theme.unit, column / (overlap * (count - 1) + 1.25),
-        (room - parting.height - parting.space) / 1.5))
+    readonly property real slot: Math.max(0, Math.min(300 * Theme.unit, column / (overlap * (first - 1) + 1.25),
+        (room - parting.height - parting.space) / (lines > 1 ? 2.5 : 1.5)))
+    readonly property real spread: (lines > 1 ? 2.35 : 1.3) * slot
     // The hand opens as the screen comes.
     property real open: visible ? 1 : 0
     Behavior on open { enabled: view.visible; NumberAnimation { duration: 3 * Theme.motion; easing.type: Easing.OutBack } }
@@ -33,7 +37,7 @@ PageFrame {
         id: parting
         objectName: "page-title"
         readonly property real space: 2.5 * Theme.gap
-        y: Math.max(0, (view.room - height - space - 1.3 * view.slot) / 2.4)
+        y: Math.max(0, (view.room - height - space - view.spread) / 2.4)
         width: parent?.width ?? 0
         text: view.words["thanks-title"]
         horizontalAlignment: Text.AlignHCenter
@@ -44,18 +48,19 @@ PageFrame {
         anchors.horizontalCenter: parent?.horizontalCenter
         y: parting.y + parting.height + parting.space
         visible: view.slot >= 60 * Theme.unit
-        width: (view.overlap * (view.count - 1) + 1) * view.slot
-        height: 1.3 * view.slot
+        width: (view.overlap * (view.first - 1) + 1) * view.slot
+        height: view.spread
         Repeater {
             model: view.count
             CardFace {
                 required property int index
-                readonly property real place: index - (view.count - 1) / 2
+                readonly property bool below: index >= view.first
+                readonly property real place: below ? index - view.first - (view.count - view.first - 1) / 2 : index - (view.first - 1) / 2
                 x: (parent?.width ?? 0) / 2 - width / 2 + place * view.overlap * view.slot * view.open
-                y: 0.05 * view.slot + 0.04 * view.slot * place * place * view.open
+                y: 0.05 * view.slot + 0.04 * view.slot * place * place * view.open + (below ? 1.16 * view.slot : 0)
                 width: Math.floor(view.slot)
                 height: width
-                rotation: 7 * place * view.open
+                rotation: (view.lines > 1 ? 5 : 7) * place * view.open
                 back: view.cardBack
                 shadow: view.cardShadow
                 picture: view.pictures[index] ?? ""

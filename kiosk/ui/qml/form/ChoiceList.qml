@@ -13,6 +13,7 @@ Flow {
     required property bool several
     required property bool alone
     required property bool dense
+    property bool large: false          // whether there is much height for the page
     required property real tall         // how high an option is at least
     signal picked(string option)
 
@@ -87,7 +88,7 @@ Flow {
             height: Math.max(implicitHeight, list.tall)
             width: list.stacked ? list.width : list.flowing ? list.filled[index] : list.tiled ? list.tile : Math.min(implicitWidth, list.width)
             words: modelData.text
-            font.pixelSize: list.alone ? Theme.body : Theme.reading
+            font.pixelSize: list.alone ? Theme.body : list.large ? Theme.size(34) : Theme.reading
             leftPadding: (list.narrow ? 14 : 22) * Theme.unit
             rightPadding: (list.narrow ? 16 : 30) * Theme.unit
             verticalPadding: (list.alone ? 16 : list.narrow ? 3 : 10) * Theme.unit

@@ -19,6 +19,11 @@ Item {
     // Whether its scale stands beside its text, as in a table, and whether the words for the ends head it.
     property bool beside: false
     property bool headed: true
+    // How many lines its text takes, and how many it has at least, so that the cards of a page are as high.
+    readonly property int lines: question.lineCount
+    property int leastLines: 1
+    // Whether the keys of a number stand in this page's cards, with little room for anything else.
+    property bool crowded: false
     // How large its text is then.
     property real rowText: Theme.body
     // How much of the row is its text's.
@@ -38,7 +43,7 @@ Item {
     readonly property real plain: head + told.height + (way.active ? usualSpacing + way.height : 0) + 2 * usualMargin
     readonly property real addable: alone || beside ? 0 : 32 * Theme.unit
     // Where its text and a number beside each other end, from the left.
-    readonly property real taken: Math.max(question.contentWidth, (way.item as NumberField)?.width ?? 0) + 1.2 * Theme.gap
+    readonly property real taken: Math.max(question.contentWidth, (large ? (way.item as NumberField)?.core : (way.item as NumberField)?.width) ?? 0) + 1.2 * Theme.gap
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 18 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
     readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
@@ -117,6 +122,8 @@ Item {
                 Balanced {
                     id: question
                     width: parent.width
+                    height: Math.max(implicitHeight, box.leastLines * implicitHeight / Math.max(1, lineCount))
+                    verticalAlignment: Text.AlignVCenter
                     text: box.item.text
                     font {
                         pixelSize: box.item.kind === "page" ? Theme.size(36) : box.alone ? Theme.heading
@@ -258,7 +265,8 @@ Item {
             chosen: box.answer === undefined ? [] : several ? box.answer : [box.answer]
             alone: box.alone
             dense: box.form.items.length > 3
-            tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : 76) * Theme.unit
+            large: box.airy
+            tall: (box.tight || (Theme.textSize > 1.15 && !box.large) || box.form.items.length > 3 ? 62 : box.airy ? 84 : 76) * Theme.unit
             onPicked: option => several ? box.form.toggle(box.item.id, option) : box.form.choose(box.item.id, option)
         }
     }
@@ -266,6 +274,7 @@ Item {
         id: number
         NumberField {
             room: content.width
+            crowded: box.crowded
             item: box.item.id
             form: box.form
             label: box.item.text

@@ -18,6 +18,10 @@ Row {
     required property string pattern    // what may stand in the field
     required property string less
     required property string more
+    // Whether there is no room for what it takes beside it, as while keys stand there.
+    property bool crowded: false
+    // How wide it is without that.
+    readonly property real core: 2 * field.height + field.width + 2 * spacing
     property alias text: field.text
     signal typed(string text)
     signal done()
@@ -116,6 +120,7 @@ Row {
     }
     PlainText {
         id: asked
+        visible: !number.crowded
         opacity: field.length > 0 ? 1 : 0
         anchors.verticalCenter: parent.verticalCenter
         leftPadding: 0.5 * Theme.gap

@@ -76,6 +76,7 @@ PanelSection {
             id: end
             y: 12 * Theme.unit
             objectName: "action-end"
+            width: actions.even ? parent.width : Math.min(implicitWidth, parent.width)
             words: actions.words["console-abort"]
             onClicked: actions.panel.wish("abort", "")
         }
@@ -84,6 +85,7 @@ PanelSection {
         width: parent.width
         action: "break"
         large: true
+        even: actions.even
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""

@@ -10,7 +10,11 @@ Rectangle {
     property real aside: 0     // how much room the heading leaves for what stands beside it
     default property alias content: body.data
 
-    height: body.height + heading.height + 2.4 * Theme.gap
+    // How high it is at least, where it ends with another one beside it.
+    property real least: 0
+    readonly property real wish: body.height + heading.height + 2.4 * Theme.gap
+
+    height: Math.max(least, wish)
     radius: Theme.radius
     color: Theme.white
     border { color: Theme.edge; width: 2 * Theme.unit }

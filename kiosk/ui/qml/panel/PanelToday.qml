@@ -51,9 +51,11 @@ Column {
             id: left
             width: today.wide ? parent.width * 0.31 : (parent.width - today.space) * 0.5
             spacing: today.space
-            PanelAlarms { width: parent.width; panel: today.panel }
+            PanelAlarms { id: alarms; width: parent.width; panel: today.panel }
             PanelSection {
                 width: parent.width
+                // On an upright screen it ends with the shortcuts beside it.
+                least: today.wide ? 0 : (shortcuts.visible ? shortcuts.y + shortcuts.height : right.height) - alarms.height - today.space
                 title: today.words["console-health"]
                 Repeater {
                     model: today.panel.health.lines
