@@ -18,7 +18,7 @@ import psutil
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "reference" / "benchmarks.md"
 SESSIONS = "100,1000"
-BENCHES = ("tests/bench/test_growth.py", "tests/bench/test_training.py")
+BENCHES = ("tests/bench/test_growth.py", "tests/bench/test_training.py", "tests/bench/test_start.py")
 SHOWN = "not reference and not episodes and not numba"
 
 HEAD = """# Benchmarks
@@ -47,6 +47,13 @@ TABLE = """
 `recollect train --name default` in a process of its own, with the start of Python.
 
 """
+STARTS = """
+## Starts
+
+Each program is started in turns with a reference that does only what nothing could do without: an empty Qt Quick window
+for the kiosk, and a click program that prints a word for the commands. Times are the middle ones of the rounds.
+
+"""
 
 
 def measured(sessions: str) -> dict[str, Any]:
@@ -69,7 +76,7 @@ def page(told: dict[str, Any]) -> str:
     run = f"Measured on {told['datetime'][:10]}: {processor}, {os.cpu_count()} processors, "
     run += f"{platform.system()}, Python {machine['python_version']}. Load before the run: {told['load']:.1f}.\n"
     shortest = {bench["name"].removeprefix("test_"): bench["stats"]["min"] for bench in told["benchmarks"]}
-    return HEAD + run + _growth(shortest) + _games(shortest) + _table(shortest)
+    return HEAD + run + _growth(shortest) + _games(shortest) + _table(shortest) + starts(told["benchmarks"])
 
 
 def _growth(shortest: dict[str, float]) -> str:
@@ -113,6 +120,24 @@ def _table(shortest: dict[str, float]) -> str:
         if name.startswith(before)
     ]
     return TABLE + table(["how", "time"], rows)
+
+
+def starts(benches: list[dict[str, Any]]) -> str:
+    """Return the section about starts."""
+    names = {
+        "test_start_to_first_picture": "the kiosk, until its first picture",
+        "test_start_to_ready_for_a_tap": "the kiosk, until its start screen can be tapped",
+    }
+    rows = []
+    for bench in benches:
+        used = bench["extra_info"]
+        if "processor" in used:
+            what = names.get(bench["name"]) or f"`recollect {bench['param']}`"
+            times = [f"{used[each]['times the reference']:.1f}" for each in ("processor", "wall")]
+            spent = [in_words(used["processor"][each] / 1000) for each in ("ms", "reference ms")]
+            rows.append([what, *spent, *times])
+    head = ["what", "processor time", "of the reference", "times", "times on the clock"]
+    return STARTS + table(head, rows)
 
 
 def in_words(seconds: float) -> str:

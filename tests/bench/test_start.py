@@ -27,7 +27,7 @@ from kiosk.units import MS_PER_SECOND
 from tests.bench.percentiles import tell_percentiles
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen", "QT_QUICK_BACKEND": "software", "QSG_RENDER_LOOP": "basic"}
-ROUNDS = 9
+ROUNDS = 5
 LONG_S = 120.0
 
 EMPTY_WINDOW = """
