@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from contextlib import suppress
+from io import BufferedReader
 from pathlib import Path
 
 from kiosk import UserInputError, unwritable
@@ -30,6 +31,13 @@ def write_file(path: Path, content: str | bytes) -> None:
         replace_file(path, content)
     except OSError as error:
         raise unwritable(f"{path} cannot be written", error) from error
+
+
+def open_to_read(path: Path) -> BufferedReader:
+    """Open a file to read its bytes; raises OSError, also for a pipe, where nothing may ever come."""
+    if path.is_fifo():
+        raise OSError(errno.ESPIPE, "it is a pipe and no file")
+    return path.open("rb")
 
 
 def replace_file(path: Path, content: str | bytes, mode: int = 0o666, *, durable: bool = True) -> None:

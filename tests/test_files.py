@@ -8,8 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from kiosk import StorageError
+from kiosk import StorageError, UserInputError
+from kiosk.config import Settings
 from kiosk.files import make_folder, replace_file, sync_folder, sync_tree, write_file
+from kiosk.study.csv_import import text_of_table
+from kiosk.study.decks import picture_faults
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
@@ -31,6 +34,17 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkey
         write_file(file, "new")
     assert file.read_text("utf-8") == "old"
     assert list(tmp_path.iterdir()) == [file]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a folder of Windows holds no pipes")
+def test_a_pipe_in_place_of_a_file_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "study.toml"
+    os.mkfifo(pipe)
+    with pytest.raises(UserInputError, match="cannot be read: it is a pipe and no file"):
+        Settings.read(pipe)
+    with pytest.raises(UserInputError, match="cannot be read: it is a pipe and no file"):
+        text_of_table("the table", pipe)
+    assert list(picture_faults(pipe)) == [f"the picture {pipe} cannot be read: it is a pipe and no file"]
 
 
 def test_a_private_file_is_for_its_owner_alone(tmp_path: Path) -> None:

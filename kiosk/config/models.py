@@ -23,6 +23,7 @@ from kiosk.errors import (
     toml_error_message,
     validation_messages,
 )
+from kiosk.files import open_to_read
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, Unit
 
 MOST_CHARACTERS = 500
@@ -77,7 +78,7 @@ _LONG_NUMBER = re.compile(r"\d[\d_]{400,}")
 def read_text(name: str, path: Path) -> str:
     """Read a text file of a study; raises UserInputError, in which the file is called ``name``."""
     try:
-        with path.open("rb") as file:
+        with open_to_read(path) as file:
             content = file.read(MOST_BYTES + 1)
         if len(content) > MOST_BYTES:
             raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")

@@ -23,7 +23,7 @@ from kiosk.config import MOST_BYTES
 from kiosk.errors import error_message, validation_errors, validation_messages
 from kiosk.experiment.items import BaseItem, Question
 from kiosk.experiment.questionnaire import ITEM_KINDS, ItemOrder, Questionnaire
-from kiosk.files import write_file
+from kiosk.files import open_to_read, write_file
 from kiosk.language_codes import is_right, standard
 
 _YES = dict.fromkeys(
@@ -156,7 +156,7 @@ def _lines(name: str, file: Path) -> tuple[list[list[str]], int]:
 def text_of_table(name: str, file: Path) -> str:
     """Return the text of a table; spreadsheet programs mark UTF-16, and UTF-8 if they are asked for it."""
     try:
-        with file.open("rb") as opened:
+        with open_to_read(file) as opened:
             content = opened.read(MOST_BYTES + 1)
         if len(content) > MOST_BYTES:
             raise UserInputError(f"{name} is too long: it has more than {MOST_BYTES // 1024} KiB")

@@ -14,6 +14,7 @@ from xml.parsers import expat
 from kiosk import UserInputError
 from kiosk.assistance.wording import CARD, Catalogue, card_message
 from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
+from kiosk.files import open_to_read
 from kiosk.language_codes import is_right
 
 _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", ".heif", ".avif", ".psd", ".ico"))
@@ -60,7 +61,7 @@ def picture_faults(file: Path) -> Iterator[str]:
     """Yield what can be said against a picture without drawing it: its size, its first bytes, scripts in an SVG."""
     try:
         size = file.stat().st_size
-        with file.open("rb") as opened:
+        with open_to_read(file) as opened:
             begin = opened.read(_HEAD_BYTES)
     except OSError as error:
         yield f"the picture {file} cannot be read: {error.strerror}"

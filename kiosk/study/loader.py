@@ -35,6 +35,7 @@ from kiosk.experiment.labels import alike, fold_name, is_reserved, read_as
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.session_config import SessionConfig, Source, StudyConfig
 from kiosk.experiment.transitions import StageOrder
+from kiosk.files import open_to_read
 from kiosk.game import CARDS_IN_A_PAIR
 from kiosk.language_codes import standard
 from kiosk.study.decks import CardNames, deck_faults, picture_faults, read_names
@@ -624,7 +625,7 @@ def _hash_of_files(files: Iterable[Path]) -> str:
 
 def _digest(file: Path) -> str:
     try:
-        with file.open("rb") as opened:
+        with open_to_read(file) as opened:
             return hashlib.file_digest(opened, "sha256").hexdigest()
     except OSError:
         # That it cannot be read is said elsewhere.

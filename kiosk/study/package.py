@@ -26,7 +26,7 @@ from kiosk.config import ConfigModel, ExperimenterConfig, PackageOrigin, Setting
 from kiosk.errors import validation_messages
 from kiosk.experiment.labels import fold_name, is_reserved
 from kiosk.experiment.session_config import Source
-from kiosk.files import replace_file, write_file
+from kiosk.files import open_to_read, replace_file, write_file
 
 ENDING = ".recollect"
 MANIFEST = "study.json"
@@ -199,7 +199,8 @@ def read_package(path: Path) -> Package:
     try:
         if path.stat().st_size > MOST_BYTES:
             raise UserInputError(f"{name} is too large: it has more than {MOST_BYTES // 1024**2} MiB")
-        content = path.read_bytes()
+        with open_to_read(path) as file:
+            content = file.read()
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     try:

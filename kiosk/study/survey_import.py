@@ -24,6 +24,7 @@ from kiosk import UserInputError
 from kiosk.errors import validation_messages
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.relevance import read_condition
+from kiosk.files import open_to_read
 from kiosk.language_codes import is_right, standard
 from kiosk.study.csv_import import Heading, text_of_table
 
@@ -191,7 +192,8 @@ def _json(name: str, file: Path) -> Any:
     try:
         if file.stat().st_size > MOST_BYTES:
             raise UserInputError(f"{name} is too large for a questionnaire")
-        return json.loads(file.read_text("utf-8-sig"))
+        with open_to_read(file) as opened:
+            return json.loads(opened.read().decode("utf-8-sig"))
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
