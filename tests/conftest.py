@@ -31,10 +31,11 @@ SLOW = (
 """Folders and files of tests that open windows, start programs, train, or play hundreds of games."""
 
 LONGEST = (
-    *("ui/test_every_language_fits.py", "packaging/test_builds.py", "cli/test_readme.py", "cli/test_pages.py"),
-    "ui/test_faults.py",
-    *("ui/test_accessibility.py", "ui/test_whole_session.py", "ui/test_resume.py", "ui/test_without_a_mouse.py"),
-    *("ui/test_nothing_is_left.py", "analysis/test_plan.py"),
+    *("cli/test_pages.py", "ui/test_every_language_fits.py", "packaging/test_builds.py", "cli/test_readme.py"),
+    *("analysis/test_plan.py", "ui/test_faults.py", "ui/test_pages_settle.py", "ui/test_whole_session.py"),
+    *("test_story.py", "ui/test_accessibility.py", "ui/test_resume.py", "ui/test_without_a_mouse.py"),
+    *("ui/test_long_words.py", "store/maintenance/test_withdraw_cut_off.py", "cli/test_robot.py"),
+    *("ui/experimenter/test_shortcuts.py", "ui/test_nothing_is_left.py", "ui/test_full_disk.py"),
 )
 """Files that take longest. They begin first, so that no process works on alone at the end."""
 
