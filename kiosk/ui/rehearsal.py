@@ -142,6 +142,9 @@ class ContactSheet:
             raise unwritten(file)
 
 
+PICTURE_QUALITY = 70
+"""How hard a picture is compressed, as Qt counts: it takes two thirds of the usual time, and a sixth more space."""
+
 _LOADING_S = 2.0
 """How long a picture that is still loaded is waited for."""
 
@@ -196,7 +199,7 @@ class Screenshots:
             QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
             picture = self._window.grabWindow()
         self.sheet.add(Path(name).stem, picture)
-        if self.folder is not None and not picture.save(str(self.folder / name)):
+        if self.folder is not None and not picture.save(str(self.folder / name), quality=PICTURE_QUALITY):
             raise unwritten(self.folder / name)
 
 

@@ -16,7 +16,7 @@ from kiosk.experiment.replay import ReplayStep
 from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.ui.event_loop import Clock, EventLoop, WallClock
-from kiosk.ui.rehearsal import unwritten
+from kiosk.ui.rehearsal import PICTURE_QUALITY, unwritten
 from kiosk.ui.renderer import Renderer
 from kiosk.ui.replay_controls import ReplayControls, ReplayPlayer
 from kiosk.ui.screens.avatar import AvatarBody
@@ -141,7 +141,7 @@ class Replay:
             self.player.step()
             if changes_screen(step):
                 file = folder / f"{index:05}-{step.event.at_ms:07}ms-{step.stage.value}-{type(step.event).__name__}.png"
-                if not self._window.shown.grabWindow().save(str(file)):
+                if not self._window.shown.grabWindow().save(str(file), quality=PICTURE_QUALITY):
                     raise unwritten(file)
                 yield file
 
