@@ -66,7 +66,7 @@ PageFrame {
             room: view.room
             more: view.words["scroll-more"]
             // What there is to tick stands apart from what is read, as far as the page has room.
-            spacing: Math.max(0.5 * Theme.gap, Math.min(2.2 * Theme.gap, view.room - (view.short ? points.height : sheet.height) - boxes.height))
+            spacing: Math.max(0.5 * Theme.gap, Math.min((view.width < view.height ? 3.4 : 2.2) * Theme.gap, view.room - (view.short ? points.height : sheet.height) - boxes.height))
 
             Column {
                 id: points
@@ -130,7 +130,7 @@ PageFrame {
             Column {
                 id: boxes
                 width: pane.width
-                spacing: (points.airy && view.short ? 0.67 : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.width < view.height ? 0.9 : 0.67) : 0.5) * Theme.gap
                 Repeater {
                     id: purposes
                     model: view.consent.purposes
