@@ -40,6 +40,12 @@ def open_to_read(path: Path) -> BufferedReader:
     return path.open("rb")
 
 
+def read_bytes(path: Path) -> bytes:
+    """Return a file's bytes; raises OSError, also for a pipe."""
+    with open_to_read(path) as file:
+        return file.read()
+
+
 def replace_file(path: Path, content: str | bytes, mode: int = 0o666, *, durable: bool = True) -> None:
     """Put a file in its place whole, with this mode less the umask; raises OSError and leaves nothing half written.
 

@@ -9,8 +9,11 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
+from kiosk.cli.status import read_status
 from kiosk.config import Settings
+from kiosk.experiment import booth_status
 from kiosk.files import make_folder, replace_file, sync_folder, sync_tree, write_file
+from kiosk.store import chain, copies, tombstones
 from kiosk.study.csv_import import text_of_table
 from kiosk.study.decks import picture_faults
 
@@ -45,6 +48,18 @@ def test_a_pipe_in_place_of_a_file_is_refused_and_not_waited_for(tmp_path: Path)
     with pytest.raises(UserInputError, match="cannot be read: it is a pipe and no file"):
         text_of_table("the table", pipe)
     assert list(picture_faults(pipe)) == [f"the picture {pipe} cannot be read: it is a pipe and no file"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a folder of Windows holds no pipes")
+def test_a_pipe_in_place_of_a_file_beside_the_database_is_not_waited_for(tmp_path: Path) -> None:
+    for name in (booth_status.FILE, chain.FILE, copies.FILE, tombstones.FILE):
+        os.mkfifo(tmp_path / name)
+    with pytest.raises(UserInputError, match=r"status\.json cannot be read: .*it is a pipe and no file"):
+        read_status(tmp_path)
+    assert chain.read_heads(tmp_path) == []
+    assert tombstones.read_tombstones(tmp_path) == frozenset()
+    copies.note_copy(tmp_path, copies.CopyKind.BACKUP, tmp_path / "copy.db")
+    assert copies.known_copies(tmp_path) == []
 
 
 def test_a_private_file_is_for_its_owner_alone(tmp_path: Path) -> None:

@@ -40,6 +40,7 @@ from kiosk.experiment.booth_status import FILE, BoothStatus
 from kiosk.experiment.questionnaire import load_item
 from kiosk.experiment.session_config import StudyConfig, kind_of
 from kiosk.extensions import Extension, ExtensionGroup, find, installed
+from kiosk.files import read_bytes
 from kiosk.preflight import WHAT, Check, CheckResult, Severity, autostart_check
 from kiosk.robots import lsl_worker, voice_program
 from kiosk.robots import registry as robots_checks
@@ -309,7 +310,7 @@ def _heard(booth: CheckTargets) -> Iterator[Check]:
 def _voice_of_kiosk(folder: Path) -> Health | None:
     """Return what the kiosk that is open on a folder says of its voice; None if it says nothing."""
     try:
-        status = BoothStatus.from_json((folder / FILE).read_text("utf-8"))
+        status = BoothStatus.from_json(read_bytes(folder / FILE).decode("utf-8"))
     except (OSError, ValueError):
         return None
     if not status.is_alive(datetime.now(UTC)):

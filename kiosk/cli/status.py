@@ -13,6 +13,7 @@ from kiosk import UserInputError
 from kiosk.cli.options import data_option, json_option
 from kiosk.cli.terminal import one_line
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus
+from kiosk.files import read_bytes
 
 NOT_ALIVE, TROUBLE = 3, 1
 """Exit codes of ``status``: no kiosk runs, or it hangs; it runs, and something is not well."""
@@ -28,7 +29,7 @@ def status_command(context: click.Context, data: Path, *, as_json: bool) -> None
     It shows stage, today's sessions, robot, voice, disk and backup. Exit code 0 if the kiosk runs and all is well,
     1 if something is not, 3 if no kiosk runs or it hangs.
     """
-    status = _read_status(data)
+    status = read_status(data)
     now = datetime.now(UTC)
     alive = status.is_alive(now)
     if as_json:
@@ -38,10 +39,11 @@ def status_command(context: click.Context, data: Path, *, as_json: bool) -> None
     context.exit(NOT_ALIVE if not alive else TROUBLE if status.failing else 0)
 
 
-def _read_status(data: Path) -> BoothStatus:
+def read_status(data: Path) -> BoothStatus:
+    """Read the status of the kiosk with a data folder; raises UserInputError."""
     file = data / FILE
     try:
-        return BoothStatus.from_json(file.read_text("utf-8"))
+        return BoothStatus.from_json(read_bytes(file).decode("utf-8"))
     except FileNotFoundError:
         raise UserInputError(f"no kiosk has run with the data folder {data}: there is no {FILE}") from None
     except (OSError, ValueError) as error:

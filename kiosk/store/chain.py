@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from kiosk.files import read_bytes
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 
 FILE = "recollect.heads"
@@ -182,7 +183,7 @@ def missing_since_written(connection: sqlite3.Connection, folder: Path) -> Itera
 def read_heads(folder: Path) -> list[Head]:
     """Return the heads in the file of a data folder; a line that a crash has torn is passed over."""
     try:
-        content = (folder / FILE).read_bytes()
+        content = read_bytes(folder / FILE)
     except OSError:
         return []
     heads = []

@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from enum import Enum
 from pathlib import Path
 
-from kiosk.files import sync_folder
+from kiosk.files import read_bytes, sync_folder
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 from kiosk.store.database import FILE as DATABASE
 from kiosk.store.tombstones import sessions_in
@@ -45,7 +45,9 @@ def note_copy(folder: Path, kind: CopyKind, place: Path) -> None:
     file = folder / FILE
     try:
         # One write at the end: two programs may note something at once, and a torn line is passed over.
-        descriptor = os.open(file, os.O_WRONLY | os.O_APPEND | os.O_CREAT, PRIVATE)
+        # A pipe in its place is an error at once, and not waited for.
+        flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | getattr(os, "O_NONBLOCK", 0)
+        descriptor = os.open(file, flags, PRIVATE)
         try:
             os.write(descriptor, text.encode())
             os.fsync(descriptor)
@@ -101,7 +103,7 @@ def look_elsewhere(folder: Path, hashes: frozenset[bytes], last_day: str) -> Els
 
 def _read(file: Path) -> Iterator[KnownCopy]:
     try:
-        lines = file.read_text("utf-8", "replace").splitlines()
+        lines = read_bytes(file).decode("utf-8", "replace").splitlines()
     except OSError:
         return
     for line in lines:

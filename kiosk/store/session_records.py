@@ -24,7 +24,7 @@ from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.session_config import SessionConfig, SessionKind
 from kiosk.experiment.session_state import SessionState, with_stages
-from kiosk.files import replace_file
+from kiosk.files import read_bytes, replace_file
 from kiosk.store.chain import LinkedEvent, is_unbroken
 from kiosk.store.database import in_use, unreadable
 from kiosk.store.queries import BrokenEvent, SessionRepository, decoded
@@ -196,7 +196,7 @@ def shuffling_secret(folder: Path) -> bytes:
     try:
         if not file.exists():
             replace_file(file, secrets.token_hex(_SECRET_BYTES), 0o600)
-        secret = bytes.fromhex(file.read_text("ascii"))
+        secret = bytes.fromhex(read_bytes(file).decode("ascii"))
     except OSError as error:
         raise UserInputError(f"{file}, which shuffles the names of participants, cannot be used: {error}") from error
     except ValueError as error:

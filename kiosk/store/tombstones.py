@@ -13,7 +13,7 @@ from contextlib import closing
 from pathlib import Path
 
 from kiosk import UserInputError
-from kiosk.files import replace_file
+from kiosk.files import read_bytes, replace_file
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 from kiosk.store.database import BACKUPS, SCHEMA, open_copy
 
@@ -105,7 +105,7 @@ def sessions_in(database: Path, hashes: frozenset[bytes]) -> list[int] | None:
 
 def _lines(file: Path) -> list[str]:
     try:
-        return file.read_text("ascii", "replace").splitlines()
+        return read_bytes(file).decode("ascii", "replace").splitlines()
     except OSError:
         return []
 

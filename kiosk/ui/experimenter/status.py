@@ -20,7 +20,7 @@ from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.events import Status
 from kiosk.experiment.experimenter import Action, AuditEvent, DeviationReason
 from kiosk.experiment.session_config import StudyConfig
-from kiosk.files import replace_file
+from kiosk.files import read_bytes, replace_file
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace, SpaceLevel
 from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
@@ -574,7 +574,7 @@ class StatusFile:
 def was_cut_off(folder: Path) -> bool:
     """Tell from status.json whether the kiosk before ended without being left."""
     try:
-        before = BoothStatus.from_json((folder / FILE).read_text("utf-8"))
+        before = BoothStatus.from_json(read_bytes(folder / FILE).decode("utf-8"))
     except (OSError, ValueError):
         return False
     return before.stage != CLOSED
