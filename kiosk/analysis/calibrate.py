@@ -179,7 +179,7 @@ def _conditions(folder: Path) -> dict[str, ConditionConfig]:
         try:
             declared = json.loads(file.read_text("utf-8")).get("conditions", {})
             found |= {name: ConditionConfig.model_validate(each) for name, each in declared.items()}
-        except (OSError, ValueError, AttributeError) as error:
+        except (OSError, ValueError, AttributeError, RecursionError) as error:
             raise UserInputError(f"{file} does not say what the conditions are: {error}") from error
     return found
 
@@ -189,7 +189,7 @@ def _rule(folder: Path) -> TargetRule:
     for file in sorted((folder / "materials" / "settings").glob("*.json")):
         try:
             return TargetRule(json.loads(file.read_text("utf-8"))["assistance"]["target_rule"])
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
             raise UserInputError(f"{file} does not name the rule of targets: {error}") from error
     return TargetRule.MOST_FLIPPED
 

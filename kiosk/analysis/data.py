@@ -221,7 +221,7 @@ def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:
         )
     except OSError as error:
         raise UserInputError(f"{path} cannot be read: {why(error)}") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise UserInputError(f"{path} is not a list of frozen plans; export the data again") from error
     digest.update(content)
     for plan in plans:
@@ -282,7 +282,7 @@ def _description(folder: Path) -> dict[str, Any]:
         raise UserInputError(f"{folder} is a file; a report needs the folder of an exported data set") from error
     except OSError as error:
         raise UserInputError(f"{path} cannot be read: {why(error)}") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise UserInputError(f"{path} is not JSON in UTF-8: {error}") from error
     if not isinstance(described, dict) or not re.search("Recollect", str(described.get("description", ""))):
         raise UserInputError(f"{folder} is no data set of Recollect; {DESCRIPTION} does not name it")

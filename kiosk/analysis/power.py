@@ -201,13 +201,22 @@ def _stored(job: PowerJob, store: Path) -> dict[int, Any]:
     """Return the blocks that are there; a line that was cut off is dropped from the file."""
     if not store.exists():
         return {}
-    lines = store.read_text("utf-8").splitlines(keepends=True)
+    try:
+        lines = store.read_text("utf-8").splitlines(keepends=True)
+    except (OSError, UnicodeDecodeError) as error:
+        raise UserInputError(f"{store} cannot be read: {error}") from error
     whole = [line for line in lines if line.endswith("\n")]
-    if whole and json.loads(whole[0]).get("job") != job.key:
+    try:
+        told = [json.loads(line) for line in whole]
+        key = told[0]["job"] if told else job.key
+        blocks = {row["block"]: row["p"] for row in told[1:]}
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise UserInputError(f"{store} was not written by `plan power`: name another with --store") from error
+    if key != job.key:
         raise UserInputError(f"{store} belongs to another plan, population, seed or size: name another with --store")
     if len(whole) < len(lines):
         store.write_text("".join(whole), "utf-8")
-    return {row["block"]: row["p"] for row in map(json.loads, whole[1:])}
+    return blocks
 
 
 def _computed(job: PowerJob, blocks: Sequence[int], workers: int, scheduler: str) -> Iterator[tuple[int, Any]]:

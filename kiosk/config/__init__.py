@@ -34,6 +34,7 @@ from kiosk.config.models import (
     Milliseconds,
     PerCharacter,
     Size,
+    parse_toml,
     read_text,
 )
 from kiosk.config.session import (
@@ -125,6 +126,7 @@ __all__ = [
     "is_path",
     "is_there",
     "luminance",
+    "parse_toml",
     "pictures_in",
     "policy_path",
     "read_broker",

@@ -51,7 +51,7 @@ class ConfigModel(BaseModel):
         """Read a file; raise UserInputError with a sentence for each fault, naming the file and the key."""
         name = f"the {cls.file_kind} {path}"
         text = read_text(name, path)
-        given, text = _toml(name, text)
+        given, text = parse_toml(name, text)
         unseen = [f"{name}: {sentence}" for sentence in control_characters(given, text)]
         if unseen:
             raise UserInputError(*unseen)
@@ -94,8 +94,11 @@ def read_text(name: str, path: Path) -> str:
     return text
 
 
-def _toml(name: str, text: str) -> tuple[dict[str, Any], str]:
-    """Return what a text holds, and the text that it was read from, whose lines are the same."""
+def parse_toml(name: str, text: str) -> tuple[dict[str, Any], str]:
+    """Return what a text holds, and the text that it was read from, whose lines are the same.
+
+    Raises UserInputError, in which the text is called ``name``.
+    """
     dots = [line.count(".") for line in text.split("\n")]
     if max(dots) > _MOST_DOTS or sum(count**2 for count in dots) > _MOST_DOTS_SQUARED:
         raise UserInputError(f"{name} has too many dots to be read: line {dots.index(max(dots)) + 1} has {max(dots)}")

@@ -75,7 +75,7 @@ class VoicePack:
             )
         except OSError as error:
             raise UserInputError(f"there is no voice pack in {folder}: {MANIFEST}: {error.strerror}") from error
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise UserInputError(f"{folder / MANIFEST} is no manifest of a voice pack") from error
 
     @classmethod

@@ -110,5 +110,5 @@ def _read(file: Path) -> Iterator[KnownCopy]:
         try:
             told = json.loads(line)
             yield KnownCopy(CopyKind(told["kind"]), Path(told["place"]), str(told["made_at"]))
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, RecursionError):
             continue

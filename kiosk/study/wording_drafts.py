@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import date
@@ -26,7 +25,7 @@ from kiosk.assistance.claims import CLAIM_PHRASES, false_claims, false_places, h
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import FlipInMove
 from kiosk.assistance.wording import CARD, REPLACING, Catalogue, given_with
-from kiosk.config import read_text
+from kiosk.config import parse_toml, read_text
 from kiosk.files import write_file
 
 SIGNED = "signed.toml"
@@ -85,7 +84,7 @@ class Draft:
                 for name, candidates in held.pop("messages").items()
             }
             return cls(**held, messages=messages)
-        except (ValueError, LookupError, TypeError, AttributeError) as error:
+        except (ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
             raise UserInputError(f"the draft {file} is damaged; remove it and draft anew") from error
 
     def write(self, folder: Path) -> None:
@@ -343,11 +342,12 @@ def read_signed(folder: Path) -> SignedWording:
     file = folder / SIGNED
     if not file.is_file():
         raise UserInputError(f"the wording in {folder} is not signed; run 'recollect study wording sign'")
+    text = read_text(f"the file {file}", file)
     try:
-        held = tomllib.loads(read_text(f"the file {file}", file))
+        held, _ = parse_toml(f"the file {file}", text)
         name, on, hashes = str(held["name"]), held["date"], dict(held["files"])
         is_sound = isinstance(on, date) and hashes and all(_SENTENCES.fullmatch(each) for each in hashes)
-    except (ValueError, LookupError, TypeError) as error:
+    except (UserInputError, ValueError, LookupError, TypeError) as error:
         raise UserInputError(f"{file} is damaged; sign the wording again") from error
     if not is_sound:
         raise UserInputError(f"{file} is damaged; sign the wording again")

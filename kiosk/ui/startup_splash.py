@@ -5,6 +5,7 @@ It needs little of Qt, nothing of Qt Quick, and no settings. The kiosk's own win
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -15,6 +16,7 @@ from typing import Any
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPaintEvent, QRasterWindow
 
+from kiosk.files import open_to_read
 from kiosk.places import ASSETS
 from kiosk.ui.displays import numbered_screens
 
@@ -28,8 +30,9 @@ _ICON_PART = 6
 """The icon takes one in so many of the shorter side."""
 _DEADLINE_S = 1.0
 """How long to wait for the screen; then the kiosk goes on loading."""
-_SMALL = 1_000_000
-"""Bytes; a larger file is no study file."""
+_MOST_BYTES = 1_000_000
+"""A larger file is no study file."""
+_MATTERS = re.compile(r"\s*(display|background|contrast|name|logo)\s*=")
 
 
 @dataclass(frozen=True)
@@ -54,9 +57,8 @@ def look_of(study: Path | None) -> Look:
     import tomllib  # noqa: PLC0415 - without a study file there is nothing to read
 
     told: dict[str, Any] = {}
-    with suppress(OSError, ValueError):
-        if file.stat().st_size < _SMALL:
-            told = tomllib.loads(file.read_text("utf-8"))
+    with suppress(OSError, ValueError, RecursionError), open_to_read(file) as opened:
+        told = tomllib.loads("\n".join(_about_the_look(opened.read(_MOST_BYTES).decode("utf-8-sig"))))
     screen, look = _table(told, "screen"), _table(told, "look")
     display, background = screen.get("display"), look.get("background")
     if not (isinstance(background, str) and QColor.isValidColorName(background)):
@@ -66,6 +68,18 @@ def look_of(study: Path | None) -> Look:
         WHITE if screen.get("contrast") == "high" else background,
         icon=file is study and not (look.get("name") or look.get("logo")),
     )
+
+
+def _about_the_look(text: str) -> Iterator[str]:
+    """Yield the lines that matter here: others can take long to be parsed."""
+    inside = False
+    for line in text.splitlines():
+        if line.lstrip().startswith("["):
+            inside = line.partition("#")[0].strip() in {"[screen]", "[look]"}
+            if inside:
+                yield line
+        elif inside and _MATTERS.match(line):
+            yield line
 
 
 def _table(told: dict[str, Any], name: str) -> dict[str, Any]:

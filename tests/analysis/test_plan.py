@@ -145,6 +145,15 @@ def test_any_number_of_workers_gives_the_same_numbers_and_a_killed_run_goes_on(p
         power.run(job(plan, sizes=(21,)), tmp_path / "one")
 
 
+@pytest.mark.parametrize("content", ["text\n", "[]\n", "{}\n", "[" * 100_000 + "\n", "\xff\n"])
+def test_a_file_that_is_no_store_of_blocks_is_refused_and_stays(plan: Path, tmp_path: Path, content: str) -> None:
+    store = tmp_path / "mine"
+    store.write_text(content, "latin-1")
+    with pytest.raises(UserInputError, match=r"mine (was not written by|cannot be read)"):
+        power.run(job(plan), store)
+    assert store.read_text("latin-1") == content
+
+
 @contextmanager
 def running_cluster(folder: Path, workers: int) -> Iterator[str]:
     """Provide a Dask scheduler of this machine with so many workers; its address."""

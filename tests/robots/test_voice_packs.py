@@ -159,7 +159,7 @@ def test_clips_that_were_changed_silenced_clipped_or_lost_are_found(pack: VoiceP
     assert pack.find(PLACE) is None
 
 
-@pytest.mark.parametrize("content", [None, "{}", "[]", '{"spoken_by": 1}', "not JSON"])
+@pytest.mark.parametrize("content", [None, "{}", "[]", '{"spoken_by": 1}', "not JSON", "[" * 100_000])
 def test_a_folder_that_is_no_pack_is_refused_by_name(tmp_path: Path, content: str | None) -> None:
     if content is not None:
         (tmp_path / MANIFEST).write_text(content)

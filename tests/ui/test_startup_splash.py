@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,9 @@ def test_without_a_study_file_it_has_the_background_of_the_start_screen() -> Non
         ('[screen]\ndisplay = "b"\n[look]\nbackground = 7', Look()),
         ('[look]\nbackground = "paper"', Look()),
         ("[look", Look()),
+        ("a = " + "[" * 100_000 + '\n[look]\nbackground = "#EAF2F8"', Look(background="#EAF2F8")),
+        ("[look]\nname = " + "[" * 100_000, Look()),
+        ("a" + ".a" * 20_000 + " = 1\n[screen]\ndisplay = 1", Look(display=1)),
     ],
 )
 def test_a_study_file_says_how_it_looks_whatever_else_is_wrong_in_it(tmp_path: Path, text: str, look: Look) -> None:
@@ -43,6 +47,12 @@ def test_a_packed_study_says_only_on_which_screen(tmp_path: Path) -> None:
 
 
 def test_a_study_file_that_is_not_there_changes_nothing(tmp_path: Path) -> None:
+    assert look_of(tmp_path / "study.toml") == Look()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a folder of Windows holds no pipes")
+def test_a_pipe_in_place_of_a_study_file_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "study.toml")
     assert look_of(tmp_path / "study.toml") == Look()
 
 
