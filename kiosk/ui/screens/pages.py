@@ -224,7 +224,7 @@ class DebriefScreen(PageScreen):
     def clear(self) -> None:
         """Show no page and no code."""
         self._code = self._contact = self._summary = ""
-        self._returns = False
+        self._returns = self._compares = False
         self.given.emit()
         super().clear()
 
