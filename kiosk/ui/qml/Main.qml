@@ -94,11 +94,15 @@ Window {
 
     // A page is made when it is first shown, or before that while nothing else happens; then it stays.
     component Page: Loader {
+        id: page
         required property string name
         readonly property bool shown: root.kiosk.screen === name
         // What of it the helper says.
         readonly property string aside: (item as PageFrame)?.aside ?? ""
-        anchors.fill: parent
+        // A page that is not seen keeps its size: laying out all their texts anew holds up the one that comes.
+        readonly property bool follows: shown || status !== Loader.Ready
+        Binding on width { when: page.follows; value: stage.width; restoreMode: Binding.RestoreNone }
+        Binding on height { when: page.follows; value: stage.height; restoreMode: Binding.RestoreNone }
         asynchronous: !shown
         visible: shown && status === Loader.Ready
         focus: visible && root.kiosk.bare
