@@ -49,7 +49,8 @@ Column {
 
         Column {
             id: left
-            width: today.wide ? parent.width * 0.31 : (parent.width - today.space) * 0.5
+            // Whole pixels: a card at a fraction of one would lose its right edge.
+            width: Math.floor(today.wide ? parent.width * 0.31 : (parent.width - today.space) * 0.5)
             spacing: today.space
             PanelAlarms { id: alarms; width: parent.width; panel: today.panel }
             PanelSection {
@@ -74,7 +75,7 @@ Column {
             id: middle
             x: today.wide ? left.width + today.space : 0
             y: today.wide ? 0 : parent.height - height
-            width: today.wide ? parent.width * 0.42 : parent.width
+            width: today.wide ? Math.floor(parent.width * 0.42) : parent.width
             spacing: today.space
             PanelCounts {
                 width: parent.width
@@ -89,7 +90,7 @@ Column {
             id: right
             x: parent.width - width
             width: today.wide ? parent.width - left.width - middle.width - 2 * today.space
-                              : (parent.width - today.space) * 0.5
+                              : Math.floor((parent.width - today.space) * 0.5)
             spacing: today.space
             PanelActions { width: parent.width; panel: today.panel; even: !today.wide }
             PanelResume { width: parent.width; panel: today.panel }
