@@ -347,7 +347,7 @@ def test_no_text_of_the_panel_its_card_and_its_note_is_drawn_as_markup(window: W
     note.tell(MARKUP)
     card.show(AuthorisationStep.REASON, MARKUP, MARKUP, reasons=(MARKUP, BOLD))
     found = seen(window)
-    assert {MARKUP, BOLD, PICTURE, f"1   {MARKUP}", f"{MARKUP}: {MARKUP}", f"▲   {MARKUP}"} <= found.keys()
+    assert {MARKUP, BOLD, PICTURE, f"1   {MARKUP}", f"{MARKUP}: {MARKUP}"} <= found.keys()
     assert [text for text, plain in found.items() if not plain] == []
     card.show(AuthorisationStep.WORDS, MARKUP, MARKUP, text=MARKUP)
     assert [text for text, plain in seen(window).items() if not plain] == []

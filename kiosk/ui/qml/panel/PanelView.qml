@@ -94,14 +94,34 @@ FocusScope {
         height: sentence.height + Theme.gap
         radius: Theme.radius
         color: view.panel.health.well ? Theme.sea : Theme.amber
-        PlainText {
+        // A matter's further lines stand below its words, and not below its mark.
+        Column {
             id: sentence
             objectName: "panel-summary"
             anchors { left: parent.left; right: parent.right; margins: Theme.gap; verticalCenter: parent.verticalCenter }
-            text: view.panel.health.summary.split("\n").map(line => (view.panel.health.well ? "✓   " : "▲   ") + line).join("\n")
-            font { pixelSize: Theme.dense * 1.12; bold: true }
-            color: view.panel.health.well ? Theme.white : Theme.ink
-            wrapMode: Text.Wrap
+            Repeater {
+                model: view.panel.health.summary.split("\n")
+                delegate: Row {
+                    id: matter
+                    required property string modelData
+                    width: sentence.width
+                    spacing: 14 * Theme.unit
+                    PlainText {
+                        id: sign
+                        text: view.panel.health.well ? "✓" : "▲"
+                        font { pixelSize: Theme.dense * 1.12; bold: true }
+                        color: view.panel.health.well ? Theme.white : Theme.ink
+                        Accessible.ignored: true
+                    }
+                    PlainText {
+                        width: matter.width - sign.width - matter.spacing
+                        text: matter.modelData
+                        font { pixelSize: Theme.dense * 1.12; bold: true }
+                        color: sign.color
+                        wrapMode: Text.Wrap
+                    }
+                }
+            }
         }
     }
     Flickable {
