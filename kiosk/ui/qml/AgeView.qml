@@ -126,7 +126,7 @@ PageFrame {
                 objectName: "age-no"
                 words: view.words["age-no"]
                 meaning: view.age.younger
-                sign: "M12 9 A2.2 2.2 0 0 1 12 13.4 A2.2 2.2 0 0 1 12 9 M9.4 18 V16.8 A1.8 1.8 0 0 1 11.2 15 H12.8 A1.8 1.8 0 0 1 14.6 16.8 V18 M11 17 V21 M13 17 V21"
+                sign: "M12 5.4 A2.5 2.5 0 0 1 12 10.4 A2.5 2.5 0 0 1 12 5.4 M7.4 16 L9.8 13 H14.2 L16.6 16 M10.3 13.2 V20 M13.7 13.2 V20 M10.3 16.7 H13.7"
                 onClicked: view.age.answer(false)
             }
         }

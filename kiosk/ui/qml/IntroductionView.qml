@@ -45,6 +45,8 @@ PageFrame {
         property bool found: false
         property int markRow: -1
         property int markColumn: -1
+        // Whether an arrow of a mark may stand above it.
+        property bool marked: false
         // Whether it is this board's turn.
         required property bool plays
 
@@ -66,7 +68,7 @@ PageFrame {
         Item {
             id: board
             x: view.abreast ? (scene.width - width) / 2 : Theme.across(scene.pad + scene.numbers, width, scene.width)
-            y: scene.pad + scene.numbers
+            y: view.abreast ? scene.pad + scene.numbers : (scene.height - height + (scene.marked ? scene.numbers : 0)) / 2
             width: view.across * scene.cell
             height: view.down * scene.cell
             Mark {
@@ -147,6 +149,7 @@ PageFrame {
         Scene {
             id: hint
             visible: view.introduction.helped
+            marked: view.introduction.points
             text: view.words["introduction-help"]
             // The partner of the card that is up, in another row and column than that.
             readonly property int partner: view.across === 2 ? 3 : 2
