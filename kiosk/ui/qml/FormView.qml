@@ -35,6 +35,8 @@ PageFrame {
         return tall <= room
     }
     readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
+    // How far below the line of the pages the first card begins.
+    readonly property real lead: upright && progress.visible && Theme.textSize <= 1.15 ? 28 * Theme.unit : 0
     // Whether there is little height for what stands on the page.
     readonly property bool tight: room < 720 * Theme.unit
 
@@ -53,6 +55,9 @@ PageFrame {
     }
     readonly property bool mirrored: Theme.mirrored
     readonly property real stripWidth: (upright ? 485 : 525) * Theme.unit
+    // Whether a few ratings share an upright page with a line to be touched: their texts have two lines each.
+    readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
+        && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
     // How many lines the longest statement of an upright page of ratings takes; 1 where they are not alike.
     property int mostLines: 1
     function countLines() {
@@ -205,7 +210,7 @@ PageFrame {
     }
     FocusScope {
         id: home
-        y: view.alone ? view.sink(height) : 0
+        y: view.alone ? Math.max(view.lead, view.sink(height)) : view.lead
         width: parent?.width ?? 0
         height: pane.height
         // At first at no item: no key of the page before may answer or skip one; Tab goes to the first.
@@ -215,7 +220,7 @@ PageFrame {
         ScrollPane {
             id: pane
             width: parent.width
-            room: view.room
+            room: view.room - view.lead
             more: view.words["scroll-more"]
             // Further apart where the page has room for it; and what belongs together, too.
             readonly property real plain: {
@@ -234,7 +239,7 @@ PageFrame {
                 }
                 return sum
             }
-            readonly property real loosened: view.calm && addable > 0 ? Math.max(0, Math.min(1, (view.room - plain) / addable)) : 0
+            readonly property real loosened: view.calm && addable > 0 ? Math.max(0, Math.min(1, (room - plain) / addable)) : 0
             readonly property real tall: {
                 let sum = 0
                 for (let i = 0; i < boxes.count; i++) {
@@ -244,7 +249,7 @@ PageFrame {
                 return sum
             }
             spacing: Math.max(view.spread,
-                Math.min((view.width < view.height ? 72 : view.wider ? 26 : 44) * Theme.unit, (view.room - tall) / Math.max(1, boxes.count)))
+                Math.min((view.width < view.height ? 72 : view.wider ? 26 : 44) * Theme.unit, (room - tall) / Math.max(1, boxes.count)))
             Repeater {
                 id: boxes
                 model: view.form.items
@@ -266,9 +271,9 @@ PageFrame {
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)
-                    leastLines: view.mostLines
+                    leastLines: view.mixed ? 2 : view.mostLines
                     crowded: view.strip && view.upright
-                    onLinesChanged: view.countLines()
+                    onLinesChanged: Qt.callLater(view.countLines)
                     onEntered: field => keyboard.field = field
                 }
             }

@@ -251,6 +251,7 @@ Item {
             given: box.answer ?? 0
             alone: box.alone
             dense: box.dense || box.tight || (Theme.textSize > 1.15 && !box.large)
+            large: box.airy && !box.alone
             onChosen: value => box.form.rate(box.item.id, value)
         }
     }

@@ -19,6 +19,8 @@ Item {
     required property int given
     required property bool alone
     required property bool dense        // whether there is little height for it
+    // Whether there is much height for it.
+    property bool large: false
     signal chosen(int value)
 
     readonly property real most: 250 * Theme.unit * Theme.textSize
@@ -29,17 +31,18 @@ Item {
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
     // The words stand in the line, above its marks.
-    readonly property real rail: hint.implicitHeight + (dense ? 26 : 52) * Theme.unit
+    readonly property real rail: hint.implicitHeight + (dense ? 26 : large ? 78 : 52) * Theme.unit
     readonly property real tick: (dense ? 10 : 24) * Theme.unit
     readonly property real thickness: rail + 10 * Theme.unit
 
     readonly property real words: Math.max(lower.height, upper.height)
+    readonly property real apart: (large ? 0.5 : 0.3) * Theme.gap
 
-    height: below ? slider.height + words + 0.3 * Theme.gap : Math.max(slider.height, words)
+    height: below ? slider.height + words + apart : Math.max(slider.height, words)
 
     PlainText {
         id: lower
-        y: scale.below ? slider.height + 0.3 * Theme.gap : (scale.height - height) / 2
+        y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
         x: Theme.across(0, width, scale.width)
         width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom
         text: scale.leftEnd
@@ -108,7 +111,7 @@ Item {
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
-            readonly property real line: scale.rail - scale.tick / 2 - (scale.dense ? 6 : 12) * Theme.unit
+            readonly property real line: scale.rail - scale.tick / 2 - (scale.dense ? 6 : scale.large ? 20 : 12) * Theme.unit
             Rectangle {
                 x: scale.thickness / 2
                 y: groove.line - height / 2
@@ -156,7 +159,7 @@ Item {
         objectName: `touch-${scale.item}`
         visible: !scale.answered && !slider.pressed
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - height) / 2 - (scale.dense ? 5 : 18) * Theme.unit
+        y: slider.y + (slider.height - height) / 2 - (scale.dense ? 5 : scale.large ? 22 : 18) * Theme.unit
         text: scale.touch
         font.pixelSize: scale.dense ? Theme.small : Theme.body
         color: Theme.faintInk
