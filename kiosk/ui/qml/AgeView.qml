@@ -117,7 +117,7 @@ PageFrame {
                 objectName: "age-yes"
                 words: view.words["age-yes"]
                 meaning: view.age.older
-                sign: "M12 3 A2.4 2.4 0 0 1 12 7.8 A2.4 2.4 0 0 1 12 3 M8 15 V12 A2.4 2.4 0 0 1 10.4 9.8 H13.6 A2.4 2.4 0 0 1 16 12 V15 M10.2 12.6 V21 M13.8 12.6 V21 M10.2 15.6 H13.8"
+                sign: "M12 3 A2.4 2.4 0 0 1 12 7.8 A2.4 2.4 0 0 1 12 3 M8 15 V12 A2.4 2.4 0 0 1 10.4 9.8 H13.6 A2.4 2.4 0 0 1 16 12 V15 M10.2 12.6 V21 M13.8 12.6 V21"
                 focus: true
                 onClicked: view.age.answer(true)
             }
