@@ -130,7 +130,7 @@ PageFrame {
             Column {
                 id: boxes
                 width: pane.width
-                spacing: (points.airy && view.short ? (view.width < view.height ? 0.9 : 0.67) : 0.5) * Theme.gap
+                spacing: (points.airy && view.short ? (view.width < view.height ? 1.1 : 0.67) : 0.5) * Theme.gap
                 Repeater {
                     id: purposes
                     model: view.consent.purposes
@@ -139,6 +139,7 @@ PageFrame {
                         objectName: "purpose-" + modelData.id
                         width: boxes.width
                         large: points.airy && view.short
+                        broad: large && view.width < view.height
                         roomy: view.short && Theme.textSize <= 1.15
                         words: modelData.text
                         on: view.consent.ticks.includes(modelData.id)

@@ -47,10 +47,10 @@ Item {
             anchors.centerIn: parent
             width: 24
             height: 24
-            scale: line.badge / 40
+            scale: line.badge / (line.centred ? 31 : 40)
             ShapePath {
                 strokeColor: Theme.sea
-                strokeWidth: 2
+                strokeWidth: line.centred ? 1.7 : 2
                 capStyle: ShapePath.RoundCap
                 joinStyle: ShapePath.RoundJoin
                 fillColor: "transparent"

@@ -10,11 +10,13 @@ Choosable {
     property string warning: ""
     // Where there is height for it.
     property bool roomy: false
+    // On an upright page with much height.
+    property bool broad: false
     // On a page with much height.
     property bool large: false
 
-    horizontalPadding: 0.7 * Theme.gap
-    verticalPadding: (roomy ? 0.7 : 0.45) * Theme.gap
+    horizontalPadding: (broad ? 0.85 : 0.7) * Theme.gap
+    verticalPadding: (broad ? 1.1 : roomy ? 0.7 : 0.45) * Theme.gap
     font.pixelSize: large ? Theme.size(36) : Theme.reading
     Accessible.role: Accessible.CheckBox
     Accessible.name: words
@@ -34,7 +36,8 @@ Choosable {
     contentItem: Item {
         id: parts
         // What the box is, at its right; where that leaves the words little room, below them.
-        readonly property real room: box.availableWidth - mark.width - Theme.gap
+        readonly property real after: (box.broad ? 0.7 : 1) * Theme.gap
+        readonly property real room: box.availableWidth - mark.width - after
         readonly property bool beside: tag.visible
         implicitHeight: Math.max(box.large ? 76 * Theme.unit : mark.height, told.height)
         implicitWidth: mark.width
@@ -64,7 +67,7 @@ Choosable {
         }
         Column {
             id: told
-            x: Theme.across(mark.width + Theme.gap, width, parts.width)
+            x: Theme.across(mark.width + parts.after, width, parts.width)
             y: (parts.height - height) / 2
             width: parts.room - (parts.beside ? tag.implicitWidth + Theme.gap : 0)
             Balanced {
