@@ -29,6 +29,8 @@ QtObject {
     readonly property color edge: highContrast ? "#000000" : sand
     // What lies below things that are put down on it.
     readonly property color shelf: highContrast ? "#FFFFFF" : Qt.tint(paper, Qt.alpha(sand, 0.32))
+    // The outline of a place where nothing lies yet.
+    readonly property color slot: highContrast ? "#000000" : Qt.darker(sand, 1.25)
     readonly property color ink: highContrast ? "#000000" : "#22313F"
     readonly property color faintInk: highContrast ? "#1A2430" : "#4A5A68"
     readonly property color sea: highContrast ? "#0A3A44" : accent

@@ -34,7 +34,7 @@ Item {
         anchors.centerIn: parent
         visible: tray.places > 0
         width: tray.spreads ? tray.width : (tray.columns + 0.2) * tray.slot
-        height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + 12 * Theme.unit)
+        height: Math.min(tray.slot * tray.lines + 0.2 * tray.slot, tray.height + (tray.spreads ? 12 : 0) * Theme.unit)
         radius: 0.24 * tray.slot
         color: Theme.shelf
         border { color: Theme.edge; width: Theme.highContrast ? 2 * Theme.unit : 0 }
@@ -55,7 +55,8 @@ Item {
                 anchors { fill: parent; margins: parent.height * (place.filled ? 0.06 : 0.12) }
                 radius: height * 0.18
                 color: place.filled ? Theme.leaf : Theme.paper
-                opacity: !place.filled ? 0.7 : tray.landed === tray.places && place.index < tray.places - 1 ? Theme.past : 1
+                border { color: Theme.slot; width: place.filled ? 0 : 2 * Theme.unit }
+                opacity: place.filled && tray.landed === tray.places && place.index < tray.places - 1 ? Theme.past : 1
             }
             // Two cards, one on the other or side by side.
             Repeater {
