@@ -10,19 +10,15 @@ PanelSection {
     required property PanelScreen panel
     readonly property var words: panel.words
     readonly property var choices: panel.choices
-    // Whether the buttons end in line: two in a row, or one where its words need more.
-    property bool even: false
 
     title: words["console-actions"]
 
-    // What is pressed in a hurry is large.
+    // What is pressed in a hurry is large; two in a row, or one where its words need more.
     component Action: PanelButton {
         verticalPadding: 13 * Theme.unit
-        width: {
-            const room = parent?.width ?? Infinity
-            const half = (room - 12 * Theme.unit) / 2
-            return !actions.even ? Math.min(implicitWidth, room) : implicitWidth <= half ? half : room
-        }
+        readonly property real room: parent?.width ?? Infinity
+        readonly property real half: (room - 12 * Theme.unit) / 2
+        width: implicitWidth <= half ? half : room
     }
 
     Flow {
@@ -34,12 +30,6 @@ PanelSection {
             onClicked: actions.panel.wish("mute", "")
         }
         Action {
-            objectName: "action-again"
-            visible: actions.choices.underWay
-            words: actions.words["console-repeat"]
-            onClicked: actions.panel.wish("repeat", "")
-        }
-        Action {
             objectName: "action-pause"
             visible: actions.choices.underWay
             words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
@@ -47,11 +37,10 @@ PanelSection {
             onClicked: actions.panel.wish("pause", "")
         }
         Action {
-            objectName: "action-next"
-            filled: true
-            visible: actions.choices.canBeNext
-            words: actions.words["console-next"]
-            onClicked: actions.panel.wish("next", "")
+            objectName: "action-again"
+            visible: actions.choices.underWay
+            words: actions.words["console-repeat"]
+            onClicked: actions.panel.wish("repeat", "")
         }
         Action {
             objectName: "action-backup"
@@ -67,25 +56,36 @@ PanelSection {
             onClicked: actions.panel.wish("break", "")
         }
     }
-    // On a line of its own: it takes a game from a visitor.
+    // In a row of their own: they take a game from a visitor.
     Item {
         width: parent.width
-        height: end.height + 24 * Theme.unit
-        visible: actions.choices.underWay
-        Action {
-            id: end
+        height: ends.height + 24 * Theme.unit
+        visible: actions.choices.underWay || actions.choices.canBeNext
+        Flow {
+            id: ends
             y: 12 * Theme.unit
-            objectName: "action-end"
-            width: actions.even ? parent.width : Math.min(implicitWidth, parent.width)
-            words: actions.words["console-abort"]
-            onClicked: actions.panel.wish("abort", "")
+            width: parent.width
+            spacing: 12 * Theme.unit
+            Action {
+                objectName: "action-next"
+                filled: true
+                visible: actions.choices.canBeNext
+                words: actions.words["console-next"]
+                onClicked: actions.panel.wish("next", "")
+            }
+            Action {
+                objectName: "action-end"
+                visible: actions.choices.underWay
+                words: actions.words["console-abort"]
+                onClicked: actions.panel.wish("abort", "")
+            }
         }
     }
     PanelChoice {
         width: parent.width
         action: "break"
         large: true
-        even: actions.even
+        even: true
         title: actions.words["console-break"]
         options: actions.choices.breaks ?? []
         chosen: actions.choices.break ?? ""

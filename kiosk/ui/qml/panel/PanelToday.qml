@@ -92,7 +92,7 @@ Column {
             width: today.wide ? parent.width - left.width - middle.width - 2 * today.space
                               : Math.floor((parent.width - today.space) * 0.5)
             spacing: today.space
-            PanelActions { width: parent.width; panel: today.panel; even: !today.wide }
+            PanelActions { width: parent.width; panel: today.panel }
             PanelResume { width: parent.width; panel: today.panel }
         }
         // Below the shortest column, so that all of it is seen at once.
