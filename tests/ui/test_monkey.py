@@ -11,7 +11,7 @@ from tests.ui.monkey.verdict import ANSWER_S, LEAST_S, STEEPEST, WARM_S, Seen, W
 HOUR_S = 3600
 
 
-def weighed(process: int, start_mib: float, mib_per_hour: float, for_s: int = 600, *, noise: int = 0) -> list[Weighed]:
+def weighed(process: int, start_mib: float, mib_per_hour: float, for_s: int = 1800, *, noise: int = 0) -> list[Weighed]:
     """Return the memory of a process that grows evenly, and jumps in its first minute."""
     chance = Random(noise)
     return [
