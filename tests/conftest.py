@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import shutil
+import signal
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -57,6 +58,9 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["XDG_CACHE_HOME"] = f"{config.stash[HOME].name}/cache"
         if RULES.is_dir():
             shutil.copytree(RULES, Path(config.stash[HOME].name) / "cache" / "recollect")
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # A shell that runs the tests in the background lets them ignore it, and so every program that they start.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     _keep_bytecode()
 
 
