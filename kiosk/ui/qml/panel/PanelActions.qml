@@ -25,16 +25,16 @@ PanelSection {
         width: parent.width
         spacing: 12 * Theme.unit
         Action {
-            objectName: "action-mute"
-            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
-            onClicked: actions.panel.wish("mute", "")
-        }
-        Action {
             objectName: "action-pause"
             visible: actions.choices.underWay
             words: actions.choices.staysPaused ? actions.words["console-not-stay-paused"] : actions.words["console-stay-paused"]
             chosen: actions.choices.staysPaused
             onClicked: actions.panel.wish("pause", "")
+        }
+        Action {
+            objectName: "action-mute"
+            words: actions.choices.muted ? actions.words["console-heard"] : actions.words["console-mute"]
+            onClicked: actions.panel.wish("mute", "")
         }
         Action {
             objectName: "action-again"
