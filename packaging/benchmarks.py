@@ -83,8 +83,8 @@ def _growth(shortest: dict[str, float]) -> str:
     times: dict[str, dict[int, float]] = {}
     for name, seconds in shortest.items():
         what, _, case = name.rstrip("]").partition("[")
-        size, _, how = case.partition(" sessions")
-        if size.isdigit():
+        size, counted, how = case.partition(" sessions")
+        if counted:
             words = what.replace("_", " ") + (f" ({how.lstrip('-')})" if how else "")
             times.setdefault(words, {})[int(size)] = seconds
     sizes = sorted({size for row in times.values() for size in row})
