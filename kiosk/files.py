@@ -1,12 +1,14 @@
-"""Write a file whole, and have files and folders on the disk, so that a power cut takes nothing back."""
+"""Read what others may have written, and have files and folders whole on the disk, whenever the power is cut."""
 
 from __future__ import annotations
 
 import errno
+import json
 import os
 from contextlib import suppress
 from io import BufferedReader
 from pathlib import Path
+from typing import Any
 
 from kiosk import UserInputError, unwritable
 
@@ -44,6 +46,17 @@ def read_bytes(path: Path) -> bytes:
     """Return a file's bytes; raises OSError, also for a pipe."""
     with open_to_read(path) as file:
         return file.read()
+
+
+def parse_json(text: str | bytes, **options: Any) -> Any:
+    """Return what a text in JSON says, as ``json.loads`` does.
+
+    Raises ValueError also for brackets that are nested too deeply, of which ``json`` makes a RecursionError.
+    """
+    try:
+        return json.loads(text, **options)
+    except RecursionError as error:
+        raise json.JSONDecodeError("brackets stand in brackets too often", "", 0) from error
 
 
 def replace_file(path: Path, content: str | bytes, mode: int = 0o666, *, durable: bool = True) -> None:

@@ -12,7 +12,7 @@ from kiosk import StorageError, UserInputError
 from kiosk.cli.status import read_status
 from kiosk.config import Settings
 from kiosk.experiment import booth_status
-from kiosk.files import make_folder, replace_file, sync_folder, sync_tree, write_file
+from kiosk.files import make_folder, parse_json, replace_file, sync_folder, sync_tree, write_file
 from kiosk.store import chain, copies, tombstones
 from kiosk.study.csv_import import text_of_table
 from kiosk.study.decks import picture_faults
@@ -60,6 +60,12 @@ def test_a_pipe_in_place_of_a_file_beside_the_database_is_not_waited_for(tmp_pat
     assert tombstones.read_tombstones(tmp_path) == frozenset()
     copies.note_copy(tmp_path, copies.CopyKind.BACKUP, tmp_path / "copy.db")
     assert copies.known_copies(tmp_path) == []
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000, '{"a":' * 100_000, b"\xff"])
+def test_whatever_is_no_json_is_a_value_error(text: str | bytes) -> None:
+    with pytest.raises(ValueError, match=r".+"):
+        parse_json(text)
 
 
 def test_a_private_file_is_for_its_owner_alone(tmp_path: Path) -> None:

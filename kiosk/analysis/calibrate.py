@@ -7,7 +7,6 @@ the marginal likelihood (empirical Bayes), with the integral over people taken o
 
 from __future__ import annotations
 
-import json
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -25,6 +24,7 @@ from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec, QTable, find_action
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
 from kiosk.experiment.condition import Condition
+from kiosk.files import parse_json
 from kiosk.training.simulated_players import PEOPLE_FORMAT, PopulationPlayer
 
 LEAST_SESSIONS = 10
@@ -177,9 +177,9 @@ def _conditions(folder: Path) -> dict[str, ConditionConfig]:
     found = dict(KNOWN_CONDITIONS)
     for file in sorted((folder / "materials" / "settings").glob("*.json")):
         try:
-            declared = json.loads(file.read_text("utf-8")).get("conditions", {})
+            declared = parse_json(file.read_text("utf-8")).get("conditions", {})
             found |= {name: ConditionConfig.model_validate(each) for name, each in declared.items()}
-        except (OSError, ValueError, AttributeError, RecursionError) as error:
+        except (OSError, ValueError, AttributeError) as error:
             raise UserInputError(f"{file} does not say what the conditions are: {error}") from error
     return found
 
@@ -188,8 +188,8 @@ def _rule(folder: Path) -> TargetRule:
     """Return the rule of mentalised targets, from the study's settings as they were exported."""
     for file in sorted((folder / "materials" / "settings").glob("*.json")):
         try:
-            return TargetRule(json.loads(file.read_text("utf-8"))["assistance"]["target_rule"])
-        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+            return TargetRule(parse_json(file.read_text("utf-8"))["assistance"]["target_rule"])
+        except (OSError, ValueError, KeyError, TypeError) as error:
             raise UserInputError(f"{file} does not name the rule of targets: {error}") from error
     return TargetRule.MOST_FLIPPED
 

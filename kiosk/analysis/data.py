@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-import json
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,6 +20,7 @@ from kiosk import UserInputError, why
 from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.export.columns import CODEBOOK_VERSION
 from kiosk.export.layouts import PLANS, file_of, plan_file
+from kiosk.files import parse_json
 
 Floats = npt.NDArray[np.float64]
 Truths = npt.NDArray[np.bool_]
@@ -209,7 +209,7 @@ def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:
         return ()
     try:
         content = path.read_bytes()
-        rows = json.loads(content)
+        rows = parse_json(content)
         plans = tuple(
             FrozenRecord(
                 str(row["sha256"]),
@@ -221,7 +221,7 @@ def _frozen_plans(folder: Path, digest: Any) -> tuple[FrozenRecord, ...]:
         )
     except OSError as error:
         raise UserInputError(f"{path} cannot be read: {why(error)}") from error
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise UserInputError(f"{path} is not a list of frozen plans; export the data again") from error
     digest.update(content)
     for plan in plans:
@@ -274,7 +274,7 @@ def _description(folder: Path) -> dict[str, Any]:
         raise UserInputError(f"{folder} has the names of BIDS; export the data without --bids for a report")
     path = folder / DESCRIPTION
     try:
-        described = json.loads(path.read_text("utf-8"))
+        described = parse_json(path.read_text("utf-8"))
     except FileNotFoundError as error:
         what = "is no folder" if not folder.is_dir() else f"is no exported data set; it has no {DESCRIPTION}"
         raise UserInputError(f"{folder} {what}") from error
@@ -282,7 +282,7 @@ def _description(folder: Path) -> dict[str, Any]:
         raise UserInputError(f"{folder} is a file; a report needs the folder of an exported data set") from error
     except OSError as error:
         raise UserInputError(f"{path} cannot be read: {why(error)}") from error
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise UserInputError(f"{path} is not JSON in UTF-8: {error}") from error
     if not isinstance(described, dict) or not re.search("Recollect", str(described.get("description", ""))):
         raise UserInputError(f"{folder} is no data set of Recollect; {DESCRIPTION} does not name it")

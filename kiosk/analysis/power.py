@@ -32,6 +32,7 @@ from kiosk.analysis.statistics import benjamini_hochberg, holm, student_error, t
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, QTable
 from kiosk.experiment.condition import Condition, target_rule
+from kiosk.files import parse_json
 from kiosk.training.simulated_players import PopulationPlayer
 from kiosk.training.simulation import (
     T_COL,
@@ -207,10 +208,10 @@ def _stored(job: PowerJob, store: Path) -> dict[int, Any]:
         raise UserInputError(f"{store} cannot be read: {error}") from error
     whole = [line for line in lines if line.endswith("\n")]
     try:
-        told = [json.loads(line) for line in whole]
+        told = [parse_json(line) for line in whole]
         key = told[0]["job"] if told else job.key
         blocks = {row["block"]: row["p"] for row in told[1:]}
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise UserInputError(f"{store} was not written by `plan power`: name another with --store") from error
     if key != job.key:
         raise UserInputError(f"{store} belongs to another plan, population, seed or size: name another with --store")

@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Self
 from kiosk import UserInputError
 from kiosk.config import policy_path
 from kiosk.extensions import Extension, ExtensionGroup, find
+from kiosk.files import parse_json
 from kiosk.game import Concentration
 
 
@@ -339,7 +340,7 @@ class QTable:
             return cls.from_json(path.read_text("utf-8"))
         except OSError as error:
             raise PolicyError(f"the policy file {path} cannot be read: {error.strerror}") from error
-        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        except (UnicodeDecodeError, json.JSONDecodeError) as error:
             raise PolicyError(f"the policy file {path} is not JSON: {error}") from error
         except ValueError as error:
             raise PolicyError(f"the policy file {path} cannot be used: {error}") from error
@@ -347,7 +348,7 @@ class QTable:
     @classmethod
     def from_json(cls, text: str) -> Self:
         """Return the table that ``to_json`` wrote; raises ValueError saying what is wrong with it."""
-        return cls._of(json.loads(text, object_pairs_hook=said_once))
+        return cls._of(parse_json(text, object_pairs_hook=said_once))
 
     def to_json(self) -> str:
         """Return the text of the policy file, with one line per state to read down the columns."""

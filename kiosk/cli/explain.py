@@ -30,7 +30,7 @@ from kiosk.cli.terminal import one_line, tell_caution
 from kiosk.config import ASSETS, AssistanceConfig, Game, pictures_in
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.replay import DecisionContext
-from kiosk.files import write_file
+from kiosk.files import parse_json, write_file
 from kiosk.game import Board, Concentration, Position
 from kiosk.store.queries import DecisionExplainer, open_repository
 from kiosk.units import MS_PER_SECOND
@@ -75,12 +75,12 @@ class DecisionCase(BaseModel):
 def read_case(path: Path) -> DecisionCase:
     """Read a case file (JSON); raises UserInputError with one sentence that names the key."""
     try:
-        return DecisionCase.model_validate(json.loads(path.read_bytes(), object_pairs_hook=said_once))
+        return DecisionCase.model_validate(parse_json(path.read_bytes(), object_pairs_hook=said_once))
     except OSError as error:
         raise UserInputError(f"the case {path} cannot be read: {error.strerror}") from error
     except ValidationError as error:
         raise UserInputError(f"the case {path}: {_sentence(error.errors()[0])}") from error
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise UserInputError(f"the case {path} is not JSON: {error}") from error
 
 

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from typing import Any, Self
 
+from kiosk.files import parse_json
 from kiosk.units import MS_PER_SECOND
 
 FORMAT = "recollect-status-1"
@@ -116,7 +117,7 @@ class BoothStatus:
     def from_json(cls, text: str) -> Self:
         """Read the text of a file; raises ValueError if it is none of this format."""
         try:
-            given = json.loads(text)
+            given = parse_json(text)
             return cls(
                 **{key: value for key, value in given.items() if (key, value) != ("format", FORMAT)}
                 | {
@@ -126,7 +127,7 @@ class BoothStatus:
                     "alarms": tuple(AlarmStatus(**each) for each in given.get("alarms", ())),
                 }
             )
-        except (AttributeError, KeyError, TypeError, ValueError, RecursionError) as error:
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise ValueError(f"it is not of the format {FORMAT}") from error
 
     def age_s(self, now: datetime) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import socket
 from collections.abc import Callable, Collection, Mapping
 from contextlib import closing
@@ -20,6 +19,7 @@ from urllib3.connectionpool import HTTPConnectionPool
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
+from kiosk.files import parse_json
 from kiosk.robots.clip_server import ClipServer
 from kiosk.robots.driver import (
     Capabilities,
@@ -493,8 +493,8 @@ def _check(doing: str, code: int, content: bytes) -> None:
 def _json(content: bytes) -> object:
     """Return what a body says; None if it is not JSON."""
     try:
-        return json.loads(content)
-    except (ValueError, RecursionError):
+        return parse_json(content)
+    except ValueError:
         return None
 
 

@@ -20,6 +20,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
+from kiosk.files import parse_json
 from kiosk.language_codes import with_region
 from kiosk.robots.driver import Capabilities, Capability, FailureKind, RobotDriver, RobotError, Utterance
 from kiosk.robots.embodiment import BoardPoint
@@ -245,7 +246,7 @@ class FurhatRealtime(RobotDriver):
 def _message(text: str | bytes) -> Mapping[str, Any]:
     """Return what came, or something that answers no request if it is no message."""
     try:
-        message = json.loads(text)
-    except (ValueError, RecursionError):
+        message = parse_json(text)
+    except ValueError:
         return {}
     return message if isinstance(message, dict) else {}

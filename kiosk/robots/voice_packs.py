@@ -19,6 +19,7 @@ import numpy as np
 import platformdirs
 
 from kiosk import UserInputError
+from kiosk.files import parse_json
 from kiosk.robots.audio import TARGET_LUFS, Clip, joined, levelled, loudness_lufs, trimmed
 from kiosk.robots.tts_engines import ENGINES, SpeechEngine, is_installed
 
@@ -65,7 +66,7 @@ class VoicePack:
     def read(cls, folder: Path) -> Self:
         """Read the manifest in a folder; raises UserInputError if there is none that can be used."""
         try:
-            told = json.loads((folder / MANIFEST).read_text("utf-8"))
+            told = parse_json((folder / MANIFEST).read_text("utf-8"))
             by = {name: str(told["spoken_by"][name]) for name in ("engine", "engine_version", "voice")}
             clips = {str(key): dict(clip) for key, clip in told["clips"].items()}
             for clip in clips.values():
@@ -75,7 +76,7 @@ class VoicePack:
             )
         except OSError as error:
             raise UserInputError(f"there is no voice pack in {folder}: {MANIFEST}: {error.strerror}") from error
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise UserInputError(f"{folder / MANIFEST} is no manifest of a voice pack") from error
 
     @classmethod

@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from enum import Enum
 from pathlib import Path
 
-from kiosk.files import read_bytes, sync_folder
+from kiosk.files import parse_json, read_bytes, sync_folder
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 from kiosk.store.database import FILE as DATABASE
 from kiosk.store.tombstones import sessions_in
@@ -108,7 +108,7 @@ def _read(file: Path) -> Iterator[KnownCopy]:
         return
     for line in lines:
         try:
-            told = json.loads(line)
+            told = parse_json(line)
             yield KnownCopy(CopyKind(told["kind"]), Path(told["place"]), str(told["made_at"]))
-        except (ValueError, KeyError, TypeError, RecursionError):
+        except (ValueError, KeyError, TypeError):
             continue

@@ -8,7 +8,6 @@ from __future__ import annotations
 import csv
 import html
 import io
-import json
 import re
 import xml.etree.ElementTree as ET
 import zipfile
@@ -24,7 +23,7 @@ from kiosk import UserInputError
 from kiosk.errors import validation_messages
 from kiosk.experiment.questionnaire import ItemOrder, Questionnaire
 from kiosk.experiment.relevance import read_condition
-from kiosk.files import open_to_read
+from kiosk.files import open_to_read, parse_json
 from kiosk.language_codes import is_right, standard
 from kiosk.study.csv_import import Heading, text_of_table
 
@@ -193,10 +192,10 @@ def _json(name: str, file: Path) -> Any:
         if file.stat().st_size > MOST_BYTES:
             raise UserInputError(f"{name} is too large for a questionnaire")
         with open_to_read(file) as opened:
-            return json.loads(opened.read().decode("utf-8-sig"))
+            return parse_json(opened.read().decode("utf-8-sig"))
     except OSError as error:
         raise UserInputError(f"{name} cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise UserInputError(f"{name} is not a QSF file: it is not JSON") from error
 
 

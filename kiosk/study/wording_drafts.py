@@ -26,7 +26,7 @@ from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import FlipInMove
 from kiosk.assistance.wording import CARD, REPLACING, Catalogue, given_with
 from kiosk.config import parse_toml, read_text
-from kiosk.files import write_file
+from kiosk.files import parse_json, write_file
 
 SIGNED = "signed.toml"
 LONGEST = 120
@@ -78,13 +78,13 @@ class Draft:
         if not file.is_file():
             return None
         try:
-            held = json.loads(read_text(f"the draft {file}", file))
+            held = parse_json(read_text(f"the draft {file}", file))
             messages = {
                 name: [Candidate(each["text"], tuple(each["faults"]), State(each["state"])) for each in candidates]
                 for name, candidates in held.pop("messages").items()
             }
             return cls(**held, messages=messages)
-        except (ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
+        except (ValueError, LookupError, TypeError, AttributeError) as error:
             raise UserInputError(f"the draft {file} is damaged; remove it and draft anew") from error
 
     def write(self, folder: Path) -> None:

@@ -5,7 +5,6 @@ A player is a frozen description; ``numbers`` turns it into the plain numbers th
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from enum import Enum
@@ -16,6 +15,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 from kiosk import UserInputError
 from kiosk.errors import check_between, one_of
+from kiosk.files import parse_json
 from kiosk.training.vectorised_game import (
     CARDS,
     COLUMNS,
@@ -182,10 +182,10 @@ class PopulationPlayer:
     def load(cls, path: Path) -> Self:
         """Read the file that ``recollect calibrate --out`` writes; raises UserInputError with one sentence."""
         try:
-            document = json.loads(path.read_text("utf-8"))
+            document = parse_json(path.read_text("utf-8"))
         except OSError as error:
             raise UserInputError(f"the file of people {path} cannot be read: {error.strerror}") from error
-        except (ValueError, RecursionError) as error:
+        except ValueError as error:
             raise UserInputError(f"the file of people {path} is not JSON: {error}") from error
         if not isinstance(document, dict) or document.get("format") != PEOPLE_FORMAT:
             raise UserInputError(f"{path} is not a file of people: recollect calibrate --out writes one")
