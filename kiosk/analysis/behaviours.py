@@ -12,7 +12,8 @@ from scipy.stats import t as student_t
 
 from kiosk.analysis.data import ExportTable, Floats
 from kiosk.assistance.policy import FlipInMove
-from kiosk.experiment.events import HintCue, Stage
+from kiosk.experiment.events import HintCue
+from kiosk.experiment.outcomes import Stage
 
 BINS = 10
 """Equal parts of the range of a chance."""

@@ -19,7 +19,7 @@ from scipy.stats import t as student_t
 from kiosk.analysis.data import ExportTable, Floats
 from kiosk.analysis.statistics import NotEstimableError
 from kiosk.assistance.policy import ActionSpec, FlipInMove
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 
 LEAST_PEOPLE = 3
 """People who had a hint of the kind, and people who had no help, for there to be an interval."""

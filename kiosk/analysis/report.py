@@ -36,7 +36,7 @@ from kiosk.analysis.proximal import ProximalEffect, proximal_effects
 from kiosk.analysis.sample import Sample, choose_sample
 from kiosk.analysis.statistics import Estimate, NotEstimableError, fisher, hedges_g, sensitivity, student, wilson
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 
 CONFIRMATORY, EXPLORATORY = "CONFIRMATORY", "EXPLORATORY"
 

@@ -21,7 +21,7 @@ from kiosk.analysis.report import Report
 from kiosk.analysis.sample import NOT_COMPLETED, Measure, Sample
 from kiosk.analysis.statistics import ROBUSTNESS
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.export.flow import FlowQuantity
 
 COLOURS = {

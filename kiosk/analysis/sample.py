@@ -25,7 +25,7 @@ from kiosk.analysis.data import (
 )
 from kiosk.analysis.plan import StudyPlan
 from kiosk.analysis.statistics import LEAST
-from kiosk.experiment.condition import AllocationSource
+from kiosk.experiment.outcomes import AllocationSource
 
 NOT_DRAWN = {
     AllocationSource.OVERRIDE.value: "the experimenter chose the condition",

@@ -14,9 +14,8 @@ import click
 from kiosk.cli.options import json_option, sessions_data_option
 from kiosk.cli.terminal import counted, one_line
 from kiosk.config import ASSETS
-from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.files import write_file
 from kiosk.store.day_report import DayReport, DaySession, Happening, quantile, read_day_report
 from kiosk.units import as_minutes

@@ -31,9 +31,10 @@ from kiosk.cli.options import (
 )
 from kiosk.cli.terminal import counted
 from kiosk.config import NO_ROBOT, STAGES, RobotConfig
-from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.projections import count_speech, waiting_shares
-from kiosk.experiment.session_config import SessionKind, StudyConfig
+from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.session_state import SessionState
 from kiosk.robots.registry import check_robot
 from kiosk.robots.simulated import FlakyRobot

@@ -8,7 +8,7 @@ from datetime import datetime, time
 from enum import Enum
 
 from kiosk.config import read_hours
-from kiosk.experiment.events import Status
+from kiosk.experiment.outcomes import Status
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, MS_PER_SECOND
 
 AGAIN_MS = 10 * MS_PER_MINUTE

@@ -14,7 +14,6 @@ from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec
 from kiosk.assistance.wording import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
-from kiosk.experiment.outcomes import AllocationSource as AllocationSource  # noqa: PLC0414 - it is found here as well
 
 
 class Sentences(Protocol):

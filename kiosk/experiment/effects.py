@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from kiosk.experiment.events import EmbodimentName, NotRecordedReason, SessionEvent, TextSize, Timer
+from kiosk.experiment.events import EmbodimentName, SessionEvent, TextSize, Timer
 from kiosk.experiment.information import ConsentPage, Page
 from kiosk.experiment.items import Response
+from kiosk.experiment.outcomes import NotRecordedReason
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 

@@ -19,9 +19,7 @@ from kiosk.assistance.memory_model import MemoryEstimate
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove, GateDecision, MoveOutcome, Phase, find_action
 from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
-from kiosk.experiment.outcomes import NotRecordedReason as NotRecordedReason  # noqa: PLC0414 - it is found here as well
-from kiosk.experiment.outcomes import Stage as Stage  # noqa: PLC0414 - it is found here as well
-from kiosk.experiment.outcomes import Status as Status  # noqa: PLC0414 - it is found here as well
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import FlipRejection, Position
 

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from kiosk import UserInputError
 from kiosk.config import Keys
 from kiosk.experiment.condition import Condition, in_design_order
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 
 
 class Action(Enum):

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from kiosk.assistance.memory_model import MemoryModel
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.replay import ReplayStep
 from kiosk.game import Board, Concentration
 

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
 from kiosk.experiment.items import Rating
+from kiosk.experiment.outcomes import CARDS_IN_A_MOVE
 from kiosk.experiment.questionnaire import (
     Questionnaire,
 )
-from kiosk.experiment.session_state import CARDS_IN_A_MOVE, Interval, ItemResponse, SessionState, elapsed_ms
+from kiosk.experiment.session_state import Interval, ItemResponse, SessionState, elapsed_ms
 
 
 def item_responses(state: SessionState, questionnaires: Sequence[Questionnaire]) -> tuple[ItemResponse, ...]:

@@ -18,7 +18,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, help_in
 from kiosk.experiment.effects import Effect, Mood, Outcome, OutcomeBuilder
-from kiosk.experiment.events import EmbodimentName, Event, NotRecordedReason, Stage, Status, TextSize, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Event, TextSize, Timer, WorldEvent
 from kiosk.experiment.game_stage import (
     DealtTable,
     GameStage,
@@ -28,6 +28,7 @@ from kiosk.experiment.game_stage import (
     SampleHints,
 )
 from kiosk.experiment.information import POINTER, RETURNING
+from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.experiment.page_stages import (
     AboutStage,
     AgeStage,

@@ -10,9 +10,8 @@ from kiosk.assistance.policy import QTable
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ConditionConfig, Settings, Timing
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
 from kiosk.experiment.information import Information
-from kiosk.experiment.outcomes import SessionKind as SessionKind  # noqa: PLC0414 - it is found here as well
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.transitions import StageOrder
 

@@ -48,14 +48,12 @@ from kiosk.experiment.events import (
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
-    Stage,
     StageEntered,
-    Status,
     Timer,
     TimerExpired,
 )
 from kiosk.experiment.items import Answer, NotApplicable, Response
-from kiosk.experiment.outcomes import CARDS_IN_A_MOVE as CARDS_IN_A_MOVE  # noqa: PLC0414 - it is found here as well
+from kiosk.experiment.outcomes import CARDS_IN_A_MOVE, Stage, Status
 from kiosk.game import Board
 
 

@@ -46,7 +46,6 @@ from kiosk.experiment.events import (
     SpeechFailed,
     SpeechFinished,
     SpeechStarted,
-    Stage,
     StopPressed,
     TextSizeSelected,
     ThanksTimedOut,
@@ -55,6 +54,7 @@ from kiosk.experiment.events import (
     UserActivity,
     WorldEvent,
 )
+from kiosk.experiment.outcomes import Stage
 
 
 class InvalidTransition(Exception):

@@ -11,9 +11,9 @@ from typing import Any, Generic, TypeVar
 
 from kiosk.assistance.policy import FlipInMove, GateDecision
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig, Settings
-from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, Stage, WorldEvent
+from kiosk.experiment.events import EmbodimentKind, Event, SessionEvent, WorldEvent
 from kiosk.experiment.labels import fold_name, read_as
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.extensions import ExtensionGroup, installed
 
 

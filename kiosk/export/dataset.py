@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from kiosk import UserInputError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.flow import FlowQuantity, ParticipantFlow
 from kiosk.export.layouts import DatasetContents, Layout, PsychDs, new_folder

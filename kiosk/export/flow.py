@@ -7,11 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 
-from kiosk.experiment.events import (
-    Stage,
-    Status,
-)
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import Disposition, SessionKind, Stage, Status
 from kiosk.experiment.session_state import SessionState
 from kiosk.export.columns import (
     Cell,
@@ -24,7 +20,7 @@ from kiosk.export.columns import (
     make_columns,
     who_sat_there,
 )
-from kiosk.store.participants import Disposition, EnrolmentCounts
+from kiosk.store.participants import EnrolmentCounts
 from kiosk.store.session_records import SessionRecord
 
 

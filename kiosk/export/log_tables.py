@@ -10,8 +10,9 @@ from itertools import repeat
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-from kiosk.experiment.events import Stage, event_kinds
+from kiosk.experiment.events import event_kinds
 from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
 from kiosk.export.columns import (
     AT,

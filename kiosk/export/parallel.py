@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from kiosk import StorageError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.flow import FlowQuantity, ParticipantFlow
 from kiosk.export.layouts import csv_texts

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import chain
 
-from kiosk.experiment.condition import AllocationSource
 from kiosk.experiment.events import (
     HOURS_IN_A_BAND,
     EmbodimentKind,
@@ -15,11 +14,9 @@ from kiosk.experiment.events import (
     InputDevice,
     PracticeEnd,
     SessionSetup,
-    Stage,
-    Status,
 )
 from kiosk.experiment.labels import fold_name
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import AllocationSource, SessionKind, Stage, Status
 from kiosk.export.columns import (
     EMBODIMENT,
     PARTICIPANT,

@@ -18,8 +18,9 @@ from pathlib import Path
 from kiosk import DISK_FULL, UserInputError
 from kiosk.config import Allocation
 from kiosk.experiment.condition import Condition, ratio_in_words
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.questionnaire import QUESTIONNAIRES, Questionnaire, differences
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.preflight import CheckResult
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import FILE, SCHEMA, Foreign, Newer, make_durable, open_as_it_is, open_for_reading

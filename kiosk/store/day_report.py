@@ -10,10 +10,10 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from kiosk.experiment.events import RobotDisconnected, SpeechFailed, Stage, Status
+from kiosk.experiment.events import RobotDisconnected, SpeechFailed
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.experiment.projections import count_speech
-from kiosk.experiment.session_config import SessionKind
 from kiosk.experiment.session_state import SessionState
 from kiosk.store.session_records import SessionRecord, open_records
 from kiosk.units import MS_PER_SECOND

@@ -14,11 +14,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from kiosk import StorageError, UserInputError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.connecting import atomic_directory, reason
 from kiosk.store.database import FILE, in_use, open_for_reading, open_for_writing
+from kiosk.store.listing import participant_name
 from kiosk.store.maintenance import Progress
-from kiosk.store.participants import checked_site, participant_name
+from kiosk.store.participants import checked_site
 from kiosk.store.recorder import insert
 from kiosk.store.summaries import fill_summaries
 from kiosk.store.tombstones import add_tombstones, sessions_of, withdrawn_hashes

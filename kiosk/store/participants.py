@@ -17,20 +17,17 @@ from random import SystemRandom
 from kiosk import UserInputError
 from kiosk.experiment.condition import (
     AllocationSlot,
-    AllocationSource,
     Condition,
     allocation_slots,
     in_design_order,
     next_slot,
     ratio_in_words,
 )
-from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.information import RETURNING
 from kiosk.experiment.labels import read_as
-from kiosk.experiment.outcomes import Disposition as Disposition  # noqa: PLC0414 - it is found here as well
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import AllocationSource, Disposition, NotRecordedReason, SessionKind
 from kiosk.store.codes import issue_code
-from kiosk.store.listing import participant_name as participant_name  # noqa: PLC0414 - it is found here as well
+from kiosk.store.listing import participant_name
 
 _DIGITS_OF_A_YEAR = 4
 _SITE = re.compile(r"[A-Z0-9]{0,8}", re.ASCII)

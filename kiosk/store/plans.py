@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from kiosk import UserInputError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.database import has_database, open_for_reading
 from kiosk.store.recorder import Recorder
 from kiosk.units import MS_PER_SECOND

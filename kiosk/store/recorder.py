@@ -16,11 +16,12 @@ from types import TracebackType
 from typing import Any, Self
 
 from kiosk import StorageError, UserInputError, __version__
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
-from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, Status, WorldEvent, to_record
+from kiosk.experiment.condition import AllocationSlot, Condition
+from kiosk.experiment.events import Event, SessionEnded, WorldEvent, to_record
 from kiosk.experiment.experimenter import AuditEvent
+from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Status
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
-from kiosk.experiment.session_config import SessionConfig, SessionKind, Translation
+from kiosk.experiment.session_config import SessionConfig, Translation
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
 from kiosk.store.codes import keys_of, session_with_hash, shown_code
 from kiosk.store.connecting import failure, primary_code, reason

@@ -19,10 +19,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kiosk import UserInputError
-from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, Stage, Status, from_fields
+from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, from_fields
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import SessionState, with_stages
 from kiosk.files import read_bytes, replace_file
 from kiosk.store.chain import LinkedEvent, is_unbroken

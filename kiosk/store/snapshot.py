@@ -14,11 +14,12 @@ from typing import Any
 from kiosk import UserInputError
 from kiosk.experiment.booth_status import DayCounts, EndedSession, utc
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage, Status, WorldEvent
+from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.store.database import open_for_reading, unreadable
-from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment, participant_name
+from kiosk.store.listing import participant_name
+from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment
 from kiosk.store.recorder import Provenance
 from kiosk.units import MS_PER_HOUR, MS_PER_SECOND
 

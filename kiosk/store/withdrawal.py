@@ -20,8 +20,9 @@ from kiosk import StorageError, UserInputError
 from kiosk.store.codes import session_with_code, session_withdrawn_with
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import FILE, in_use, lock_folder, open_for_reading, open_for_writing
+from kiosk.store.listing import participant_name
 from kiosk.store.maintenance import FOLDER, back_up, list_backups, remove_all_but
-from kiosk.store.participants import participant_name, visits_of
+from kiosk.store.participants import visits_of
 from kiosk.store.remnants import clear_remnants
 from kiosk.store.tombstones import add_tombstones, copies_with, sessions_of, withdrawn_hashes
 

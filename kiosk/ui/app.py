@@ -18,7 +18,7 @@ from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import MarkersConfig, Settings, VoiceConfig
 from kiosk.experiment.events import EmbodimentName, SessionSetup
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.robots.adapter import AsyncRobotAdapter
 from kiosk.robots.driver import RobotDriver
 from kiosk.robots.registry import create_robot

@@ -17,8 +17,9 @@ from kiosk.config import ASSETS, NO_ROBOT, RobotConfig, Settings
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.information import Information
 from kiosk.experiment.items import Choice, Integer, Question, Rating, TextPage, in_language
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.questionnaire import Item
-from kiosk.experiment.session_config import SessionConfig, SessionKind, StudyConfig
+from kiosk.experiment.session_config import SessionConfig, StudyConfig
 from kiosk.files import check_writable
 from kiosk.store.recorder import Recorder
 from kiosk.ui.app import App

@@ -16,8 +16,9 @@ from kiosk.assistance.policy import PRAISE, ActionSpec, GateDecision
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, HintCue, RemarkTrigger, Stage
+from kiosk.experiment.events import Event, HintCue, RemarkTrigger
 from kiosk.experiment.memory_replay import BoardMemory, MemoryFollower
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.replay import ReplayStep
 from kiosk.files import check_writable, write_file
 from kiosk.ui.memory_view import AMBER, FAINT, INK, LINE, MARGIN, PAPER, Style, draw_memory, memory_width, write

@@ -24,8 +24,9 @@ from kiosk import DISK_FULL, StorageError, UserInputError, is_nearly_full, unwri
 from kiosk.config import STAGES
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Effect, Outcome
-from kiosk.experiment.events import Stage, WorldEvent
+from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.information import RETURNING
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Item
 from kiosk.store.codes import ALPHABET
 from kiosk.ui.app import App

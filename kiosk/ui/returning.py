@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from kiosk import StorageError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.codes import hashes_of
 from kiosk.store.participants import ReturningVisitor
 from kiosk.store.recorder import Recorder

@@ -13,12 +13,13 @@ from typing import Any, Self
 from kiosk import StorageError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition, condition_of_return
+from kiosk.experiment.condition import AllocationSlot, Condition, condition_of_return
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Stage, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionSetup, Timer, WorldEvent
 from kiosk.experiment.experimenter import AuditEvent
+from kiosk.experiment.outcomes import AllocationSource, SessionKind, Stage, Status
 from kiosk.experiment.session import RecordingState, Session
-from kiosk.experiment.session_config import SessionKind, StudyConfig
+from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.participants import Participant, ReturningVisitor
@@ -193,7 +194,7 @@ class SessionRecording:
         if self._provenance.plan.settings.consent.on_withdrawal == "keep":
             return False
         ends = (event.status for event in outcome.events if isinstance(event, happened.SessionEnded))
-        return any(status is happened.Status.WITHDRAWN for status in ends)
+        return any(status is Status.WITHDRAWN for status in ends)
 
     def _keep(self, events: list[Event]) -> None:
         self._name(self._recorder.begin(self._provenance, events))

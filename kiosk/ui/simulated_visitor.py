@@ -14,8 +14,8 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent, QPointingDevice
 from PySide6.QtQuick import QQuickItem, QQuickWindow
 from PySide6.QtTest import QTest
 
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Act, Question, Tap, Typing
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
 

@@ -22,8 +22,7 @@ import click
 from PySide6.QtCore import QObject, Qt, QTimer
 
 from kiosk.cli.composition import read_settings
-from kiosk.experiment.events import Stage
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.robots.simulated import FlakyRobot
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study

@@ -9,8 +9,8 @@ from datetime import UTC, datetime, timedelta
 from itertools import cycle
 from pathlib import Path
 
-from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store.chain import EventFields, first_hash, next_hash
 from kiosk.store.database import open_for_writing
 from kiosk.store.participants import AllocationLists

@@ -23,7 +23,8 @@ from PySide6.QtQuick import QQuickWindow
 
 from kiosk.config import Settings
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import CardSelected, Stage, WorldEvent
+from kiosk.experiment.events import CardSelected, WorldEvent
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import Aside, UiDriver, find_item, touch

@@ -18,7 +18,7 @@ import pytest
 from click.testing import CliRunner
 
 from kiosk.cli.main import recollect
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
 from kiosk.store.database import FILE

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from kiosk.experiment.events import CardFlipped, CardSelected, SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
 from tests.bench.percentiles import tell_percentiles

@@ -14,8 +14,8 @@ from click.testing import CliRunner, Result
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.events import CardFlipped
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.replay import first_difference, replay_events
-from kiosk.experiment.session_config import SessionKind
 from kiosk.store.chain import read_heads
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository

@@ -16,7 +16,7 @@ from click.testing import CliRunner, Result
 from kiosk import StorageError, UserInputError
 from kiosk.cli import sessions as listing
 from kiosk.cli.main import recollect
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store import withdrawal as withdrawing
 from kiosk.store.copies import FILE as COPIES
 from kiosk.store.database import FILE

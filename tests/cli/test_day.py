@@ -15,9 +15,8 @@ from click.testing import CliRunner
 
 from kiosk.cli.day import day_page
 from kiosk.cli.main import recollect
-from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

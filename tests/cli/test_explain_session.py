@@ -16,9 +16,9 @@ from kiosk import UserInputError
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate
 from kiosk.cli.main import main
 from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, MemoryEstimated, PolicyUpdated, Stage
+from kiosk.experiment.events import AssistanceDecided, CardFlipped, HintGiven, MemoryEstimated, PolicyUpdated
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.session import Session
-from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.queries import DecisionExplainer, explain_stored_decision, open_repository
 from kiosk.store.recorder import Provenance, Recorder

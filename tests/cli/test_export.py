@@ -10,7 +10,7 @@ from click.testing import CliRunner, Result
 
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from tests.export.conftest import rows_of
 from tests.export.visitors import store, unsharing, visitor
 

@@ -14,7 +14,7 @@ from kiosk import UserInputError
 from kiosk.cli import open_day
 from kiosk.cli.devices import RobotTrial
 from kiosk.cli.main import recollect
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import WHAT, Check, CheckResult
 from kiosk.store.maintenance import FOLDER, list_backups
 from kiosk.store.recorder import Provenance, Recorder

@@ -17,7 +17,7 @@ from kiosk import DISK_FULL, UserInputError, program
 from kiosk.cli.main import main, recollect
 from kiosk.cli.terminal import console, counted, harmless, one_line, tell_caution
 from kiosk.experiment.events import RobotDisconnected, SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.day_report import DayReport
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
 from kiosk.robots.audio import Clip

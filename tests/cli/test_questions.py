@@ -17,7 +17,7 @@ import kiosk
 from kiosk.cli.main import recollect
 from kiosk.cli.terminal import confirm
 from kiosk.experiment.events import SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan
 from tests.store.visitors import rows

@@ -17,7 +17,7 @@ from unittest.mock import patch
 import pytest
 
 from kiosk.experiment.events import SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.sd_notify import NotifySocketListener
 from kiosk.store.recorder import Provenance, Recorder
 from tests.forked import PROGRAM, LoadedProgram

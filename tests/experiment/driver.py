@@ -16,7 +16,7 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Effect, Outcome
-from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionEvent, Stage, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice, SessionEvent, Timer, WorldEvent
 from kiosk.experiment.items import (
     Answer,
     Integer,
@@ -26,6 +26,7 @@ from kiosk.experiment.items import (
     Single,
     TextPage,
 )
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Item
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_config import SessionConfig

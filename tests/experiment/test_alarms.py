@@ -20,7 +20,7 @@ from kiosk.experiment.alarms import (
     OpeningHours,
     alarms_of,
 )
-from kiosk.experiment.events import Status
+from kiosk.experiment.outcomes import Status
 from kiosk.units import MS_PER_MINUTE
 
 NOON = datetime(2026, 5, 4, 12, 0, tzinfo=UTC)

@@ -14,8 +14,9 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import BoardWait, Outcome
-from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Timer, WorldEvent
 from kiosk.experiment.items import TextPage
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.game import Position

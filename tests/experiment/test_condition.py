@@ -20,7 +20,8 @@ from kiosk.config import ASSETS, PAPER_CONDITIONS, ConditionConfig, Settings, Ti
 from kiosk.experiment import effects as do
 from kiosk.experiment.condition import CONDITIONS, Condition, Help, help_in, target_rule
 from kiosk.experiment.effects import BoardWait
-from kiosk.experiment.events import HintCue, HintGiven, HintHighlighted, Stage
+from kiosk.experiment.events import HintCue, HintGiven, HintHighlighted
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import measure
 from kiosk.experiment.replay import first_difference, replay_events
 from kiosk.experiment.session_state import SentencePurpose, SessionState

@@ -17,17 +17,15 @@ from kiosk.experiment.events import (
     EmbodimentKind,
     EmbodimentName,
     Event,
-    NotRecordedReason,
     PracticeEnd,
     SessionEvent,
-    Stage,
-    Status,
     Timer,
     WorldEvent,
     from_record,
     to_record,
 )
 from kiosk.experiment.items import Answer
+from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.game import FlipRejection, Position
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import whole

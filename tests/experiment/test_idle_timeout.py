@@ -10,9 +10,10 @@ from kiosk.assistance.policy import ActionSpec
 from kiosk.config import Idle, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage, Status, Timer
+from kiosk.experiment.events import Timer
 from kiosk.experiment.information import ConsentPage, Page, Purpose
 from kiosk.experiment.items import ShortText
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Position
 from tests.experiment.driver import SPEECH_TIME, Driver, Voice, driven_to, with_memory

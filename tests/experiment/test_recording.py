@@ -12,7 +12,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import NotRecordedReason, Stage, Status
+from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.experiment.session import RecordingState
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import BEFORE_DECIDING

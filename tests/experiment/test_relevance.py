@@ -12,8 +12,8 @@ from kiosk import UserInputError
 from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import NOT_APPLICABLE, Integer, Multiple, Response, ShortText, Single, TextPage
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import item_responses, scale_scores
 from kiosk.experiment.questionnaire import Item, Questionnaire
 from kiosk.experiment.relevance import hidden_items, holds, read_condition

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from kiosk.config import STAGES, Game, Practice
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Stage, Status, Timer, WorldEvent
+from kiosk.experiment.events import EmbodimentName, Timer, WorldEvent
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.questionnaire import ItemOrder
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import SessionConfig

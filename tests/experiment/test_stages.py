@@ -12,7 +12,8 @@ from kiosk import UserInputError
 from kiosk.config import STAGES, Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage, Status, Timer, WorldEvent
+from kiosk.experiment.events import Timer, WorldEvent
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.transitions import (
     BEFORE_DECIDING,
     TABLE,

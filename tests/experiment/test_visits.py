@@ -11,8 +11,8 @@ from pydantic import ValidationError
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition, condition_of_return
-from kiosk.experiment.events import Stage
 from kiosk.experiment.information import RETURNING, Purpose
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.session import Session
 from tests.samples import likert, questionnaire, whole

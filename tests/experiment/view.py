@@ -7,17 +7,9 @@ from dataclasses import dataclass, field
 
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import BoardWait, Effect, Mood, Outcome, RecordingDecision
-from kiosk.experiment.events import (
-    NotRecordedReason,
-    SessionEnded,
-    SessionResumed,
-    SpeechFailed,
-    SpeechFinished,
-    Status,
-    TextSize,
-    WorldEvent,
-)
+from kiosk.experiment.events import SessionEnded, SessionResumed, SpeechFailed, SpeechFinished, TextSize, WorldEvent
 from kiosk.experiment.items import Response
+from kiosk.experiment.outcomes import NotRecordedReason, Status
 from kiosk.game import Position
 
 

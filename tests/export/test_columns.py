@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.events import SessionEvent, Status, WorldEvent
+from kiosk.experiment.events import SessionEvent, WorldEvent
+from kiosk.experiment.outcomes import Status
 from kiosk.experiment.projections import Measures
 from kiosk.export.columns import (
     SEPARATOR,

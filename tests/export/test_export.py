@@ -12,16 +12,9 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
-from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import (
-    NotRecordedReason,
-    RobotDisconnected,
-    SentenceRequested,
-    SessionStarted,
-    SpeechStarted,
-    Stage,
-)
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import RobotDisconnected, SentenceRequested, SessionStarted, SpeechStarted
+from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Stage
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import Exported, export_dataset
 from kiosk.export.flow import ParticipantFlow

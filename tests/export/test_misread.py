@@ -17,8 +17,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as some
 
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Integer, ShortText
+from kiosk.experiment.outcomes import Stage
 from kiosk.export.columns import (
     SEPARATES_OBJECTS,
     Column,

@@ -12,9 +12,9 @@ from random import Random
 import pytest
 
 from kiosk import UserInputError
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Integer
 from kiosk.experiment.labels import fold_name, is_reserved
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.export.columns import ExportOption, distinct
 from kiosk.export.dataset import export_dataset

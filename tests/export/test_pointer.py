@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Privacy
-from kiosk.experiment.events import CardSelected, Stage
+from kiosk.experiment.events import CardSelected
 from kiosk.experiment.information import POINTER, Purpose
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.export.dataset import export_dataset

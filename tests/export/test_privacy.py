@@ -16,8 +16,9 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.config import Allocation, ConsentConfig, Privacy, RobotConfig
-from kiosk.experiment.events import ResponseGiven, Stage
+from kiosk.experiment.events import ResponseGiven
 from kiosk.experiment.items import ShortText
+from kiosk.experiment.outcomes import Stage
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, Layout, PsychDs

@@ -17,12 +17,11 @@ from kiosk.experiment.events import (
     InputDevice,
     SessionSetup,
     SessionStarted,
-    Stage,
     from_record,
     to_record,
 )
 from kiosk.experiment.experimenter import AuditEvent, DeviationReason
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

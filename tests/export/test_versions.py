@@ -11,8 +11,8 @@ import pytest
 from click.testing import CliRunner
 
 from kiosk.cli.main import recollect
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Answer, Multiple, ShortText, Single
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import ReturningConfig
-from kiosk.experiment.condition import AllocationSource
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.outcomes import AllocationSource, SessionKind
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs
 from kiosk.store.participants import ReturningVisitor

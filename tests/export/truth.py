@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 
 from kiosk.assistance.policy import NO_GATE, Gate
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs
 from tests.experiment.driver import Driver, at_random, with_memory

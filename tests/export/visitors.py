@@ -10,7 +10,6 @@ from types import MappingProxyType
 
 from kiosk.config import ASSETS
 from kiosk.experiment.condition import CONDITIONS, Condition
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import (
     Answer,
     Integer,
@@ -20,8 +19,9 @@ from kiosk.experiment.items import (
     Single,
     TextPage,
 )
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.questionnaire import Item, Questionnaire
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
 from tests.experiment.driver import Driver, Voice, at_random, with_memory

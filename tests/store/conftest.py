@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.recorder import Provenance
 from tests.experiment.driver import Driver, with_memory
 from tests.samples import mixed, plan

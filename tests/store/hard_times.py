@@ -33,7 +33,7 @@ from rich.progress import track
 
 from kiosk import DISK_FULL, StorageError, program
 from kiosk.experiment.events import Event, SessionStarted, SpeechFailed
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

@@ -25,9 +25,9 @@ from typing import Any
 import click
 from rich.progress import track
 
-from kiosk.experiment.events import Event, NotRecordedReason, SessionEnded, SessionStarted, SpeechFailed, Status
+from kiosk.experiment.events import Event, SessionEnded, SessionStarted, SpeechFailed
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import NotRecordedReason, SessionKind, Status
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

@@ -11,7 +11,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Status
+from kiosk.experiment.outcomes import Status
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import PsychDs

@@ -20,9 +20,9 @@ import pytest
 from kiosk import StorageError, UserInputError, __version__
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Event, NotRecordedReason, Status
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import NotRecordedReason, SessionKind, Status
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
-from kiosk.experiment.session_config import SessionKind
 from kiosk.game import Position
 from kiosk.store import recorder as recorder_module
 from kiosk.store.database import FILE, open_for_writing

@@ -11,9 +11,8 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import Status
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.outcomes import AllocationSource, SessionKind, Status
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder

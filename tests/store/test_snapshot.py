@@ -9,9 +9,9 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, Stage, Status
+from kiosk.experiment.events import EmbodimentName, Event
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.snapshot import LAST, last_written_ms, read_snapshot, wrong_pins
 from tests.samples import whole

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import EmbodimentName, Stage, Status
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.events import EmbodimentName
+from kiosk.experiment.outcomes import AllocationSource, Disposition, SessionKind, Stage, Status
 from kiosk.experiment.projections import measure
-from kiosk.experiment.session_config import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.listing import RUNNING, SessionFilter
-from kiosk.store.participants import AllocationLists, Disposition
+from kiosk.store.participants import AllocationLists
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.verify import Verification, verify

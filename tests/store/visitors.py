@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
-from kiosk.experiment.events import Event, NotRecordedReason, Status
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.condition import AllocationSlot, Condition
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Status
 from kiosk.store.codes import issue_code
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.participants import Participant

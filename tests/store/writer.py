@@ -12,7 +12,7 @@ from itertools import count
 from pathlib import Path
 
 from kiosk.experiment.events import CardSelected, CardSelectionRejected, SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.game import Position
 from kiosk.store.recorder import Provenance, Recorder
 from tests.samples import plan

@@ -6,7 +6,8 @@ import csv
 import shutil
 from pathlib import Path
 
-from kiosk.experiment.session_config import SessionConfig, SessionKind
+from kiosk.experiment.outcomes import SessionKind
+from kiosk.experiment.session_config import SessionConfig
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset
 from kiosk.export.layouts import Bids, PsychDs

@@ -19,7 +19,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.study.checks import study_warnings
 from kiosk.study.csv_import import Heading, as_toml, read_items
 from kiosk.study.loader import read_study

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.study.loader import read_study
 from tests.experiment.driver import Driver, with_memory
 from tests.study.storing import store_and_export

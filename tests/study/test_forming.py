@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.config import ASSETS, Settings
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.study.checks import study_warnings
 from kiosk.study.forming import unformed
 from kiosk.study.loader import read_study

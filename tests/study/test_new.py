@@ -11,7 +11,7 @@ from kiosk import UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.cli.study import check_free
 from kiosk.config import Settings, shipped_names
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.study.checks import study_warnings
 from kiosk.study.loader import read_study

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from kiosk.config import Settings
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.robots.driver import RobotDriver
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study

@@ -29,7 +29,7 @@ from rich.progress import track
 
 from kiosk.config import STAGES, Settings
 from kiosk.experiment.events import Event, to_record
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder

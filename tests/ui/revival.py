@@ -28,7 +28,7 @@ from typing import Any
 import click
 
 from kiosk import config
-from kiosk.experiment.events import Status
+from kiosk.experiment.outcomes import Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.queries import open_repository
 from kiosk.ui.session_runner import ERROR_SCREEN_MS

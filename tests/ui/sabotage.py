@@ -9,7 +9,8 @@ from enum import Enum
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import Event, Stage, Status, WorldEvent
+from kiosk.experiment.events import Event, WorldEvent
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.projections import SpeechCounts, count_speech
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_state import SessionState

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import click
 
-from kiosk.experiment.events import Status
+from kiosk.experiment.outcomes import Status
 from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal

@@ -17,8 +17,9 @@ from pytestqt.qtbot import QtBot
 from kiosk.config import ASSETS
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import Event, Stage, Status, WorldEvent
+from kiosk.experiment.events import Event, WorldEvent
 from kiosk.experiment.items import Multiple
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.game import Position
 from kiosk.store.database import FILE

@@ -9,8 +9,8 @@ import pytest
 
 from kiosk import StorageError
 from kiosk.config import Settings
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.condition import AllocationSlot, Condition
+from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store.recorder import Recorder
 from kiosk.study.loader import read_study
 from kiosk.ui.session_runner import ConditionAssigner, RunContext

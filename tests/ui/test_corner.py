@@ -6,7 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 
 from kiosk.config import Settings
-from kiosk.experiment.events import SoundSelected, Stage, Status, TextSize, TextSizeSelected
+from kiosk.experiment.events import SoundSelected, TextSize, TextSizeSelected
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.replay import replay_events
 from kiosk.store.queries import open_repository
 from kiosk.ui.input import CHOICES_KEPT_MS

@@ -18,9 +18,8 @@ from kiosk.assistance.policy import Gate
 from kiosk.cli.main import recollect
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.replay import ReplayStep, replay_events
-from kiosk.experiment.session_config import SessionKind
 from kiosk.game import Board, Concentration
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.film import LEFT_OUT_MS, PERSONAL, WIDTH, Captions, write_film

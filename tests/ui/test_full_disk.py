@@ -11,7 +11,7 @@ import pytest
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage, Status
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.transitions import BEFORE_DECIDING
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository

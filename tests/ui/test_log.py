@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 from kiosk.cli.log import LOG, LOGS_KEPT, log_file
 from kiosk.config import Settings
 from kiosk.config import VoiceConfig as VoiceSettings
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.voice import EngineVoice
 from tests.robots.furhat_fake import FurhatFake, Mode
 from tests.ui.conftest import MakeBooth

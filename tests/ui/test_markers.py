@@ -14,7 +14,8 @@ from PySide6.QtCore import QCoreApplication, QObject
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import MarkersConfig
-from kiosk.experiment.events import ContinuePressed, SessionEnded, Status, StopPressed
+from kiosk.experiment.events import ContinuePressed, SessionEnded, StopPressed
+from kiosk.experiment.outcomes import Status
 from kiosk.preflight import Severity
 from kiosk.robots import lsl_worker
 from kiosk.ui.markers import MOST_WAITING, MarkerStream

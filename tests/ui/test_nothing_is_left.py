@@ -13,7 +13,8 @@ from PySide6.QtQuick import QQuickItem
 
 from kiosk.experiment import effects as do
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import ResponseGiven, Stage, StageEntered, WorldEvent
+from kiosk.experiment.events import ResponseGiven, StageEntered, WorldEvent
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.app import App
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import BehaviourKind, BehaviourProfile, lay_out

@@ -15,9 +15,9 @@ from pytestqt.qtbot import QtBot
 from kiosk.cli.main import recollect
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import RevealCard
-from kiosk.experiment.events import CardFlipped, Stage
+from kiosk.experiment.events import CardFlipped
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.replay import ReplayStep, first_difference, replay_events
-from kiosk.experiment.session_config import SessionKind
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.ui.film import Captions

@@ -11,7 +11,8 @@ from pytestqt.qtbot import QtBot
 from kiosk import UserInputError
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Stage, Status
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.replay import first_difference, replay_events
 from kiosk.experiment.transitions import BEFORE_DECIDING, InvalidTransition
 from kiosk.store.queries import open_repository

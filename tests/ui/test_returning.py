@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
+from kiosk.experiment.outcomes import Stage
 from kiosk.store.codes import make_code
 from kiosk.store.queries import open_repository
 from kiosk.store.verify import verify

@@ -10,7 +10,8 @@ from PySide6.QtCore import Qt
 from kiosk import StorageError
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Status
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import Status
 from kiosk.game import Position
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder

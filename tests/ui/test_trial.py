@@ -11,7 +11,8 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.cli.main import recollect
 from kiosk.config import Settings
-from kiosk.experiment.session_config import SessionKind, kind_of
+from kiosk.experiment.outcomes import SessionKind
+from kiosk.experiment.session_config import kind_of
 from kiosk.store.queries import open_repository
 from kiosk.ui.rehearsal import Rehearsal
 from kiosk.ui.simulated_visitor import find_item

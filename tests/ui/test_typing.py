@@ -14,8 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
 from kiosk.experiment.items import Answer, Integer, ShortText
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.replay import replay_events
 from kiosk.export.columns import ExportOption
 from kiosk.export.dataset import export_dataset

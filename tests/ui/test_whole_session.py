@@ -12,7 +12,8 @@ from kiosk.config import STAGES, Settings
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import NotRecordedReason, Stage, Status, WorldEvent
+from kiosk.experiment.events import WorldEvent
+from kiosk.experiment.outcomes import NotRecordedReason, Stage, Status
 from kiosk.experiment.session import Session
 from kiosk.experiment.session_state import SessionState
 from kiosk.store.queries import open_repository

@@ -13,9 +13,9 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
-from kiosk.experiment.events import ResponseGiven, Stage, Status
+from kiosk.experiment.events import ResponseGiven
 from kiosk.experiment.experimenter import AuditEvent, DeviationReason
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.store.queries import open_repository
 from kiosk.store.snapshot import read_snapshot
 from kiosk.ui.app import App

@@ -15,8 +15,9 @@ from kiosk import StorageError, UserInputError
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import EmbodimentName, Stage
+from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.robots.embodiment import Health
 from kiosk.robots.selector import EmbodimentSelector

@@ -18,9 +18,9 @@ from kiosk import UserInputError, __version__
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.alarms import Alarm, BoothSigns
 from kiosk.experiment.booth_status import BoothStatus, DayCounts, utc
-from kiosk.experiment.events import EmbodimentName, PauseEnded, Stage
+from kiosk.experiment.events import EmbodimentName, PauseEnded
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, permission, shortcuts
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.sd_notify import BEAT_WITHIN
 from kiosk.store.snapshot import (
     DashboardSnapshot,

@@ -17,13 +17,13 @@ from kiosk import why
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.booth_status import CLOSED, FILE, WRITE_EVERY_S, BoothStatus, DayCounts, EndedSession, PartStatus
 from kiosk.experiment.condition import Condition, in_design_order
-from kiosk.experiment.events import Status
 from kiosk.experiment.experimenter import Action, AuditEvent, DeviationReason
+from kiosk.experiment.outcomes import Disposition, Status
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.files import read_bytes, replace_file
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace, SpaceLevel
-from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
+from kiosk.store.participants import CountCell, EnrolmentCounts
 from kiosk.store.snapshot import DashboardSnapshot, SnapshotAuditEvent, SnapshotSession
 from kiosk.ui.event_loop import Clock, Executor, TimerWait
 from kiosk.ui.experimenter.maintenance import BackupOutcome

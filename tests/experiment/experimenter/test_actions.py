@@ -13,7 +13,6 @@ from kiosk.experiment.events import (
     NextParticipantRequested,
     PauseRequested,
     RepeatRequested,
-    Stage,
     WorldEvent,
 )
 from kiosk.experiment.experimenter import (
@@ -25,6 +24,7 @@ from kiosk.experiment.experimenter import (
     condition_cycle,
     permission,
 )
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import TABLE as STAGES
 
 MANUAL = Path(__file__).parents[3] / "docs" / "how-to" / "experimenter.md"

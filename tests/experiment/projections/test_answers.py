@@ -11,13 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, Stage, Status
+from kiosk.experiment.events import EmbodimentName, Event
 from kiosk.experiment.items import (
     Answer,
     Multiple,
     ShortText,
     TextPage,
 )
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.projections import item_responses
 from kiosk.experiment.questionnaire import (
     ItemOrder,

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from kiosk.assistance.mentaliser import HintReason
 from kiosk.assistance.policy import ActionSpec, FlipInMove
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.events import Event
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import Measures, measure
 from kiosk.experiment.session_state import BoardHint
 from kiosk.game import Position

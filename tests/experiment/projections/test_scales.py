@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Event, Stage
+from kiosk.experiment.events import Event
 from kiosk.experiment.items import (
     NOT_APPLICABLE,
     Integer,
@@ -18,6 +18,7 @@ from kiosk.experiment.items import (
     Slider,
     TextPage,
 )
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import ScaleScore, item_responses, scale_scores
 from kiosk.experiment.session_state import ItemResponse, SessionState
 from tests.samples import likert, questionnaire

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import EmbodimentName, Event, InputDevice, Stage, Status
+from kiosk.experiment.events import EmbodimentName, Event, InputDevice
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.session_state import Interval, SessionState, StageVisit
 from tests.experiment.driver import Driver, driven_to
 from tests.samples import INFORMATION, whole

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from kiosk.config import ConsentConfig
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
 from kiosk.experiment.information import Purpose
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition
 from tests.experiment.driver import Driver, driven_to
 from tests.samples import INFORMATION, whole

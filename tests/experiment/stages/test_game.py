@@ -14,7 +14,8 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
 from kiosk.experiment.effects import BoardWait, Mood, Outcome
-from kiosk.experiment.events import Stage, Timer
+from kiosk.experiment.events import Timer
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import WaitingShares, waiting_shares
 from kiosk.experiment.session_state import SessionState
 from kiosk.game import FlipRejection, Position

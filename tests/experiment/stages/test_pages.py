@@ -9,7 +9,7 @@ from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import CONDITIONS, Condition
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import Stage, Status
+from kiosk.experiment.outcomes import Stage, Status
 from tests.experiment.driver import Driver, driven_to, with_memory
 from tests.experiment.table import a_pair, miss, playing
 from tests.samples import ENGLISH, INFORMATION, plan, whole

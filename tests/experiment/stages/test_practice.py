@@ -11,7 +11,8 @@ from kiosk.config import ConditionConfig, Practice, Timing
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Event, PracticeEnd, Stage, Timer
+from kiosk.experiment.events import Event, PracticeEnd, Timer
+from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.projections import Measures
 from tests.experiment.driver import Driver, driven_to, with_memory
 from tests.experiment.table import a_pair, another, miss

@@ -14,7 +14,6 @@ from kiosk.config import Game
 from kiosk.experiment import effects as do
 from kiosk.experiment import events as happened
 from kiosk.experiment.effects import Mood
-from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.items import (
     NOT_APPLICABLE,
     Answer,
@@ -27,6 +26,7 @@ from kiosk.experiment.items import (
     Slider,
     TextPage,
 )
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.projections import item_responses
 from kiosk.experiment.questionnaire import KINDS, Item, ItemOrder
 from kiosk.experiment.session_state import SessionState

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from kiosk.config import Allocation
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store.checks import OLD, SLACK, allocation_check, backup_check, clock_check, database_check, sessions_check
 from kiosk.store.database import FILE, SCHEMA, in_use

@@ -6,8 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
-from kiosk.experiment.events import Stage
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.preflight import Severity
 from kiosk.store.checks import forms
 from kiosk.store.database import FILE

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.recorder import Provenance
 from kiosk.store.withdrawal import withdraw
 from tests.samples import mixed, plan

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store import connecting
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from kiosk import UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.experimenter import AuditEvent
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.copies import CopyKind, note_copy
 from kiosk.store.database import FILE
 from kiosk.store.drives import carry

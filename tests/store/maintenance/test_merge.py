@@ -18,8 +18,7 @@ from click.testing import CliRunner
 from kiosk import StorageError, UserInputError
 from kiosk.cli.main import recollect
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import NotRecordedReason
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import NotRecordedReason, SessionKind
 from kiosk.store import merge as merge_module
 from kiosk.store.database import FILE
 from kiosk.store.merge import merge

@@ -13,7 +13,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment.events import SpeechStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.chain import FILE as HEADS
 from kiosk.store.chain import read_heads
 from kiosk.store.database import FILE, SCHEMA

@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
-from kiosk.experiment.condition import AllocationSource
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.database import FILE, open_for_writing
 from kiosk.store.maintenance import FOLDER, back_up, list_backups

@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 
 from kiosk import StorageError, UserInputError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.preflight import Severity
 from kiosk.store import withdrawal as withdraw_module
 from kiosk.store.chain import FILE as HEADS

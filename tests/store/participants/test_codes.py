@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kiosk import UserInputError
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.codes import ALPHABET, CHANCE_CHARACTERS, checked_code, hash_code, make_code, session_with_code
 from kiosk.store.database import open_for_reading
 from kiosk.store.maintenance import back_up

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from kiosk.experiment.condition import AllocationSource, Condition
-from kiosk.experiment.events import NotRecordedReason
-from kiosk.experiment.session_config import SessionKind
-from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
+from kiosk.experiment.condition import Condition
+from kiosk.experiment.outcomes import AllocationSource, Disposition, NotRecordedReason, SessionKind
+from kiosk.store.participants import CountCell, EnrolmentCounts
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.withdrawal import withdraw

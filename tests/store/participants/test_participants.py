@@ -11,7 +11,7 @@ import pytest
 
 from kiosk import UserInputError
 from kiosk.experiment.events import SessionStarted
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.participants import Participant, checked_site
 from kiosk.store.recorder import Provenance, Recorder

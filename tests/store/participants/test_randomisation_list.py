@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from kiosk import UserInputError
-from kiosk.experiment.condition import AllocationSlot, AllocationSource, Condition, allocation_slots
+from kiosk.experiment.condition import AllocationSlot, Condition, allocation_slots
 from kiosk.experiment.events import Event
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import AllocationSource, SessionKind
 from kiosk.store.database import FILE
 from kiosk.store.recorder import Provenance, Recorder
 from tests.store.visitors import BEGUN, FINISHED, LEFT, rows, seated

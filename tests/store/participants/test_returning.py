@@ -12,15 +12,15 @@ from pathlib import Path
 import pytest
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.condition import AllocationSource, Condition
+from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import Event
 from kiosk.experiment.information import RETURNING
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import AllocationSource, Disposition, SessionKind
 from kiosk.store.codes import hashes_of
 from kiosk.store.database import FILE
 from kiosk.store.maintenance import FOLDER, back_up
 from kiosk.store.merge import merge
-from kiosk.store.participants import Disposition, Participant, ReturningVisitor
+from kiosk.store.participants import Participant, ReturningVisitor
 from kiosk.store.queries import open_repository
 from kiosk.store.recorder import Provenance, Recorder
 from kiosk.store.session_records import open_records

@@ -17,8 +17,9 @@ from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage, WorldEvent
+from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import SALT_BYTES, Action, hash_pin
+from kiosk.experiment.outcomes import Stage
 from kiosk.game import Position
 from kiosk.robots.driver import RobotDriver
 from kiosk.store.database import open_for_reading

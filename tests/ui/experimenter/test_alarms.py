@@ -10,8 +10,8 @@ import pytest
 
 from kiosk.experiment.alarms import AlarmKind
 from kiosk.experiment.booth_status import CLOSED, FILE
-from kiosk.experiment.events import Stage
 from kiosk.experiment.experimenter import Action
+from kiosk.experiment.outcomes import Stage
 from kiosk.store.maintenance import FreeSpace
 from kiosk.ui.experimenter.alarms import alarm_words
 from kiosk.ui.renderer import SoundEffect

@@ -12,8 +12,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
 from kiosk.experiment.experimenter import Action
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.event_loop import VirtualClock
 from kiosk.ui.experimenter.authorisation import AWAY_MS
 from kiosk.ui.experimenter.view_model import AuthorisationStep

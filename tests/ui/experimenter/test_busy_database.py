@@ -9,8 +9,9 @@ from contextlib import closing
 import pytest
 from PySide6.QtCore import Qt
 
-from kiosk.experiment.events import ContinuePressed, PresenceConfirmed, Stage, Status, UserActivity
+from kiosk.experiment.events import ContinuePressed, PresenceConfirmed, UserActivity
 from kiosk.experiment.experimenter import Action
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.store.database import FILE
 from kiosk.store.queries import open_repository
 from kiosk.store.snapshot import wrong_pins

@@ -14,8 +14,8 @@ from PySide6.QtQuick import QQuickItem
 from kiosk import StorageError, UserInputError
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import Stage, Status
 from kiosk.experiment.experimenter import Action
+from kiosk.experiment.outcomes import Stage, Status
 from kiosk.sd_notify import BEAT_WITHIN
 from kiosk.store.maintenance import FreeSpace
 from kiosk.store.queries import open_repository

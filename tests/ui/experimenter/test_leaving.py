@@ -16,8 +16,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from kiosk.config import Settings
-from kiosk.experiment.events import Stage
 from kiosk.experiment.experimenter import Action
+from kiosk.experiment.outcomes import Stage
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from kiosk.ui.replay import Replay

@@ -13,8 +13,8 @@ import pytest
 
 from kiosk import StorageError, UserInputError
 from kiosk.experiment import events as happened
-from kiosk.experiment.events import Stage
 from kiosk.experiment.experimenter import AuditEvent
+from kiosk.experiment.outcomes import Stage
 from kiosk.store.maintenance import FOLDER, FreeSpace
 from kiosk.ui.event_loop import Executor, InlineExecutor, VirtualClock
 from kiosk.ui.experimenter.maintenance import BEAT_MS, MaintenanceScheduler, MaintenanceTasks

@@ -11,8 +11,9 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from kiosk.config import Keys
 from kiosk.experiment import events as happened
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import EmbodimentName, Stage
+from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, Authorisation, permission
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.experimenter.view_model import AuthorisationStep
 from tests.robots.recording import RobotFake
 from tests.ui.experimenter.conftest import TINY, Desk, MakeDesk, Witness

@@ -12,11 +12,11 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.config import Settings
 from kiosk.experiment.booth_status import DayCounts, utc
 from kiosk.experiment.condition import Condition
-from kiosk.experiment.events import NotRecordedReason
 from kiosk.experiment.experimenter import DEVIATIONS, Action, AuditEvent, shortcuts
+from kiosk.experiment.outcomes import Disposition, NotRecordedReason
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace
-from kiosk.store.participants import CountCell, Disposition, EnrolmentCounts
+from kiosk.store.participants import CountCell, EnrolmentCounts
 from kiosk.study.loader import read_study
 from kiosk.ui.experimenter.maintenance import BackupOutcome
 from kiosk.ui.experimenter.status import (

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from kiosk.experiment.booth_status import CLOSED, FILE, BoothStatus, DayCounts, EndedSession, PartStatus, utc
-from kiosk.experiment.events import Stage
-from kiosk.experiment.session_config import SessionKind
+from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.store.snapshot import read_day
 from kiosk.ui.event_loop import InlineExecutor, VirtualClock
 from kiosk.ui.experimenter.status import StatusFile, write_status

@@ -19,7 +19,8 @@ from PySide6.QtTest import QTest
 
 from kiosk.cli.main import main
 from kiosk.experiment.effects import Outcome
-from kiosk.experiment.events import AgeConfirmed, Event, Stage
+from kiosk.experiment.events import AgeConfirmed, Event
+from kiosk.experiment.outcomes import Stage
 from kiosk.ui.app import App
 
 FINGERS, ANSWERS = "fingers", "answers"
