@@ -28,6 +28,8 @@ MODIFIERS = {"ctrl": "Control_L", "alt": "Alt_L", "shift": "Shift_L", "super": "
 BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5, "back": 8, "forward": 9}
 STEPS = 12
 ANSWER_S = 2
+HEARD_S = 1
+"""How long to wait for a window manager to answer; not every desktop has one."""
 
 for group in ("xf86", "xkb"):
     XK.load_keysym_group(group)
@@ -146,8 +148,18 @@ class Hands(Devices):
 
     def ask(self, message: str, *data: int, window: Window | None = None) -> None:
         """Ask the window manager for something about the kiosk's window, or about another one, or the desktop."""
+        self._message(message, data, window or self.window)
+        # It takes messages in their order: once it has answered this one, what it was asked for has begun.
+        asking = self.root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
+        answer, end = self.display.intern_atom("_NET_FRAME_EXTENTS"), monotonic() + HEARD_S
+        self._message("_NET_REQUEST_FRAME_EXTENTS", (), asking)
+        while asking.get_full_property(answer, Xatom.CARDINAL) is None and monotonic() < end:
+            sleep(0.002)
+        asking.destroy()
+        self.display.sync()
+
+    def _message(self, message: str, data: Sequence[int], about: Window) -> None:
         values = [*data, *([0] * (5 - len(data)))]
-        about = window or self.window
         event = ClientMessage(window=about, client_type=self.display.intern_atom(message), data=(32, values))
         self.root.send_event(event, event_mask=X.SubstructureRedirectMask | X.SubstructureNotifyMask)
         self.display.sync()
