@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 
 from kiosk import UserInputError, __version__
+from kiosk.lazy_dataclass import dataclass
 
 OWN = "recollect"
 """The package that what is built in comes with."""

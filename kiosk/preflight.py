@@ -6,10 +6,11 @@ import getpass
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Self
+
+from kiosk.lazy_dataclass import dataclass
 
 
 class Severity(Enum):

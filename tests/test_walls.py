@@ -26,12 +26,14 @@ BELOW_ALL = {
     "files",
     "garbage",
     "language_codes",
+    "lazy_dataclass",
     "places",
     "preflight",
     "units",
 }
 """The package itself, user errors, the study file's types, extensions, whole files, Python's collector, language codes,
-places of files, check results and units: every package may import them, and they import no package."""
+quickly loaded dataclasses, places of files, check results and units: every package may import them, and they import no
+package."""
 
 PACKAGES: dict[str, set[str]] = {
     "kiosk": set(),
@@ -41,6 +43,7 @@ PACKAGES: dict[str, set[str]] = {
     "files": set(),
     "garbage": set(),
     "language_codes": set(),
+    "lazy_dataclass": set(),
     "places": set(),
     "preflight": set(),
     "units": set(),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from random import Random
 from typing import Any, Protocol
 
@@ -15,6 +15,7 @@ from kiosk.assistance.mentaliser import Hint, Mentaliser, Target, TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, FlipInMove, Gate, GateDecision, Phase, Precision, QTable, State
 from kiosk.config import AssistanceConfig
 from kiosk.game import Board, Concentration, IllegalFlip, Position
+from kiosk.lazy_dataclass import dataclass
 
 
 class Policy(Protocol):

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import product
 
 from kiosk.assistance.mentaliser import OFTEN, HintReason
 from kiosk.assistance.policy import FlipInMove
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

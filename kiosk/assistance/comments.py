@@ -7,12 +7,12 @@ model of memory, nor what a table learns from has a comment in it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from random import Random
 
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
 from kiosk.config import ConditionConfig
 from kiosk.game import Concentration
+from kiosk.lazy_dataclass import dataclass
 
 COMMENTS = (PRAISE, ENCOURAGEMENT)
 

@@ -6,11 +6,11 @@ from when a card could be tapped until one was. Times of flips with help, and ti
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from statistics import median
 
 from kiosk.assistance.policy import ActionSpec, FlipInMove, find_action
 from kiosk.config import AssistanceConfig
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cache
 
 from kiosk.config import ASSETS
+from kiosk.lazy_dataclass import dataclass
 
 DIGITS = "1234567890"
 SIGNS = ("@#&%+=/\\|~^", "()[]{}<>", ".,;:!?¿¡…'\"", "“”„«»-_·*", "€£$¥§°¢")

@@ -14,12 +14,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
 from kiosk.assistance.policy import ActionSpec
 from kiosk.game import CARDS_IN_A_PAIR, Concentration
+from kiosk.lazy_dataclass import dataclass
 
 if TYPE_CHECKING:
     import numpy as np

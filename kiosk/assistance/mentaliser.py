@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
 from random import Random
 
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Precision
 from kiosk.game import Concentration, Position
+from kiosk.lazy_dataclass import dataclass
 
 
 class HintReason(Enum):

@@ -6,7 +6,7 @@ import hashlib
 import json
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from enum import Enum, IntEnum
 from functools import cache
 from pathlib import Path
@@ -17,6 +17,7 @@ from kiosk.config import policy_path
 from kiosk.extensions import Extension, ExtensionGroup, find
 from kiosk.files import parse_json
 from kiosk.game import Concentration
+from kiosk.lazy_dataclass import dataclass
 
 
 class Precision(Enum):

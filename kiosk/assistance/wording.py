@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
@@ -22,6 +21,7 @@ from kiosk.assistance.mentaliser import Hint
 from kiosk.assistance.policy import ENCOURAGEMENT, PRAISE, ActionSpec
 from kiosk.config import ASSETS, read_text
 from kiosk.language_codes import babel_codes, standard
+from kiosk.lazy_dataclass import dataclass
 
 _log = logging.getLogger(__name__)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from random import SystemRandom
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 from kiosk.cli.composition import check_pin, code_commit, read_settings
 from kiosk.cli.log import log_into
 from kiosk.experiment.session_config import kind_of
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.registry import check_robot
 from kiosk.store.database import wait_until_free
 from kiosk.store.recorder import Recorder

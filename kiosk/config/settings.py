@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -41,6 +40,7 @@ from kiosk.errors import (
     toml_line,
 )
 from kiosk.extensions import ExtensionGroup, registered_names
+from kiosk.lazy_dataclass import dataclass
 from kiosk.places import ENDINGS, Located, code_of, is_path, is_there, shipped_place
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime, time
 from enum import Enum
 
 from kiosk.config import read_hours
 from kiosk.experiment.outcomes import Status
+from kiosk.lazy_dataclass import dataclass
 from kiosk.units import MS_PER_HOUR, MS_PER_MINUTE, MS_PER_SECOND
 
 AGAIN_MS = 10 * MS_PER_MINUTE

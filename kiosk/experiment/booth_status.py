@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any, Self
 
 from kiosk.files import parse_json
+from kiosk.lazy_dataclass import dataclass
 from kiosk.units import MS_PER_SECOND
 
 FORMAT = "recollect-status-1"

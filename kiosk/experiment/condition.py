@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from math import gcd
 from random import Random
 from typing import ClassVar, Literal, Protocol
@@ -14,6 +13,7 @@ from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec
 from kiosk.assistance.wording import NoSentences, PlainSentences, ReasonedSentences, ReminderSentences, Wording
 from kiosk.config import KNOWN_CONDITIONS, ConditionConfig
+from kiosk.lazy_dataclass import dataclass
 
 
 class Sentences(Protocol):

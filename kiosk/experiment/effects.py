@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 from kiosk.experiment.events import EmbodimentName, SessionEvent, TextSize, Timer
@@ -11,6 +10,7 @@ from kiosk.experiment.items import Response
 from kiosk.experiment.outcomes import NotRecordedReason
 from kiosk.experiment.questionnaire import Item
 from kiosk.game import Position
+from kiosk.lazy_dataclass import dataclass
 
 
 class Mood(Enum):

@@ -7,7 +7,7 @@ they follow from the world events, and are recorded beside them so that the data
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from enum import Enum
 from functools import cache
 from typing import Any, ClassVar
@@ -22,6 +22,7 @@ from kiosk.experiment.items import NOT_APPLICABLE, NotApplicable, Response
 from kiosk.experiment.outcomes import Stage, Status
 from kiosk.experiment.plain_reading import by_name, plain_reader, read_position, read_texts
 from kiosk.game import FlipRejection, Position
+from kiosk.lazy_dataclass import dataclass
 
 
 class Timer(Enum):

@@ -6,7 +6,6 @@ import hashlib
 import hmac
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 from types import MappingProxyType
@@ -15,6 +14,7 @@ from kiosk import UserInputError
 from kiosk.config import Keys
 from kiosk.experiment.condition import Condition, in_design_order
 from kiosk.experiment.outcomes import Stage
+from kiosk.lazy_dataclass import dataclass
 
 
 class Action(Enum):

@@ -8,7 +8,6 @@ says that taps do not wait, the board is open all the time, and a flip ends the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from kiosk.assistance.assistant import Assistant, Decision
 from kiosk.assistance.comments import Comment, Commentator
@@ -23,6 +22,7 @@ from kiosk.experiment.effects import BoardWait, Mood, OutcomeBuilder
 from kiosk.experiment.events import HintCue, PracticeEnd, RemarkTrigger, Timer, WorldEvent
 from kiosk.experiment.page_stages import SpeechWriter, StageHandler
 from kiosk.game import CARDS_IN_A_PAIR, Board, Concentration, Flip, IllegalFlip, Position
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ import re
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from random import Random
@@ -17,6 +16,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, Strict, field_valid
 
 from kiosk.config import MOST_IN_TEXT, ConfigModel
 from kiosk.language_codes import standard
+from kiosk.lazy_dataclass import dataclass
 
 Text = Annotated[str, Field(min_length=1, max_length=MOST_IN_TEXT)]
 

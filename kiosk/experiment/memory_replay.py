@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from kiosk.assistance.memory_model import MemoryModel
 from kiosk.experiment import events as happened
@@ -11,6 +10,7 @@ from kiosk.experiment.events import Event
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.replay import ReplayStep
 from kiosk.game import Board, Concentration
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

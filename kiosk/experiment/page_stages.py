@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from random import Random
 from typing import ClassVar
 
@@ -28,6 +27,7 @@ from kiosk.experiment.questionnaire import (
 from kiosk.experiment.relevance import hidden_items
 from kiosk.experiment.session_config import Translation
 from kiosk.experiment.session_state import effective_answer
+from kiosk.lazy_dataclass import dataclass
 
 
 class StageHandler:

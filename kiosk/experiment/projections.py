@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from kiosk.assistance.policy import FlipInMove
 from kiosk.experiment.events import Event
@@ -13,6 +13,7 @@ from kiosk.experiment.questionnaire import (
     Questionnaire,
 )
 from kiosk.experiment.session_state import Interval, ItemResponse, SessionState, elapsed_ms
+from kiosk.lazy_dataclass import dataclass
 
 
 def item_responses(state: SessionState, questionnaires: Sequence[Questionnaire]) -> tuple[ItemResponse, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from random import Random
 
@@ -37,6 +37,7 @@ from kiosk.experiment.session_config import SessionConfig
 from kiosk.experiment.session_state import BoardRemark, DealtBoard
 from kiosk.experiment.transitions import InvalidTransition
 from kiosk.game import Board, Concentration, Position
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

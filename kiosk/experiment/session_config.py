@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from kiosk.assistance.policy import QTable
@@ -14,6 +14,7 @@ from kiosk.experiment.information import Information
 from kiosk.experiment.outcomes import SessionKind, Stage
 from kiosk.experiment.questionnaire import Questionnaire
 from kiosk.experiment.transitions import StageOrder
+from kiosk.lazy_dataclass import dataclass
 
 
 def kind_of(settings: Settings) -> SessionKind:

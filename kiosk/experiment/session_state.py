@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 from itertools import islice
 from typing import TypeVar
@@ -55,6 +55,7 @@ from kiosk.experiment.events import (
 from kiosk.experiment.items import Answer, NotApplicable, Response
 from kiosk.experiment.outcomes import CARDS_IN_A_MOVE, Stage, Status
 from kiosk.game import Board
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ stage does not list are refused. Session events that it does not list change no 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
@@ -55,6 +54,7 @@ from kiosk.experiment.events import (
     WorldEvent,
 )
 from kiosk.experiment.outcomes import Stage
+from kiosk.lazy_dataclass import dataclass
 
 
 class InvalidTransition(Exception):

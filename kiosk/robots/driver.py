@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from threading import Lock
 from types import MappingProxyType
@@ -15,6 +14,7 @@ from kiosk.config import RobotConfig as RobotSettings
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.items import can_be_kept
 from kiosk.language_codes import distance
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import BoardPoint
 
 LONGEST_TEXT = 999

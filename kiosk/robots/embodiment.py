@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
 from kiosk.experiment.effects import Mood
 from kiosk.experiment.events import EmbodimentName
+from kiosk.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True)

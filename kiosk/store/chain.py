@@ -13,11 +13,11 @@ import logging
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
 from kiosk.files import read_bytes
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.connecting import PRIVATE, give_to_owner_of_folder, make_private
 
 FILE = "recollect.heads"

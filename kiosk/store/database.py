@@ -7,13 +7,13 @@ import os
 import sqlite3
 import sys
 from contextlib import closing, suppress
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kiosk import UserInputError
 from kiosk.files import make_folder
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.connecting import (
     Connection,
     failure,

@@ -7,7 +7,6 @@ import shutil
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import Enum
 from math import ceil
@@ -17,6 +16,7 @@ from filelock import FileLock, Timeout
 
 from kiosk import StorageError, UserInputError
 from kiosk.files import make_folder, sync_folder
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.codes import keys_of
 from kiosk.store.connecting import failure, for_reading, for_writing, give_to_owner_of_folder, reason
 from kiosk.store.database import BACKUPS, FILE, open_as_it_is

@@ -8,7 +8,6 @@ import sqlite3
 from bisect import bisect_left
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
 from itertools import accumulate, groupby
@@ -26,6 +25,7 @@ from kiosk.experiment.condition import (
 from kiosk.experiment.information import RETURNING
 from kiosk.experiment.labels import read_as
 from kiosk.experiment.outcomes import AllocationSource, Disposition, NotRecordedReason, SessionKind
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.codes import issue_code
 from kiosk.store.listing import participant_name
 

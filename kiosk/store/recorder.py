@@ -9,7 +9,6 @@ import sqlite3
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -22,6 +21,7 @@ from kiosk.experiment.experimenter import AuditEvent
 from kiosk.experiment.outcomes import AllocationSource, NotRecordedReason, SessionKind, Status
 from kiosk.experiment.questionnaire import QUESTIONNAIRES
 from kiosk.experiment.session_config import SessionConfig, Translation
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.chain import Head, HeadsFile, first_hash, last_hash, next_hash
 from kiosk.store.codes import keys_of, session_with_hash, shown_code
 from kiosk.store.connecting import failure, primary_code, reason

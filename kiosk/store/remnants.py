@@ -11,9 +11,10 @@ from __future__ import annotations
 import os
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
+
+from kiosk.lazy_dataclass import dataclass
 
 _FILE_HEADER = 100
 """The first page has the file's header before its own."""

@@ -6,7 +6,7 @@ import json
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from kiosk.experiment.condition import Condition
 from kiosk.experiment.events import WorldEvent
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.database import open_for_reading, unreadable
 from kiosk.store.listing import participant_name
 from kiosk.store.participants import AllocationLists, EnrolmentCounts, count_enrolment

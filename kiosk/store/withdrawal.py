@@ -11,12 +11,12 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from kiosk import StorageError, UserInputError
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.codes import session_with_code, session_withdrawn_with
 from kiosk.store.connecting import primary_code, reason
 from kiosk.store.database import FILE, in_use, lock_folder, open_for_reading, open_for_writing

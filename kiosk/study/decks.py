@@ -6,7 +6,6 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from xml.parsers import expat
@@ -16,6 +15,7 @@ from kiosk.assistance.wording import CARD, Catalogue, card_message
 from kiosk.config import PICTURES, code_of, files_in, pictures_in, read_text
 from kiosk.files import open_to_read
 from kiosk.language_codes import is_right
+from kiosk.lazy_dataclass import dataclass
 
 _OTHER_PICTURES = frozenset((".svgz", ".gif", ".bmp", ".tif", ".tiff", ".heic", ".heif", ".avif", ".psd", ".ico"))
 """The endings of pictures that would be left out without a word."""

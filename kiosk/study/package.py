@@ -13,7 +13,6 @@ import shutil
 import subprocess
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from stat import S_ISLNK
 from typing import Any
@@ -27,6 +26,7 @@ from kiosk.errors import validation_messages
 from kiosk.experiment.labels import fold_name, is_reserved
 from kiosk.experiment.session_config import Source
 from kiosk.files import open_to_read, replace_file, write_file
+from kiosk.lazy_dataclass import dataclass
 
 ENDING = ".recollect"
 MANIFEST = "study.json"

@@ -10,7 +10,7 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, field, replace
 from datetime import date
 from enum import StrEnum
 from itertools import product
@@ -27,6 +27,7 @@ from kiosk.assistance.policy import FlipInMove
 from kiosk.assistance.wording import CARD, REPLACING, Catalogue, given_with
 from kiosk.config import parse_toml, read_text
 from kiosk.files import parse_json, write_file
+from kiosk.lazy_dataclass import dataclass
 
 SIGNED = "signed.toml"
 LONGEST = 120

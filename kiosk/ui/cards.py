@@ -7,7 +7,7 @@ import json
 import logging
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from statistics import fmean
 
@@ -28,6 +28,7 @@ from PySide6.QtGui import (
 from kiosk import UserInputError, program
 from kiosk.config import ASSETS, Settings, luminance, pictures_in
 from kiosk.files import replace_file, write_file
+from kiosk.lazy_dataclass import dataclass
 from kiosk.ui.checks import DRAWN_S, CannotDraw, answers
 
 _log = logging.getLogger(__name__)

@@ -9,12 +9,12 @@ import subprocess
 import sys
 import unicodedata
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from kiosk.config import ASSETS
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.lazy_dataclass import dataclass
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QTextLayout

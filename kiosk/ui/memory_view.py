@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPainter
 
 from kiosk.experiment.memory_replay import BoardMemory
 from kiosk.game import Board
+from kiosk.lazy_dataclass import dataclass
 
 INK, PAPER, FAINT, AMBER = (QColor(name) for name in ("#1F2A33", "#FFFFFF", "#B9C4CC", "#F2B84B"))
 MARGIN, LINE = 20, 32

@@ -12,9 +12,10 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+from kiosk.lazy_dataclass import dataclass
 
 HEADLESS = "'recollect rehearse --headless' and 'recollect replay N --headless' need none"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from typing import Any, Self
@@ -21,6 +21,7 @@ from kiosk.experiment.outcomes import AllocationSource, SessionKind, Stage, Stat
 from kiosk.experiment.session import RecordingState, Session
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.experiment.transitions import InvalidTransition
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.participants import Participant, ReturningVisitor
 from kiosk.store.recorder import Provenance, Recorder, StoreBusy

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import ClassVar
@@ -18,6 +17,7 @@ from PySide6.QtQuick import QQuickWindow
 from kiosk import UserInputError
 from kiosk.config import ASSETS, Settings
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.lazy_dataclass import dataclass
 from kiosk.ui.fonts import use_fonts
 from kiosk.ui.input import HeldKeys
 from kiosk.ui.qt_platform import obstacle

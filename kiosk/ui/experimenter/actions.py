@@ -6,7 +6,6 @@ import logging
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from functools import partial
 from typing import Any
@@ -19,6 +18,7 @@ from kiosk.experiment.events import EmbodimentName
 from kiosk.experiment.experimenter import Action, ActionEffect, AuditEvent, DeviationReason, condition_cycle, permission
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.transitions import InvalidTransition
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import Health
 from kiosk.robots.selector import EmbodimentSelector
 from kiosk.store.recorder import Recorder, StoreBusy

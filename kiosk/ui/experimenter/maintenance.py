@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from math import ceil
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Protocol
 
 from kiosk import StorageError, UserInputError
 from kiosk.experiment.experimenter import AuditEvent
+from kiosk.lazy_dataclass import dataclass
 from kiosk.store.maintenance import FOLDER, FreeSpace, SpaceLevel, back_up, free_space, list_backups
 from kiosk.ui.event_loop import Clock, Executor
 from kiosk.ui.experimenter.authorisation import Write

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from math import ceil
@@ -21,6 +21,7 @@ from kiosk.experiment.experimenter import Action, AuditEvent, DeviationReason
 from kiosk.experiment.outcomes import Disposition, Status
 from kiosk.experiment.session_config import StudyConfig
 from kiosk.files import read_bytes, replace_file
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import Health
 from kiosk.store.maintenance import FreeSpace, SpaceLevel
 from kiosk.store.participants import CountCell, EnrolmentCounts

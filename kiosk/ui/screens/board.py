@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
@@ -23,6 +22,7 @@ from PySide6.QtQml import QmlElement
 from kiosk.assistance.wording import Catalogue
 from kiosk.experiment.effects import BoardWait
 from kiosk.game import Position
+from kiosk.lazy_dataclass import dataclass
 from kiosk.robots.embodiment import BoardPoint
 from kiosk.ui.cards import CardPictures
 

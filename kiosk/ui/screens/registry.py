@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
@@ -12,6 +11,7 @@ from kiosk.assistance.wording import Catalogue
 from kiosk.experiment import events as happened
 from kiosk.experiment.events import InputDevice, WorldEvent
 from kiosk.experiment.session_config import StudyConfig
+from kiosk.lazy_dataclass import dataclass
 from kiosk.ui.cards import CardPictures
 from kiosk.ui.experimenter.view_model import ExperimenterScreen
 from kiosk.ui.screens.attract import AttractScreen
