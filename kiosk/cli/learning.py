@@ -45,6 +45,7 @@ from kiosk.training.simulated_players import (
     SimulatedPlayer,
     TextPlayer,
 )
+from kiosk.training.vectorised_game import is_slow
 
 STOPPED = 130
 """The exit code after Ctrl-C."""
@@ -148,6 +149,16 @@ def ctrl_c() -> Iterator[Callable[[], bool]]:
         signal.signal(signal.SIGINT, before)
 
 
+def say_if_slow(*, hidden: bool) -> None:
+    """Say on standard error that there is nothing to compile the rules with, and what to install."""
+    if is_slow() and not hidden:
+        click.echo(
+            "There is no C compiler, so the games run in plain Python, which is slow. The numbers are the same.\n"
+            'To make them faster, install gcc or the extra "fast" of Recollect.',
+            err=True,
+        )
+
+
 @click.command()
 @click.option(
     "--reward", type=_choice(Reward), default="retrieval", show_default=True, help="What the robot is paid for."
@@ -194,6 +205,7 @@ def train_command(out: Path, name: str | None, reward: str, json_: bool, **optio
     recipe = recipe_of(Reward(reward), **options)
     name = name or out.stem
     check_writable(out)
+    say_if_slow(hidden=json_)
     learner = Learner(recipe)
     with progress_bar("training", recipe.episodes, hidden=json_) as progress, ctrl_c() as pressed:
         learner.study(progress, pressed)
@@ -363,6 +375,7 @@ def simulate_command(
     timing = _timing(*(options.pop(name) for name in ("timing", *_THRESHOLDS)))
     player = player_from_options(ChancePlayer(), **options)
     rule = TargetRule(target) if target else where or TargetRule.RANDOM
+    say_if_slow(hidden=json_)
     with progress_bar("playing", games, hidden=json_) as progress:
         if timing is None or where is None:
             played = simulation.simulate_games(table, player, rule, games, seed, progress)

@@ -15,6 +15,7 @@ from kiosk import UserInputError, __version__
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, QTable, states_with
 from kiosk.errors import check_between, one_of, whole
+from kiosk.training.native import native_loop
 from kiosk.training.rewards import PURSE, REWARDS, Reward, reward_flip, reward_of
 from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, SimulatedPlayer
 from kiosk.training.simulation import (
@@ -288,6 +289,7 @@ def learn_episode(table: GameTable, lesson: LearnerState, episode: int) -> None:
         update_value(lesson, episode, entry, gained)
 
 
+@native_loop
 @compiled_rule
 def learn_episodes(table: GameTable, lesson: LearnerState, first: int, stop: int) -> None:
     """Learn from the episodes from ``first`` up to ``stop``.

@@ -11,6 +11,7 @@ from kiosk import UserInputError
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ActionSpec, QTable
 from kiosk.errors import one_of, whole
+from kiosk.training.native import native_loop
 from kiosk.training.simulated_players import KEPT, SimulatedPlayer, choose, prepare
 from kiosk.training.vectorised_game import (
     ACTION_COUNT,
@@ -147,6 +148,7 @@ def play(table: GameTable, q: Floats) -> None:
             table.tally[T_LED] += matched
 
 
+@native_loop
 @compiled_rule
 def play_all(table: GameTable, q: Floats, tallies: Ints) -> None:
     """As many games as there is room for in ``tallies``."""
@@ -297,6 +299,7 @@ RECORD = 3
 """Numbers that are recorded of a flip: the place, the action, and the place that the hint pointed at."""
 
 
+@native_loop
 @compiled_rule
 def record(table: GameTable, q: Floats, log: Ints) -> int:
     """Play one game under the frozen table, write every flip into ``log``, and return the number of flips."""
@@ -345,7 +348,7 @@ def record_games(
 def _batch(table: GameTable, q: Floats, games: int) -> Iterator[tuple[int, ...]]:
     tallies = ints([0] * (games * TALLY))
     play_all(table, q, tallies)
-    numbers: list[int] = getattr(tallies, "tolist", tallies.copy)()
+    numbers: list[int] = tallies.tolist() if hasattr(tallies, "tolist") else tallies
     for row in range(0, len(numbers), TALLY):
         refuse_endless(numbers[row + T_FLIPS])
         yield tuple(numbers[row : row + TALLY])

@@ -1,7 +1,7 @@
 """The rules of ``kiosk.game`` and ``kiosk.assistance`` once more, on plain numbers, for many thousand games a second.
 
-One text: numba compiles it when it is installed, and Python runs it as it is when not, with the same numbers for a
-seed. Only whole numbers, +, -, *, / and comparisons stand in it, because those give the same bits either way.
+One text: a C compiler or numba compiles it where there is one, and Python runs it as it is otherwise, with the same
+numbers for a seed. Only whole numbers, +, -, *, / and comparisons stand in it, because those give the same bits.
 A test plays these rules and the packages they copy side by side and compares every step.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 import shutil
-import sys
+from array import array
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
@@ -22,12 +22,13 @@ from platformdirs import user_cache_path
 
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import ACTIONS, ActionSpec, Gate, MoveOutcome, Phase, Precision
+from kiosk.training.native import AHEAD, FROZEN, is_switched_off, library, may_be_native
 
 Rule = TypeVar("Rule", bound=Callable[..., Any])
 Ints = list[int]
-"""Whole numbers: a list when run as it is, an int64 array when compiled."""
+"""Whole numbers: a list when run as it is, an array of 64 bits each when compiled."""
 Floats = list[float]
-"""Numbers: a list when run as it is, a float64 array when compiled."""
+"""Numbers: a list when run as it is, an array of 64 bits each when compiled."""
 
 try:
     _numba: Any = import_module("numba")
@@ -35,15 +36,6 @@ except ImportError:
     _numba = None
 COMPILED: bool = _numba is not None and not _numba.config.DISABLE_JIT
 """Whether numba is here to compile the rules; NUMBA_DISABLE_JIT=1 in the environment runs them as they are."""
-
-
-def _name_of_rules() -> str:
-    """Return a name for the content of all rules: numba looks at the file of the outermost rule only."""
-    if not COMPILED:  # A build without numba has no sources to read either.
-        return "rules"
-    names = Path(__file__).parents[1] / "assistance" / "policy.py"
-    content = b"".join(file.read_bytes() for file in [names, *sorted(Path(__file__).parent.glob("*.py"))])
-    return f"rules-{hashlib.sha256(content).hexdigest()[:16]}"
 
 
 def copy_compiled(place: Path, to: Path) -> None:
@@ -86,8 +78,6 @@ def _tell_numba() -> Path | None:
     return place
 
 
-AHEAD = Path(sys.prefix) / "share" / "recollect" / _name_of_rules()
-"""Where an installation keeps rules that it compiled beforehand; see ``kiosk.training.ahead``."""
 KEPT_IN = _tell_numba() if COMPILED else None
 """Where this process reads compiled rules and keeps those that it compiles, if anywhere."""
 
@@ -106,18 +96,31 @@ def compiled_rule(function: Rule) -> Rule:
     return compiled
 
 
+NATIVE = may_be_native()
+"""Whether the long loops may run in C; see ``kiosk.training.native``."""
+
+
+def is_slow() -> bool:
+    """Whether nothing compiles the rules here, though that is not switched off."""
+    return not COMPILED and not is_switched_off() and not FROZEN and library() is None
+
+
 def ints(numbers: Ints) -> Ints:
     """Whole numbers in the form in which the rules want them here."""
-    return _array(numbers, "int64") if COMPILED else numbers
+    suited: Ints = _array(numbers, "int64", "q")
+    return suited
 
 
 def floats(numbers: Floats) -> Floats:
     """Numbers in the form in which the rules want them here."""
-    return _array(numbers, "float64") if COMPILED else numbers
+    suited: Floats = _array(numbers, "float64", "d")
+    return suited
 
 
-def _array(numbers: Any, dtype: str) -> Any:
-    return import_module("numpy").array(numbers, dtype=dtype)
+def _array(numbers: Any, dtype: str, code: str) -> Any:
+    if COMPILED:
+        return import_module("numpy").array(numbers, dtype=dtype)
+    return array(code, numbers) if NATIVE else numbers
 
 
 ROWS, COLUMNS = 4, 6

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -25,16 +24,16 @@ import pytest
 from kiosk.assistance.mentaliser import TargetRule
 from kiosk.assistance.policy import QTable
 from kiosk.training.learning import RECIPES, Learner
+from kiosk.training.native import COMPILER
 from kiosk.training.rewards import Reward
 from kiosk.training.simulated_players import MemoryPlayer
 from kiosk.training.simulation import TALLY, lay, play_all, simulate_games
-from kiosk.training.vectorised_game import AHEAD, COMPILED, RANDOM, floats, gate_plan, ints
+from kiosk.training.vectorised_game import COMPILED, NATIVE, RANDOM, floats, gate_plan, ints
 from tests.training.reference import WithMemory, learn, play
 
 Benchmark = Any
-MANY = 20_000 if COMPILED else 1_000
+MANY = 20_000 if COMPILED or NATIVE else 1_000
 FEW = 50
-KERNEL = "compiled" if COMPILED else "plain"
 
 
 def measured(benchmark: Benchmark, what: Callable[[], object], number: int, rounds: int = 9) -> None:
@@ -72,12 +71,11 @@ def test_games_of_the_reference(benchmark: Benchmark) -> None:
 
 
 @pytest.mark.benchmark(group="games", timer=time.process_time)
-@pytest.mark.skipif(not COMPILED or shutil.which("cc") is None, reason="there is no numba, or no C compiler")
+@pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 def test_games_in_c(benchmark: Benchmark, tmp_path: Path) -> None:
     """The same games, number for number, in plain C with -O2."""
     source, library = Path(__file__).with_name("games.c"), tmp_path / "games.so"
-    compiler = shutil.which("cc") or ""
-    subprocess.run([compiler, "-O2", "-shared", "-fPIC", "-o", str(library), str(source)], check=True)
+    subprocess.run([str(COMPILER), "-O2", "-shared", "-fPIC", "-o", str(library), str(source)], check=True)
     policy, forgetting = QTable.named("default"), 0.2
     plan = gate_plan(policy.gate, TargetRule.MOST_FLIPPED, policy.actions)
     table = lay(MemoryPlayer((forgetting, forgetting)), plan, 1)
@@ -86,7 +84,7 @@ def test_games_in_c(benchmark: Benchmark, tmp_path: Path) -> None:
     in_c, here = ints([0] * (MANY * TALLY)), ints([0] * (MANY * TALLY))
 
     def at(array: Any) -> ctypes.c_void_p:
-        return ctypes.c_void_p(array.ctypes.data)
+        return ctypes.c_void_p(ctypes.addressof(ctypes.c_char.from_buffer(array)))
 
     play = ctypes.CDLL(str(library)).play
     arguments = (random, at(plan), at(q), ctypes.c_double(forgetting), ctypes.c_int64(MANY), at(in_c))
@@ -96,7 +94,6 @@ def test_games_in_c(benchmark: Benchmark, tmp_path: Path) -> None:
 
 
 @pytest.mark.benchmark(group="games", timer=time.process_time)
-@pytest.mark.skipif(not COMPILED, reason="there is no numba")
 def test_games_of_the_kernel_without_their_results(benchmark: Benchmark) -> None:
     policy = QTable.named("default")
     plan = gate_plan(policy.gate, TargetRule.MOST_FLIPPED, policy.actions)
@@ -123,24 +120,28 @@ def test_episodes_of_the_reference(benchmark: Benchmark) -> None:
     measured(benchmark, lambda: learn(FEW, Random(1)), FEW)
 
 
+HOW = {
+    "in C, first time ever": "sys.modules['numba'] = None",
+    "in C, compiled before": "sys.modules['numba'] = None",
+    "numba alone, first time ever": "from kiosk.training import native; native.COMPILER = None",
+    "numba alone, compiled before": "from kiosk.training import native; native.COMPILER = None",
+    "plain Python": "sys.modules['numba'] = None; from kiosk.training import native; native.COMPILER = None",
+}
+"""What the process does before it begins; none of them finds what the installation compiled."""
+
+
 @pytest.mark.benchmark(group="from nothing to the default table")
-@pytest.mark.parametrize(
-    "how", ["first time ever", "first time, compiled by the installation", "compiled before", "without numba"]
-)
+@pytest.mark.parametrize("how", list(HOW))
 def test_from_nothing_to_the_default_table(benchmark: Benchmark, tmp_path: Path, how: str) -> None:
     out = tmp_path / "default.json"
-    plain = "1" if how == "without numba" else "0"
-    environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache"), "NUMBA_DISABLE_JIT": plain}
-    installation = str(tmp_path) if how == "first time ever" else sys.prefix
-    program = "import sys; sys.prefix = sys.argv.pop(1); from kiosk.__main__ import main; raise SystemExit(main())"
-    command = [sys.executable, "-c", program, installation, "train", "--name", "default", "--out", str(out)]
-    if "installation" in how and not AHEAD.is_dir():
-        pytest.skip("the installation has compiled nothing: packaging/bootstrap.py")
+    environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
+    program = f"import sys; sys.prefix = sys.argv.pop(1); {HOW[how]}; from kiosk.__main__ import main; main()"
+    command = [sys.executable, "-c", program, str(tmp_path), "train", "--name", "default", "--out", str(out)]
 
     def train() -> None:
         subprocess.run(command, check=True, capture_output=True, env=environment)
 
-    if how == "compiled before":
+    if "before" in how:
         train()
     benchmark.pedantic(train, rounds=1)
     assert QTable.load(out).values == QTable.named("default").values

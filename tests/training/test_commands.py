@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 
 from kiosk import UserInputError
 from kiosk.assistance.policy import QTable
+from kiosk.cli import learning
 from kiosk.cli.main import recollect
 from kiosk.config import POLICIES
 from kiosk.training import policies
@@ -188,6 +189,16 @@ def test_when_there_is_no_room_the_old_table_stays(tmp_path: Path) -> None:
     assert done.stderr == f"recollect: {out} cannot be written: File too large\n"
     assert out.read_bytes() == before
     assert list(tmp_path.iterdir()) == [out]
+
+
+@pytest.mark.parametrize(("is_slow", "lines"), [(True, 2), (False, 0)])
+def test_train_says_how_to_make_slow_games_faster(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, is_slow: bool, lines: int
+) -> None:
+    monkeypatch.setattr(learning, "is_slow", lambda: is_slow)
+    said = run("train", "--episodes", "5", "--out", str(tmp_path / "table.json")).stderr.splitlines()
+    assert len(said) == lines
+    assert all("gcc" in line or "C compiler" in line for line in said)
 
 
 def test_ctrl_c_leaves_a_usable_checkpoint_and_the_old_table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ import os
 import stat
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 from random import Random
 
@@ -16,7 +17,7 @@ from hypothesis import strategies as st
 from kiosk.assistance.mentaliser import Hint, Mentaliser, TargetRule
 from kiosk.assistance.policy import ActionSpec, FlipInMove, Gate, State
 from kiosk.game import Board, Concentration
-from kiosk.training import simulation, vectorised_game
+from kiosk.training import native, simulation, vectorised_game
 from kiosk.training.vectorised_game import (
     CARDS,
     COUNT,
@@ -134,11 +135,11 @@ def test_neighbouring_seeds_have_nothing_in_common() -> None:
 SAME = """
 from dataclasses import replace
 from kiosk.assistance.mentaliser import TargetRule
-from kiosk.training import vectorised_game
+from kiosk.training import native, vectorised_game
 from kiosk.training.learning import RECIPES, Learner
 from kiosk.training.simulated_players import ChancePlayer, MemoryPlayer, TextPlayer
 from kiosk.training.simulation import simulate_games
-print(vectorised_game.COMPILED)
+print(vectorised_game.COMPILED, native.library() is not None)
 for recipe in RECIPES.values():
     for player in ChancePlayer(follow=.9), MemoryPlayer((.1, .4), .8), TextPlayer():
         learner = Learner(replace(recipe, episodes=60, player=player))
@@ -148,6 +149,12 @@ for recipe in RECIPES.values():
 """
 
 
+@cache
+def plainly() -> list[str]:
+    """Return what the script prints where nothing is compiled."""
+    return printed({"NUMBA_DISABLE_JIT": "1"})
+
+
 def printed(environment: dict[str, str], before: str = "") -> list[str]:
     """Return what the script prints in an interpreter of its own."""
     command = [sys.executable, "-W", "error", "-c", before + SAME]
@@ -155,14 +162,25 @@ def printed(environment: dict[str, str], before: str = "") -> list[str]:
     return done.stdout.splitlines()
 
 
+NO_NUMBA = "import sys; sys.modules['numba'] = None\n"
+NO_C = "from kiosk.training import native; native.library = lambda: None\n"
+
+
 def test_compiled_and_plain_give_the_same_numbers_for_a_seed() -> None:
     pytest.importorskip("numba")
-    compiled = printed({"NUMBA_DISABLE_JIT": "0"})
-    plain = printed({"NUMBA_DISABLE_JIT": "1"})
-    without = printed({}, "import sys; sys.modules['numba'] = None\n")
-    assert (compiled[0], plain[0], without[0]) == ("True", "False", "False")
-    assert compiled[1:] == plain[1:] == without[1:]
+    compiled = printed({}, NO_C)
+    plain = plainly()
+    assert (compiled[0], plain[0]) == ("True False", "False False")
+    assert compiled[1:] == plain[1:]
     assert len(set(plain[1:])) == 9
+
+
+@pytest.mark.skipif(native.COMPILER is None, reason="there is no C compiler")
+@pytest.mark.parametrize(("before", "numba"), [("", vectorised_game.COMPILED), (NO_NUMBA, False)])
+def test_the_long_loops_in_c_give_the_same_numbers_for_a_seed(before: str, *, numba: bool) -> None:
+    in_c = printed({}, before)
+    assert in_c[0] == f"{numba} True"
+    assert in_c[1:] == plainly()[1:]
 
 
 def compiled_ahead(folder: Path) -> Path:
