@@ -37,23 +37,31 @@ else:
         return made
 
     class _Written:
-        """The methods of one class, written at the first call of any."""
+        """The methods of one class: what makes it is written at its first call, and the others at theirs."""
 
         def __init__(self, made, *, frozen):
             self._made = made
             self._frozen = frozen
 
-        def write(self):
+        def write(self, name):
             """Put what the standard decorator writes for the same fields onto the class."""
+            first = name == "__init__"
+            namespace = {"__doc__": "Stands in."}
+            if hasattr(self._made, "__post_init__"):
+                namespace["__post_init__"] = None
             twin = make_dataclass(
                 self._made.__qualname__,
                 [(each.name, each.type, _again(each)) for each in fields(self._made)],
-                namespace={"__post_init__": None} if hasattr(self._made, "__post_init__") else {},
-                frozen=self._frozen,
+                namespace=namespace,
+                init=first,
+                repr=not first,
+                eq=not first,
+                unsafe_hash=self._frozen and not first,
+                frozen=self._frozen and first,
             )
-            for name, waiting in list(vars(self._made).items()):
-                if isinstance(waiting, _Method):
-                    setattr(self._made, name, vars(twin)[name])
+            for each, waiting in list(vars(self._made).items()):
+                if isinstance(waiting, _Method) and (each == "__init__") == first:
+                    setattr(self._made, each, vars(twin)[each])
 
     class _Method:
         """Stands for a method until it is looked up."""
@@ -63,7 +71,7 @@ else:
             self._name = name
 
         def __get__(self, instance, owner=None):
-            self._written.write()
+            self._written.write(self._name)
             return vars(self._written._made)[self._name].__get__(instance, owner)
 
     def _again(given):

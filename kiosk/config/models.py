@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from pathlib import Path
@@ -31,6 +32,11 @@ MOST_CHARACTERS = 500
 
 MOST_IN_TEXT = 10_000
 """A text that visitors read, such as a page of instructions, is never longer."""
+
+
+# Pydantic would look for plugins of its own in every installed package, which takes a moment at each start; one that
+# is installed for something else must not change how a study is read, either.
+os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
 class ConfigModel(BaseModel):

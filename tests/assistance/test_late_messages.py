@@ -8,7 +8,7 @@ import pytest
 from fluent.runtime import FluentResource
 from fluent.syntax.ast import Junk, Message, Term
 
-from kiosk.assistance.late_messages import LateBundle, attributes_in, split
+from kiosk.assistance.late_messages import LateBundle, attributes_in, parsed, split
 from kiosk.places import ASSETS
 
 SHIPPED = sorted((ASSETS / "sentences").glob("*/*.ftl"))
@@ -17,15 +17,29 @@ SHIPPED = sorted((ASSETS / "sentences").glob("*/*.ftl"))
 @pytest.mark.parametrize("file", SHIPPED, ids=lambda file: f"{file.parent.name}-{file.stem}")
 def test_a_shipped_file_is_split_into_what_the_parser_finds_in_it(file: Path) -> None:
     source = file.read_text("utf-8")
-    parsed = FluentResource(source).body
-    assert not [entry for entry in parsed if isinstance(entry, Junk)]
-    whole = [entry for entry in parsed if isinstance(entry, Message | Term)]
+    entries = FluentResource(source).body
+    assert not [entry for entry in entries if isinstance(entry, Junk)]
+    whole = [entry for entry in entries if isinstance(entry, Message | Term)]
     names = [entry.id.name if isinstance(entry, Message) else f"-{entry.id.name}" for entry in whole]
     assert [name for name, _ in split(source)] == names
     for entry, (_, text) in zip(whole, split(source), strict=True):
-        alone, *_ = FluentResource(text).body
+        alone, *_ = parsed(text).body
         assert alone.equals(entry, ["span", "comment"])
         assert attributes_in(text) == {attribute.id.name for attribute in entry.attributes}
+
+
+@pytest.mark.parametrize(
+    "after", ["", "\n", "\n\n# Why\n#\n", "\n  goes on\n", "\n    .loud = HI\n", "\n ", "\r\n", "\n}\n"]
+)
+@pytest.mark.parametrize(
+    "text",
+    ["x", "x  ", " x y ", "# x", "[x] y", "*x", ".x", "-x = y", '"x"', "", "{ $x }", "x }", "x\ty\t", "\tx", "ü\u00a0"],
+)
+def test_a_plain_message_is_what_the_parser_makes_of_it(text: str, after: str) -> None:
+    source = f"name = {text}{after}"
+    mine, *_ = parsed(source).body
+    theirs, *_ = FluentResource(source).body
+    assert mine.equals(theirs, ["span", "comment", "annotations"])
 
 
 LATE = """
