@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 from uuid import uuid4
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtQuick import QQuickWindow
 
@@ -44,6 +44,7 @@ from kiosk.ui.markers import MarkerStream
 from kiosk.ui.renderer import SoundEffect
 from kiosk.ui.screens.attract import IdleLife
 from kiosk.ui.screens.avatar import AvatarBody
+from kiosk.ui.screens.pages import draw_first_code
 from kiosk.ui.screens.registry import ScreenSet
 from kiosk.ui.session_runner import ConditionAssigner, SessionRunner
 from kiosk.ui.voice import EngineVoice, NoVoice, SilentVoice, Voice
@@ -55,6 +56,8 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 _BEGAN_MS = wall_ms()
+PREPARED_AFTER_MS = 1_500
+"""Before a visitor can have read the start screen, and after the pages are made."""
 
 
 class App:
@@ -218,11 +221,15 @@ class App:
         """Show the window; over the full screen it is one that visitors cannot leave."""
         if mode.pace is ClockMode.WALL:
             # All pages are made once the first frame is drawn, so that no visitor waits for one.
-            after_first_frame(self.window, partial(self.window.setProperty, "prepares", True))  # noqa: FBT003 - Qt's own
+            after_first_frame(self.window, self._prepare)
         if mode.display is WindowMode.FULL_SCREEN:
             return KioskWindow(self.window, settings.screen.display, self._window.owner)
         self._window.show()
         return None
+
+    def _prepare(self) -> None:
+        self.window.setProperty("prepares", True)  # noqa: FBT003 - Qt's own
+        QTimer.singleShot(PREPARED_AFTER_MS, self.window, draw_first_code)
 
     def _reached(self, recorder: Recorder) -> Services:
         """Return what the experimenter can do something to."""

@@ -231,6 +231,7 @@ Window {
                 result: root.result
                 kiosk: root.kiosk
                 words: root.words
+                prepares: root.prepares
             }
         }
         Page {

@@ -9,6 +9,8 @@ PageFrame {
     id: view
 
     required property ResultScreen result
+    // Whether pictures are loaded while other things go on.
+    property bool prepares: false
 
     // The pairs in as many rows as the page has room for.
     readonly property int count: result.pictures.length
@@ -127,6 +129,7 @@ PageFrame {
                             anchors { centerIn: parent; horizontalCenterOffset: away; verticalCenterOffset: away }
                             width: Math.floor(pair.width * 0.72)
                             height: width
+                            asynchronous: view.prepares
                             source: Qt.resolvedUrl(pair.modelData)
                             sourceSize: Qt.size(width, height)
                         }

@@ -301,6 +301,11 @@ def _qr_code(payload: str) -> tuple[str, int]:
     return str(code.png_data_uri(scale=1, border=QUIET_MODULES)), int(code.symbol_size(border=QUIET_MODULES)[0])
 
 
+def draw_first_code() -> None:
+    """Load what draws QR codes before a session begins with one."""
+    _qr_code("prepared")
+
+
 @QmlElement
 class ThanksScreen(ReadingScreen):
     """The end."""

@@ -205,6 +205,8 @@ class KioskScreen(QObject):
 
     def set_language(self, catalogue: Catalogue) -> None:
         """Show every fixed text in this language."""
+        if catalogue is self._catalogue and catalogue.language == self._language:
+            return  # so that no text is laid out anew
         self._words = fixed_texts(catalogue)
         self._catalogue, self._language = catalogue, catalogue.language
         self.spoken.emit()
