@@ -778,10 +778,10 @@ def from_fields(kind: str, at_ms: int, fields: Mapping[str, Any]) -> Event:
 
 
 def _read(name: str, fields: dict[str, Any]) -> Event:
-    kind = event_kinds().get(name)
-    if kind is None:
-        raise ValueError(f"event: there is no event {name!r}")
-    read = _plain_reader(name)
+    try:
+        kind, read = _KINDS_READ[name]
+    except KeyError:
+        kind, read = _KINDS_READ[name] = _kind_to_read(name)
     try:
         if read is not None:
             return read(fields)
@@ -794,9 +794,16 @@ def _read(name: str, fields: dict[str, Any]) -> Event:
     return event
 
 
-@cache
-def _plain_reader(name: str) -> Callable[[dict[str, Any]], Event] | None:
-    return plain_reader(event_kinds()[name], _CONVERTERS, _CONVERTER.get_structure_hook)
+_KindToRead = tuple[type[Event], Callable[[dict[str, Any]], Event] | None]
+_KINDS_READ: dict[str, _KindToRead] = {}
+
+
+def _kind_to_read(name: str) -> _KindToRead:
+    """Return a kind and what reads it fast, if anything does; raises ValueError if there is none of that name."""
+    kind = event_kinds().get(name)
+    if kind is None:
+        raise ValueError(f"event: there is no event {name!r}")
+    return kind, plain_reader(kind, _CONVERTERS, _CONVERTER.get_structure_hook)
 
 
 _TRACE = tuple[tuple[int, float, float], ...]

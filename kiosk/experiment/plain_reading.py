@@ -40,16 +40,17 @@ def plain_reader(
         for (name, annotation), types in zip(annotations.items(), plain, strict=True)
         if types is None
     ]
-    known: set[tuple[type, ...]] = set()
+    known: set[tuple[object, ...]] = set()
 
     def read(values: dict[str, Any]) -> _T:
-        types = tuple(map(type, values.values()))
-        if list(values) != names:
-            raise NotPlainError(names)
-        if types not in known:
+        form = (*values, *map(type, values.values()))
+        if form not in known:
+            types = tuple(map(type, values.values()))
+            if list(values) != names:
+                raise NotPlainError(names)
             if not all(allowed is None or found in allowed for found, allowed in zip(types, plain, strict=True)):
                 raise NotPlainError(types)
-            known.add(types)
+            known.add(form)
         if others:
             values.update([(name, convert(values[name])) for name, convert in others])
         made = object.__new__(kind)

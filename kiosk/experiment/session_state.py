@@ -286,16 +286,19 @@ class SessionState:
     def from_events(cls, events: Iterable[Event], embodiment: EmbodimentName | None = None) -> SessionState:
         """Read the events in their order; ``embodiment`` is the one that helped when the session began."""
         course, board, asked, speech = _Course(), _Boards(), _Responses(), _Speech(embodiment)
-        for stage, event in with_stages(events):
+        stage = Stage.ATTRACT
+        for event in events:
+            if type(event) is StageEntered:
+                stage = event.stage
             # Most events concern one part or none, and a day has a million of them.
-            kind = type(event)
-            if kind in _OF_THE_COURSE or course.status:
+            of_course, of_boards, of_responses, of_speech = _PARTS.get(type(event), _NO_PARTS)
+            if of_course or course.status:
                 course.take(event)
-            if kind in _OF_BOARDS:
+            if of_boards:
                 board.take(event, stage, course.pauses)
-            if kind in _OF_RESPONSES or asked.goes_back:
+            if of_responses or asked.goes_back:
                 asked.take(event, course.pauses)
-            if kind in _OF_SPEECH:
+            if of_speech:
                 speech.take(event, stage)
         return cls(
             stages=tuple(course.stages),
@@ -366,6 +369,13 @@ _OF_SPEECH: frozenset[type[Event]] = frozenset(
     }
 )
 """Which events each part of the state takes notice of; the other ones cannot change it."""
+
+_NO_PARTS = (False, False, False, False)
+_PARTS: Mapping[type[Event], tuple[bool, bool, bool, bool]] = {
+    kind: (kind in _OF_THE_COURSE, kind in _OF_BOARDS, kind in _OF_RESPONSES, kind in _OF_SPEECH)
+    for kind in _OF_THE_COURSE | _OF_BOARDS | _OF_RESPONSES | _OF_SPEECH
+}
+"""Which parts an event concerns: the course, the boards, the responses, and the speech."""
 
 
 _Kept = TypeVar("_Kept")

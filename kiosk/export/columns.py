@@ -133,11 +133,20 @@ class Table(Generic[Whole, Row]):
     def written(self, whole: Whole) -> list[Sequence[str]]:
         """Return the columns as texts, each in the order of the rows."""
         rows = tuple(self.rows(whole))
-        # A column's cells are mostly of one kind, so that what writes them is chosen once and not for every cell.
-        return [
-            (_written_json if column.variable.kind is ColumnKind.JSON else _written)(tuple(map(column.of, rows)))
-            for column in self.columns
-        ]
+        return [_column(column, rows) for column in self.columns]
+
+
+def _column(column: Column[Row], rows: Sequence[Row]) -> Sequence[str]:
+    """Return the cells of a column as they stand in a file."""
+    if column.variable is PARTICIPANT and rows:
+        # All rows are about the same one.
+        return [format_cell(column.of(rows[0]))] * len(rows)
+    if column.variable.kind is ColumnKind.JSON:
+        return _written_json(tuple(map(column.of, rows)))
+    if len(rows) == 1:
+        return [format_cell(column.of(rows[0]))]
+    # A column's cells are mostly of one kind, so that what writes them is chosen once and not for every cell.
+    return _written(tuple(map(column.of, rows)))
 
 
 class Label(str):
@@ -182,7 +191,8 @@ def _as_jsons(cells: Sequence[dict[str, Any]]) -> list[str]:
 
 def format_cell(cell: Cell) -> str:
     """Return a cell as it stands in a file: numbers so that they can be read back exactly."""
-    return next(_FORMATS[kind] for kind in type(cell).__mro__ if kind in _FORMATS)(cell)
+    written = _FORMATS.get(type(cell))
+    return written(cell) if written else next(_FORMATS[kind] for kind in type(cell).__mro__ if kind in _FORMATS)(cell)
 
 
 def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:

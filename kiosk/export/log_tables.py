@@ -10,7 +10,7 @@ from itertools import repeat
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-from kiosk.experiment.events import event_kinds
+from kiosk.experiment.events import CardSelected, event_kinds
 from kiosk.experiment.experimenter import DEVIATIONS, DeviationReason
 from kiosk.experiment.outcomes import Stage
 from kiosk.experiment.session_state import SentencePurpose, SpeechAttempt, SpokenSentence
@@ -78,6 +78,20 @@ NOWHERE = "null"
 """The device that is heard by no one; as kiosk.robots.audio calls it."""
 
 
+def _without_trace(record: EventRecord) -> str | dict[str, object]:
+    """Return the fields of a tap without the way of the pointer, which has a table of its own."""
+    fields, payload = record.fields, record.payload
+    if "trace" not in fields:
+        return payload
+    if tuple(fields)[-1] == "trace" and (begin := payload.rfind(_TRACE)) > 0:
+        # Within a text the quotes would be escaped, so this is where the last field begins.
+        return payload[:begin] + "}"
+    return {name: value for name, value in fields.items() if name != "trace"}
+
+
+_TRACE = ',"trace":['
+
+
 class _Logged(NamedTuple):
     kept: SessionRecord
     record: EventRecord
@@ -91,8 +105,11 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
     told += "" if ages is None else f" Ages stand in bands of {ages.years} years."
 
     def fields(row: _Logged) -> str | dict[str, object]:
-        if row.record.event is not None and row.record.type not in _CHANGED:
-            return row.record.payload
+        record = row.record
+        if record.event is not None and record.type not in _CHANGED:
+            return record.payload
+        if record.type == CardSelected.__name__ and isinstance(record.event, CardSelected):
+            return _without_trace(record)
         given = dict(row.record.fields) if with_texts else safe_fields(row.record, row.kept)
         # The way of the pointer has a table of its own.
         given.pop("trace", None)
@@ -123,7 +140,7 @@ def events_table(study: StudyMaterials, extras: frozenset[ExportOption]) -> Tabl
             attrgetter("record.origin"),
         ),
         (Variable("type", "What happened; the codebook lists every kind."), attrgetter("record.type")),
-        (STAGE, attrgetter("record.stage.value")),
+        (STAGE, attrgetter("record.stage._value_")),
         (
             Variable(
                 FIELDS,

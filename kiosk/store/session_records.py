@@ -19,12 +19,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kiosk import UserInputError
-from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, from_fields
+from kiosk.experiment.events import EmbodimentName, Event, SessionEnded, StageEntered, from_fields
 from kiosk.experiment.experimenter import DEVIATIONS, AuditEvent
 from kiosk.experiment.information import PUBLISHING
 from kiosk.experiment.outcomes import SessionKind, Stage, Status
 from kiosk.experiment.session_config import SessionConfig
-from kiosk.experiment.session_state import SessionState, with_stages
+from kiosk.experiment.session_state import SessionState
 from kiosk.files import read_bytes, replace_file
 from kiosk.store.chain import LinkedEvent, is_unbroken
 from kiosk.store.database import in_use, unreadable
@@ -435,17 +435,16 @@ def open_records(folder: Path, kinds: frozenset[SessionKind]) -> Iterator[Record
 def _told(rows: Sequence[LinkedEvent]) -> Iterator[EventRecord]:
     """Yield the records with the stage that each fell into."""
     written = decoded([payload for *_, payload, _ in rows])
-    events = (_event(at_ms, kind, fields) for (_, at_ms, _, kind, *_), fields in zip(rows, written, strict=True))
-    for row, fields, (stage, event) in zip(rows, written, with_stages(events), strict=True):
-        seq, at_ms, origin, kind, _, payload, _ = row
-        told = ("{}", {}) if fields is None else (payload, fields)
-        yield EventRecord(seq, at_ms, origin, kind, *told, stage, event)
-
-
-def _event(at_ms: int, kind: str, fields: Mapping[str, Any] | None) -> Event | None:
-    if fields is None:
-        return None
-    try:
-        return from_fields(kind, at_ms, fields)
-    except ValueError:
-        return None
+    # As in with_stages: a call for each of millions of events takes as long as all else that is done here.
+    stage = Stage.ATTRACT
+    for (seq, at_ms, origin, kind, _, payload, _), fields in zip(rows, written, strict=True):
+        if fields is None:
+            yield EventRecord(seq, at_ms, origin, kind, "{}", {}, stage, None)
+            continue
+        try:
+            event = from_fields(kind, at_ms, fields)
+        except ValueError:
+            event = None
+        if type(event) is StageEntered:
+            stage = event.stage
+        yield EventRecord(seq, at_ms, origin, kind, payload, fields, stage, event)
