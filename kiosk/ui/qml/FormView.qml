@@ -15,6 +15,8 @@ PageFrame {
     // Whether scales stand beside their texts, below each other: then the words for their ends are read once.
     readonly property real rowText: width <= height || alone || Theme.textSize > 1.15 ? 0
         : sizes.find(size => fits(size, 2)) ?? sizes.find(size => fits(size, 3)) ?? 0
+    // Whether every row has room for the words for its own ends, below its scale: the eye need not look for them.
+    readonly property bool own: rowText > 0 && !dense && form.items.every(item => scales(item) || item.kind === "slider") && ownRows() <= room
     readonly property list<real> sizes: [36, 32, 29].map(Theme.size)
     // How much of a row is the text's, and the points' is what is left: more of a longer row.
     readonly property real textShare: wider ? 0.46 : 0.42
@@ -33,6 +35,20 @@ PageFrame {
                 return false
         }
         return tall <= room
+    }
+    function ownRows(): real {
+        const wide = column - 2.4 * Theme.gap, size = Theme.size(28)
+        const most = (width, item) => width / 2 - Theme.gap
+            - (item.kind === "slider" ? 0.5 * (letters.advanceWidth(words["form-touch"]) * size / 100 + 60 * Theme.unit) : 0)
+        let tall = 0
+        for (const item of form.items) {
+            const lines = Math.ceil(letters.advanceWidth(item.text) * rowText / 100 / (textShare * wide * 0.88))
+            const end = Math.max(letters.advanceWidth(item.left), letters.advanceWidth(item.right)) * size / 100
+            if (end > most((0.96 - textShare) * wide, item))
+                return Infinity
+            tall += form.hidden.includes(item.id) ? 0 : Math.max(98 * Theme.unit + 1.37 * size, lines * 1.37 * rowText) + 36 * Theme.unit + spread
+        }
+        return tall
     }
     readonly property real spread: (dense || tight ? 8 : 12) * Theme.unit
     // How far below the line of the pages the first card begins.
@@ -59,13 +75,8 @@ PageFrame {
     readonly property bool mixed: upright && !alone && Theme.textSize <= 1.15 && form.items.length < 5 && form.items.some(item => scales(item))
         && form.items.some(item => item.kind === "slider") && form.items.every(item => scales(item) || item.kind === "slider")
     // How many lines the longest statement of an upright page of ratings takes; 1 where they are not alike.
-    property int mostLines: 1
-    function countLines() {
-        let most = 1
-        for (let i = 0; i < boxes.count; i++)
-            most = Math.max(most, (boxes.itemAt(i) as FormItem)?.lines ?? 1)
-        mostLines = upright && !alone && Theme.textSize <= 1.15 && form.items.every(item => scales(item)) ? most : 1
-    }
+    readonly property int mostLines: !upright || alone || Theme.textSize > 1.15 || !form.items.every(item => scales(item)) ? 1
+        : Math.max(1, ...form.items.map(item => Math.ceil(letters.advanceWidth(item.text) * Theme.size(38) / 100 / (column - 2.4 * Theme.gap))))
     // The item that a field belongs to.
     function card(field: Item): FormItem {
         for (let i = 0; i < boxes.count; i++) {
@@ -267,13 +278,13 @@ PageFrame {
                     calm: view.calm
                     loosened: pane.loosened
                     large: view.width < view.height && view.form.items.length < 5
-                    beside: view.rowText > 0 && view.scales(modelData)
+                    beside: view.own || view.rowText > 0 && view.scales(modelData)
+                    own: view.own
                     rowText: view.rowText
                     textShare: view.textShare
                     headed: !view.repeats(index)
                     leastLines: view.mixed ? 2 : view.mostLines
                     crowded: view.strip && view.upright
-                    onLinesChanged: Qt.callLater(view.countLines)
                     onEntered: field => keyboard.field = field
                 }
             }

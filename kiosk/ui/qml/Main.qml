@@ -190,6 +190,7 @@ Window {
             visible: root.kiosk.screen === "form"
             focus: visible && root.kiosk.bare
             accompanied: root.accompanied && !root.avatar.away
+            aligned: root.accompanied
             form: root.form
             kiosk: root.kiosk
             words: root.words

@@ -30,7 +30,9 @@ FocusScope {
 
     // Whether a wide screen's width is used, as for a table.
     property bool wider: false
-    readonly property real column: Math.min((width <= 1600 * Theme.unit ? 1240 : wider ? 1560 : 1300) * Theme.unit, width - 4 * Theme.gap)
+    // Whether the pages before and after it leave the helper room beside them: a wider one then begins where they do.
+    property bool aligned: false
+    readonly property real column: Math.min((width <= 1600 * Theme.unit ? 1240 : wider ? aligned ? 1787 : 1560 : 1300) * Theme.unit, width - 4 * Theme.gap)
     // The height that there is for the content.
     readonly property real room: foot - begin - Theme.gap
     // Where the content begins and the ways are, while nothing is moved up.

@@ -19,8 +19,9 @@ Item {
     // Whether its scale stands beside its text, as in a table, and whether the words for the ends head it.
     property bool beside: false
     property bool headed: true
-    // How many lines its text takes, and how many it has at least, so that the cards of a page are as high.
-    readonly property int lines: question.lineCount
+    // Whether every row has the words for its ends, below its own scale.
+    property bool own: false
+    // How many lines its text has at least, so that the cards of a page are as high.
     property int leastLines: 1
     // Whether the keys of a number stand in this page's cards, with little room for anything else.
     property bool crowded: false
@@ -46,7 +47,7 @@ Item {
     readonly property real taken: Math.max(question.contentWidth, (large ? (way.item as NumberField)?.core : (way.item as NumberField)?.width) ?? 0) + 1.2 * Theme.gap
     readonly property real usualSpacing: alone ? 2 * Theme.gap : (dense ? 4 : airy ? 18 : calm ? 14 : 8) * Theme.unit
     readonly property real margin: usualMargin + addable / 2 * loosened
-    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
+    readonly property real usualMargin: alone ? 0 : (beside ? dense ? 9 : own ? 18 : 20 : dense ? 8 : tight ? 10 : airy ? 26 : Theme.textSize > 1.15 ? 13 : 17) * Theme.unit
     // Letters have some air above them already; what stands below them does not.
     readonly property real raised: alone || beside || dense ? 0 : 4 * Theme.unit
     readonly property var ways: ({
@@ -89,7 +90,7 @@ Item {
         }
     }
     // The words for the ends stand above the first card of a table.
-    readonly property real head: beside && headed ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
+    readonly property real head: beside && headed && !own ? ((way.item as PointScale)?.words ?? 0) + 8 * Theme.unit : 0
 
     height: head + content.height + 2 * margin
 
@@ -108,10 +109,10 @@ Item {
         Item {
             id: asked
             width: parent.width
-            // Where the middle of a row is: that of the points, and not of the words for their ends.
+            // Where the middle of a row is: that of the points, and not of words above them.
             readonly property real scaled: (way.item as PointScale)?.size ?? 0
-            // Rows of one line and of two are as high.
-            readonly property real middle: Math.max(scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
+            // Rows of one line and of two are as high; with words for its ends it is as high as a scale and a line of words.
+            readonly property real middle: Math.max(box.own ? 98 * Theme.unit + 1.37 * Theme.size(28) : scaled, told.height, box.beside && !box.dense ? 2 * 1.37 * box.rowText : 0) / 2
             height: box.beside ? 2 * middle : told.height + (way.active ? content.spacing + way.height : 0)
             Column {
                 id: told
@@ -149,7 +150,7 @@ Item {
                 id: way
                 readonly property real room: box.beside ? (0.96 - box.textShare) * asked.width : asked.width
                 x: Theme.across(box.beside ? asked.width - room : 0, width, asked.width)
-                y: box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
+                y: box.own ? (asked.height - height) / 2 : box.beside ? asked.middle - height + asked.scaled / 2 : told.height + content.spacing
                 active: (box.ways[box.item.kind] ?? null) !== null
                 visible: active
                 sourceComponent: box.ways[box.item.kind] ?? null
@@ -220,7 +221,8 @@ Item {
             width: way.room
             beside: box.beside
             headed: box.headed
-            lift: box.margin + asked.middle - size / 2 + 8 * Theme.unit
+            own: box.own
+            lift: box.own ? 0 : box.margin + asked.middle - size / 2 + 8 * Theme.unit
             item: box.item.id
             label: box.item.text
             points: box.item.points
@@ -238,7 +240,8 @@ Item {
     Component {
         id: line
         SliderScale {
-            width: content.width
+            width: way.room
+            own: box.own
             item: box.item.id
             label: box.item.text
             lowest: box.item.lowest

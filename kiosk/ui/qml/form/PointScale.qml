@@ -21,6 +21,8 @@ Item {
     // Whether it is a row of a table, and whether the words for its ends stand above it there.
     property bool beside: false
     property bool headed: true
+    // Whether they stand below the points of every row instead.
+    property bool own: false
     // How far above the points they stand then.
     property real lift: 0
     signal chosen(int point)
@@ -40,25 +42,26 @@ Item {
         : Math.min(1.6 * size, Math.max(0.25 * size, (below ? width - points * size : spare) / Math.max(1, points - 1)))
     readonly property real span: points * size + (points - 1) * gap
 
+    readonly property real under: own ? 6 * Theme.unit : 0.5 * Theme.gap
     readonly property real words: Math.max(lowest.height, highest.height)
     // Below a few points there would be room for a few letters only: the ends then reach beyond the points.
     readonly property real half: Math.min(width / 2 - Theme.gap, Math.max(span / 2 - 0.5 * Theme.gap, most))
 
     // In a table the ends stand above the points: they head the rows below, too.
-    readonly property real head: beside && headed ? words + lift : 0
+    readonly property real head: beside && headed && !own ? words + lift : 0
 
-    height: beside ? head + row.height : below ? row.height + words + 0.5 * Theme.gap : Math.max(row.height, words)
+    height: beside && !own ? head + row.height : below ? row.height + words + under : Math.max(row.height, words)
 
     // Under the first point, or above it; or before it, at the edge where the question begins.
     PlainText {
         id: lowest
-        visible: !scale.beside || scale.headed
+        visible: !scale.beside || scale.own || scale.headed
         x: Theme.across(0, width, scale.width)
-        y: scale.beside ? scale.words - height : scale.below ? row.height + 0.5 * Theme.gap : (scale.height - height) / 2
+        y: scale.beside && !scale.own ? scale.words - height : scale.below ? row.height + scale.under : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.leftRoom
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        font.pixelSize: scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -67,11 +70,11 @@ Item {
         visible: lowest.visible
         readonly property real end: Math.max(scale.span, 2 * scale.half + Theme.gap)
         x: Theme.across(scale.below ? end - width : scale.leftRoom + scale.span + 2 * Theme.gap, width, scale.width)
-        y: scale.beside ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
+        y: scale.beside && !scale.own ? scale.words - height : scale.below ? lowest.y : (scale.height - height) / 2
         width: scale.below ? scale.half : scale.rightRoom
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
+        font.pixelSize: scale.own ? Theme.size(28) : scale.beside || scale.large || scale.alone ? Theme.size(30) : Theme.small
         wrapMode: Text.Wrap
         color: Theme.ink
     }

@@ -21,44 +21,50 @@ Item {
     required property bool dense        // whether there is little height for it
     // Whether there is much height for it.
     property bool large: false
+    // Whether it is a row of a table, as high as the points of the others.
+    property bool own: false
     signal chosen(int value)
 
-    readonly property real most: 250 * Theme.unit * Theme.textSize
-    readonly property real leftRoom: Math.min(lower.implicitWidth, most)
-    readonly property real rightRoom: Math.min(upper.implicitWidth, most)
-    // The ends stand beside the line, where there is room for that, and else below it.
-    readonly property bool below: alone || width < 4 * most
     readonly property int range: highest - lowest
     readonly property int leap: Math.max(1, Math.round(range / 10))
-    // The words stand in the line, above its marks.
-    readonly property real rail: hint.implicitHeight + (dense ? 26 : large ? 78 : 52) * Theme.unit
-    readonly property real tick: (dense ? 10 : 24) * Theme.unit
-    readonly property real thickness: rail + 10 * Theme.unit
+    readonly property real rail: (own ? 92 : dense ? 62 : large ? 126 : level ? 90 : 100) * Theme.unit
+    readonly property real tick: (dense ? 18 : 24) * Theme.unit
+    // The handle, with room around it in the line.
+    readonly property real thickness: 0.78 * rail
 
     readonly property real words: Math.max(lower.height, upper.height)
-    readonly property real apart: (large ? 0.5 : 0.3) * Theme.gap
+    readonly property real apart: (own ? 6 : large ? 4 : 7) * Theme.unit
+    // Among other kinds of items the ends stand beside the line, and what there is to do in it.
+    readonly property bool level: !own && !alone && !large
+    readonly property real most: 250 * Theme.unit * Theme.textSize
+    readonly property bool below: !level || width < 4 * most
+    readonly property real leftRoom: below ? 0 : Math.min(lower.implicitWidth, most) + Theme.gap
+    readonly property real rightRoom: below ? 0 : Math.min(upper.implicitWidth, most) + Theme.gap
+    // What there is to do stands between the ends, where there is room for that, and else above them.
+    readonly property bool shared: level || Math.max(lower.implicitWidth, upper.implicitWidth) + resting.width / 2 + Theme.gap <= slider.width / 2
+    readonly property real above: shared ? 0 : resting.height + apart
 
-    height: below ? slider.height + words + apart : Math.max(slider.height, words)
+    height: !below ? Math.max(slider.height, words) : slider.height + apart + above + (level || !shared ? words : Math.max(words, resting.height))
 
     PlainText {
         id: lower
-        y: scale.below ? slider.height + scale.apart : (scale.height - height) / 2
+        y: scale.below ? slider.height + scale.apart + scale.above : (scale.height - height) / 2
         x: Theme.across(0, width, scale.width)
-        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom
+        width: scale.below ? slider.width / 2 - Theme.gap : scale.leftRoom - Theme.gap
         text: scale.leftEnd
         horizontalAlignment: Text.AlignLeft
-        font.pixelSize: Theme.size(30)
+        font.pixelSize: Theme.size(scale.own ? 28 : 30)
         wrapMode: Text.Wrap
         color: Theme.ink
     }
     PlainText {
         id: upper
         y: scale.below ? lower.y : (scale.height - height) / 2
-        x: Theme.across(scale.below ? slider.width - width : scale.leftRoom + slider.width + 2 * Theme.gap, width, scale.width)
-        width: scale.below ? lower.width : scale.rightRoom
+        x: Theme.across(scale.leftRoom + slider.width + scale.rightRoom - width, width, scale.width)
+        width: scale.below ? lower.width : scale.rightRoom - Theme.gap
         text: scale.rightEnd
         horizontalAlignment: scale.below ? Text.AlignRight : Text.AlignLeft
-        font.pixelSize: Theme.size(30)
+        font.pixelSize: lower.font.pixelSize
         wrapMode: Text.Wrap
         color: Theme.ink
     }
@@ -73,12 +79,14 @@ Item {
             tell(scale.answered || Math.abs(by) === scale.range ? value + by : value)
         }
         objectName: `slider-${scale.item}`
-        x: Theme.across(scale.below ? 0 : scale.leftRoom + Theme.gap, width, scale.width)
+        x: Theme.across(scale.leftRoom, width, scale.width)
         y: scale.below ? 0 : (scale.height - height) / 2
         // On a page of several, its ends stand at the same edges as those of the points.
-        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.below ? scale.width : scale.width - scale.leftRoom - scale.rightRoom - 2 * Theme.gap
-        height: scale.thickness
+        width: scale.alone ? Math.min(900 * Theme.unit, scale.width) : scale.width - scale.leftRoom - scale.rightRoom
+        height: scale.rail
         padding: 0
+        leftPadding: (scale.rail - scale.thickness) / 2
+        rightPadding: leftPadding
         from: scale.lowest
         to: scale.highest
         stepSize: 1
@@ -111,25 +119,26 @@ Item {
             radius: height / 2
             color: Theme.white
             border { color: Theme.sea; width: 3 * Theme.unit }
-            readonly property real line: scale.rail - scale.tick / 2 - (scale.dense ? 6 : scale.large ? 20 : 12) * Theme.unit
+            // Where the middle of the handle can be.
+            readonly property real inset: slider.leftPadding + scale.thickness / 2
             Rectangle {
-                x: scale.thickness / 2
-                y: groove.line - height / 2
-                width: slider.width - scale.thickness
+                x: groove.inset
+                y: (scale.rail - height) / 2
+                width: slider.width - 2 * groove.inset
                 height: (scale.dense ? 4 : 6) * Theme.unit
                 radius: height / 2
                 color: Theme.lightSea
             }
-            // A tenth of the way each, or a step where there are fewer, and one at each end; where the middle of the handle can be.
+            // A tenth of the way each, or a step where there are fewer, and one at each end.
             Repeater {
                 id: ticks
                 model: Math.min(10, scale.range) + 1
                 Rectangle {
                     required property int index
                     readonly property bool end: index === 0 || index === ticks.model - 1
-                    readonly property real middle: scale.thickness / 2 + index / (ticks.model - 1) * (slider.width - scale.thickness)
+                    readonly property real middle: groove.inset + index / (ticks.model - 1) * (slider.width - 2 * groove.inset)
                     x: middle - width / 2
-                    y: groove.line - height / 2
+                    y: (scale.rail - height) / 2
                     width: (end ? 4 : 3) * Theme.unit
                     height: scale.tick + (end ? 8 * Theme.unit : 0)
                     radius: width / 2
@@ -143,7 +152,7 @@ Item {
         }
         handle: Rectangle {
             objectName: `handle-${scale.item}`
-            x: slider.visualPosition * (slider.width - width)
+            x: slider.leftPadding + slider.visualPosition * (slider.availableWidth - width)
             y: (slider.height - height) / 2
             width: scale.thickness
             height: width
@@ -153,15 +162,41 @@ Item {
             border { color: Theme.white; width: 4 * Theme.unit }
         }
     }
-    // In the line as long as nothing is chosen: a handle that stood somewhere would suggest an answer.
-    PlainText {
-        id: hint
-        objectName: `touch-${scale.item}`
-        visible: !scale.answered && !slider.pressed
+    // Below the line as long as nothing is chosen, with the handle beside it: one that stood in the line would suggest an
+    // answer.
+    Item {
+        id: resting
+        readonly property bool there: !scale.answered && !slider.pressed
+        readonly property real before: scale.level ? 0 : spare.width + 0.4 * Theme.gap
+        width: before + hint.implicitWidth
+        height: hint.implicitHeight
         x: slider.x + (slider.width - width) / 2
-        y: slider.y + (slider.height - height) / 2 - (scale.dense ? 5 : scale.large ? 22 : 18) * Theme.unit
-        text: scale.touch
-        font.pixelSize: scale.dense ? Theme.small : Theme.body
-        color: Theme.faintInk
+        y: scale.level ? slider.y + (slider.height - height) / 2 : slider.height + scale.apart
+        Rectangle {
+            visible: scale.level && resting.there
+            anchors { fill: hint; margins: -0.4 * Theme.gap; topMargin: 0; bottomMargin: 0 }
+            color: Theme.white
+        }
+        Rectangle {
+            id: spare
+            visible: resting.there && !scale.level
+            x: Theme.across(0, width, resting.width)
+            y: (parent.height - height) / 2
+            width: 30 * Theme.unit
+            height: width
+            radius: width / 2
+            color: Theme.sand
+            border { color: Theme.lightSea; width: 3 * Theme.unit }
+        }
+        PlainText {
+            id: hint
+            objectName: `touch-${scale.item}`
+            visible: resting.there
+            x: Theme.across(resting.before, width, resting.width)
+            width: implicitWidth
+            text: scale.touch
+            font.pixelSize: scale.level ? Theme.small : lower.font.pixelSize
+            color: Theme.faintInk
+        }
     }
 }
